@@ -17,7 +17,7 @@ from gripscale.cli import app
 from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.io import netcdf
-from gripscale.questions.calibration.calibration_text import parse_fixed
+from gripscale.questions.calibration.calibration_law import parse_fixed
 from gripscale.questions.calibration.charts import fitted_figure, profiles_figure, residual_figure
 from gripscale.questions.calibration.page import calibration_lines
 from gripscale.questions.vary.inputs import default_model

@@ -20,7 +20,7 @@ from gripscale.core.errors import InputError
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.questions import Predicted, fit_area_term
-from gripscale.questions.calibration.calibration_text import notes, shear_stress_table
+from gripscale.questions.calibration.page import notes, shear_stress_table
 from tests.samples import DOCS
 
 from .synthetic import REFERENCE, TRUE, hysteresis, measurement

@@ -12,12 +12,8 @@ import scipy.stats
 
 from gripscale.conditions import LeGalKlueppelStress
 from gripscale.questions import AreaTermFit, fit_area_term
-from gripscale.questions.calibration.calibration_law import (
-    best,
-    points_of,
-    problem_of,
-)
-from gripscale.questions.calibration.profile_likelihood import LikelihoodProfile, threshold_of
+from gripscale.questions.calibration.calibration_law import best, points_of, problem_of
+from gripscale.questions.calibration.profile_likelihood import LikelihoodProfile
 
 from .synthetic import REFERENCE, TRUTH, measurement
 
@@ -49,10 +45,8 @@ def below_threshold(factor: float) -> dict[str, int]:
         problem = problem_of("gaussian", points, REFERENCE)
         optimum = best(problem)
         for place, one in enumerate(problem.free):
-            excess, _ = LikelihoodProfile(problem, optimum, place).excess(
-                one.scaled(TRUTH[one.name])
-            )
-            counts[one.name] += excess < threshold_of(optimum, spread_known=True)
+            excess, _ = LikelihoodProfile(optimum, place).excess(one.scaled(TRUTH[one.name]))
+            counts[one.name] += excess < optimum.threshold
     return counts
 
 
@@ -97,10 +91,10 @@ def test_intervals_of_the_other_law() -> None:
 
 def test_an_interval_ends_where_the_profile_says() -> None:
     fit = fit_area_term(*measurement(), fixed=REFERENCE)
-    threshold = threshold_of(fit.optimum, spread_known=True)
+    threshold = fit.optimum.threshold
     assert threshold == pytest.approx(2.7055, abs=1e-4)  # chi^2 of one degree, 90 %
     for place, one in enumerate(fit.problem.free):
-        profile = LikelihoodProfile(fit.problem, fit.optimum, place)
+        profile = LikelihoodProfile(fit.optimum, place)
         for end in (fit.estimates[place].low, fit.estimates[place].high):
             # the distance to an end is known to 1e-3, its square to twice that
             assert profile.excess(one.scaled(end))[0] == pytest.approx(threshold, rel=4e-3)

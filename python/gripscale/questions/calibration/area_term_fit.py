@@ -29,22 +29,21 @@ FACTORS_SHOWN = 3.0
 NO_INFLUENCE = 1e-12  # relative size of a singular value below which its direction changes nothing
 _SOURCE = "gripscale calibrate"
 
-# Numbers of a parameter, with their meaning.
-ESTIMATE = {
-    "estimate": "best value of the parameter, in its unit",
-    "standard_error": "its standard error by the Jacobian",
-    "low": "lower end of its interval by profile likelihood, NaN where not determined",
-    "high": "upper end of it, NaN where not determined",
+# Numbers of a parameter by the fields of an `Estimate`, with their names and meanings.
+_ESTIMATE = {
+    "value": ("estimate", "best value of the parameter, in its unit"),
+    "standard_error": ("standard_error", "its standard error by the Jacobian"),
+    "low": ("low", "lower end of its interval by profile likelihood, NaN where not determined"),
+    "high": ("high", "upper end of it, NaN where not determined"),
 }
-
-# Numbers of what was left out, with their meaning.
+# Numbers of what was left out by the fields of a `HeldOut`, with their names and meanings.
 _HELD_OUT = {
-    "points": "measured points left out",
-    "rms_inside": "rms residual of the points that were fitted",
-    "rms_outside": "rms error at the points left out",
-    "rms_outside_in_spread": "the same, over the spread",
-    "why_not": "why the other points cannot predict them, empty where they can",
-    "value": "temperature [K] or decade [m/s]",
+    "points": ("points", "measured points left out"),
+    "rms_inside": ("rms_inside", "rms residual of the points that were fitted"),
+    "rms_outside": ("rms_outside", "rms error at the points left out"),
+    "rms_outside_in_spread": ("rms_outside_in_spread", "the same, over the spread"),
+    "why_not": ("why_not", "why the other points cannot predict them, empty where they can"),
+    "value": ("left_out", "temperature [K] or decade [m/s]"),
 }
 
 
@@ -67,6 +66,27 @@ class Estimate:
         """Whether both ends are."""
         return math.isfinite(self.low) and math.isfinite(self.high)
 
+    @property
+    def words(self) -> str:
+        """What texts call it."""
+        return fit.PARAMETERS[self.name].words
+
+    def text(self, digits: int) -> str:
+        """Return its value with so many digits and its unit."""
+        return fit.written(self.value, self.unit, digits)
+
+    @property
+    def interval(self) -> str:
+        """Its interval in words."""
+        if not math.isfinite(self.low) and not math.isfinite(self.high):
+            return "not determined"
+        low, high = (fit.written(end, self.unit, 3) for end in (self.low, self.high))
+        if self.determined:
+            return f"{low} to {high}"
+        if math.isfinite(self.low):
+            return f"from {low}, upper end not determined"
+        return f"up to {high}, lower end not determined"
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AreaTermFit(Described):
@@ -75,8 +95,6 @@ class AreaTermFit(Described):
     measured: MeasuredFriction
     predicted: Predicted
     """The hysteresis and the contact at the measured points, which are not fitted."""
-    problem: fit.CalibrationProblem
-    """What was fitted: the points that have an answer, and the law with its free parameters."""
     optimum: fit.FittedLaw
     """The least sum of squares."""
     ends: tuple[tuple[float, float], ...]
@@ -85,6 +103,11 @@ class AreaTermFit(Described):
     """What the law says of points it was not fitted to, where asked for."""
     held_out_by: str = ""
     """Whether a temperature or a decade of speed was left out; empty for neither."""
+
+    @property
+    def problem(self) -> fit.CalibrationProblem:
+        """What was fitted: the points that have an answer, and the law with its free parameters."""
+        return self.optimum.problem
 
     @property
     def law(self) -> InterfacialShearStress:
@@ -99,7 +122,7 @@ class AreaTermFit(Described):
     @property
     def freedom(self) -> int:
         """Degrees of freedom: points less parameters."""
-        return self.problem.points.speed.size - len(self.problem.free)
+        return self.optimum.freedom
 
     @property
     def scatter(self) -> float:
@@ -122,7 +145,7 @@ class AreaTermFit(Described):
     @property
     def threshold(self) -> float:
         """By how much the sum of squares rises at the ends of an interval, as in `profiles`."""
-        return likelihood.threshold_of(self.optimum, spread_known=self.spread_known) / self._unit
+        return self.optimum.threshold / self._unit
 
     @property
     def estimates(self) -> list[Estimate]:
@@ -134,7 +157,8 @@ class AreaTermFit(Described):
             low, high = (
                 parameter.value(end) if math.isfinite(end) else math.nan for end in self.ends[at]
             )
-            estimates.append(Estimate(parameter.name, parameter.unit, value, error, low, high))
+            unit = fit.PARAMETERS[parameter.name].unit
+            estimates.append(Estimate(parameter.name, unit, value, error, low, high))
         return estimates
 
     @property
@@ -166,12 +190,9 @@ class AreaTermFit(Described):
     @property
     def band(self) -> Array:
         """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
-        tail = 0.5 * (1.0 + likelihood.LIKELIHOOD_LEVEL)
-        return self.friction_error * float(
-            scipy.special.ndtri(tail)
-            if self.spread_known
-            else scipy.special.stdtrit(self.freedom, tail)
-        )
+        tail = 0.5 * (1.0 + fit.LIKELIHOOD_LEVEL)
+        normal, student = scipy.special.ndtri(tail), scipy.special.stdtrit(self.freedom, tail)
+        return self.friction_error * float(normal if self.spread_known else student)
 
     @cached_property
     def profiles(self) -> dict[str, tuple[Array, Array]]:
@@ -187,9 +208,7 @@ class AreaTermFit(Described):
             for way, end in zip((-1, 1), self.ends[at], strict=True):
                 away = 1.3 * abs(end - centre) if math.isfinite(end) else FACTORS_SHOWN
                 ends.append(float(np.clip(centre + way * away, *limits)))
-            values, excess = likelihood.LikelihoodProfile(self.problem, self.optimum, at).curve(
-                *ends
-            )
+            values, excess = likelihood.LikelihoodProfile(self.optimum, at).curve(*ends)
             in_units = np.array([parameter.value(float(value)) for value in values])
             profiles[parameter.name] = in_units, excess / self._unit
         return profiles
@@ -201,7 +220,7 @@ class AreaTermFit(Described):
 
     @property
     def _covariance(self) -> Array:
-        return self._unit * likelihood.covariance(self.optimum.jacobian)
+        return self._unit * self.optimum.covariance
 
     @property
     def _errors(self) -> Array:
@@ -214,52 +233,40 @@ class AreaTermFit(Described):
         band. Over `parameter`: estimate, standard error, interval (NaN where not determined),
         profile. Over `left_out`: the errors of the law fitted to the other points.
         """
-        predicted, measured = self.predicted, self.measured
-        estimates, profiles = self.estimates, self.profiles
-        apart = self.friction - measured.friction
+        predicted, measured, estimates = self.predicted, self.measured, self.estimates
         data: dict[str, xr.Variable] = measured_variables(measured)
 
         def add(name: str, dims: Any, values: Any, text: str, unit: str = "1") -> None:
             data[name] = labelled(dims, values, unit, text, _SOURCE)
 
-        at = "measurement"
+        at, each = "measurement", "parameter"
         add("nominal_pressure", at, predicted.pressure, "nominal pressure of the prediction", "Pa")
         add("contact_temperature", at, predicted.temperature, "temperature in the contact", "K")
         add("contact_fraction", at, predicted.contact_fraction, "real over nominal contact area")
         add("hysteresis", at, predicted.friction, "friction of the hysteresis")
         beyond = "share of it that rests on the rubber outside the measured frequencies"
         add("friction_outside_band", at, predicted.outside_band, beyond)
-        status, words = (
-            np.array(texts, dtype=object) for texts in (predicted.status, predicted.status_word)
-        )
-        add(STATUS, at, status, "converged, or why")
-        add(STATUS_WORD, at, words, "word of the status")
+        add(STATUS, at, np.array(predicted.status, dtype=object), "converged, or why")
+        add(STATUS_WORD, at, np.array(predicted.status_word, dtype=object), "word of the status")
         add("area_term", at, self.area_term, "friction of the area term")
         add("friction", at, self.friction, "hysteresis and area term")
         add("friction_band", at, self.band, "half of its interval by the fit")
+        apart = self.friction - measured.friction
         add("difference", at, apart, "predicted less measured friction")
-        add(
-            "difference_in_spread",
-            at,
-            in_spread(apart, measured.spread),
-            "the same over the spread",
-        )
-        for name, text in ESTIMATE.items():
-            field = "value" if name == "estimate" else name
-            add(name, "parameter", [getattr(estimate, field) for estimate in estimates], text)
-        units = np.array([estimate.unit or "1" for estimate in estimates], dtype=object)
-        add("unit", "parameter", units, "its unit")
-        square = ("parameter", "other_parameter")
+        over = in_spread(apart, measured.spread)
+        add("difference_in_spread", at, over, "the same over the spread")
+        for field, (name, text) in _ESTIMATE.items():
+            add(name, each, [getattr(estimate, field) for estimate in estimates], text)
+        units = [estimate.unit or "1" for estimate in estimates]
+        add("unit", each, np.array(units, dtype=object), "its unit")
+        square = (each, "other_parameter")
         add("correlation", square, self.correlation, "of the estimates")
-        values, excess = zip(*(profiles[estimate.name] for estimate in estimates), strict=True)
-        steps = ("parameter", "step")
-        add("profile_value", steps, values, "value at which the parameter is held")
+        values, excess = zip(*self.profiles.values(), strict=True)
+        add("profile_value", (each, "step"), values, "value at which the parameter is held")
         text = "rise of the sum of squares, NaN where another parameter has no room"
-        add("profile_excess", steps, excess, text)
-        if self.held_out:
-            for name, text in _HELD_OUT.items():
-                column = [getattr(group, name) for group in self.held_out]
-                add("left_out" if name == "value" else name, "left_out", column, text)
+        add("profile_excess", (each, "step"), excess, text)
+        for field, (name, text) in _HELD_OUT.items() if self.held_out else ():
+            add(name, "left_out", [getattr(group, field) for group in self.held_out], text)
         names = [estimate.name for estimate in estimates]
         return xr.Dataset(
             data,
@@ -269,7 +276,7 @@ class AreaTermFit(Described):
                 "law": json.dumps(shear_stress_to_dict(self.law)),
                 "held": json.dumps(dict(self.problem.held)),
                 "measured_source": self.measured.source,
-                "level": likelihood.LIKELIHOOD_LEVEL,
+                "level": fit.LIKELIHOOD_LEVEL,
                 "threshold": self.threshold,
                 "held_out_by": self.held_out_by,
                 "spread_known": int(self.spread_known),
@@ -317,10 +324,9 @@ def fit_area_term(
     held = {} if fixed is None else dict(checks.instance("fixed", fixed, Mapping))  # type: ignore[type-abstract]
     points = fit.points_of(measured, predicted)
     problem = fit.problem_of(law, points, held)
-    groups = None
-    if hold_out is not None:
-        groups = likelihood.groups_of(hold_out, measured.speed, measured.temperature)
-        groups = groups[predicted.has_answer]
+    if hold_out is None:
+        return AreaTermFit(measured, predicted, *likelihood.intervals(problem))
+    groups = likelihood.groups_of(hold_out, measured.speed, measured.temperature)
     optimum, ends = likelihood.intervals(problem)
-    groups_out = () if groups is None else likelihood.held_out(points, groups, law, held)
-    return AreaTermFit(measured, predicted, problem, optimum, ends, groups_out, hold_out or "")
+    others = likelihood.held_out(points, groups[predicted.has_answer], law, held)
+    return AreaTermFit(measured, predicted, optimum, ends, others, hold_out)

@@ -6,16 +6,17 @@ Limits are far beyond what data can say, so that reaching one means: not determi
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy
 
 from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
 from gripscale.core import ZERO_CELSIUS, Array, InputError, Mask, checks
+from gripscale.core.units import MEGA, DisplayUnit, parse_quantity
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.questions.calibration.measured_comparison import Predicted
 
@@ -109,6 +110,66 @@ def _all_or_none(name: str, values: Array) -> Array | None:
     return None if missing.all() else values
 
 
+class ParameterWords(NamedTuple):
+    """A parameter of a law: in words, beside an axis, and its kind of quantity, if it has one."""
+
+    words: str
+    label: str
+    kind: str = ""
+
+    @property
+    def unit(self) -> str:
+        """Unit of the law; empty for a plain number."""
+        return _LAW_UNITS.get(self.kind, "")
+
+
+# The parameters of the laws; the reference temperature is held, never fitted.
+PARAMETERS = {
+    "stress_0": ParameterWords("shear stress τ_0", "stress $\\tau_0$", "pressure"),
+    "width": ParameterWords("width factor c", "width $c$"),
+    "speed_0": ParameterWords("speed v_0 of the largest stress", "speed $v_0$", "speed"),
+    "activation_energy": ParameterWords(
+        "activation energy", "activation energy $\\epsilon$", "bond energy"
+    ),
+    "reference_temperature": ParameterWords("", "", "temperature"),
+    "ratio": ParameterWords("gain of stress at high speed", "ratio"),
+    "critical_speed": ParameterWords("critical speed v_c", "critical speed $v_c$", "speed"),
+    "exponent": ParameterWords("exponent n of the speed", "exponent $n$"),
+}
+_LAW_UNITS = {"pressure": "Pa", "speed": "m/s", "bond energy": "eV", "temperature": "K"}
+# How a number in a unit of the law is written, if not in this unit.
+WRITTEN = {"Pa": DisplayUnit("MPa", MEGA), "K": DisplayUnit("C", zero=ZERO_CELSIUS)}
+
+
+def written(value: float, unit: str, digits: int | None = None) -> str:
+    """Return a number of the law with its unit, of up to six digits or just `digits`."""
+    display_unit = WRITTEN.get(unit, DisplayUnit(unit))
+    number = float(display_unit.of(value))
+    text = f"{number:.6g}" if digits is None else f"{number:#.{digits}g}".rstrip(".")
+    return f"{text} {display_unit.unit}".strip()
+
+
+def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
+    """Return parameters stated as "width=0.1" or "stress_0=5 MPa" [SI units, eV].
+
+    Raises `InputError` if one cannot be understood.
+    """
+    parameters: dict[str, float] = {}
+    for text in texts:
+        name, sign, value = (part.strip() for part in text.partition("="))
+        if not sign or not name or name in parameters:
+            raise InputError(
+                f"fixed must be name=value, each name once; got {checks.short_repr(text)}"
+            )
+        kind = PARAMETERS[name].kind if name in PARAMETERS else ""
+        try:
+            parameters[name] = parse_quantity(value, kind) if kind else float(value)
+        except ValueError as error:
+            why = str(error) if kind else "expected a number"
+            raise InputError(f"fixed {name} = {checks.short_repr(value)}: {why}") from error
+    return parameters
+
+
 KINDS = ("constant", "gaussian", "le_gal_klueppel")  # laws that can be fitted
 LEAST_APART = 1.0  # range of temperatures below which none decides an activation energy [K]
 
@@ -118,10 +179,9 @@ class Parameter:
     """A number of a law that is fitted: as the law calls it, with the limits of the search."""
 
     name: str
-    unit: str
     low: float
     high: float
-    starts: tuple[float, ...]  # where the search begins
+    starts: Sequence[float]  # where the search begins
     log: bool = True  # whether it is positive, and its logarithm is what is fitted
 
     def scaled(self, value: float) -> float:
@@ -171,15 +231,33 @@ class CalibrationProblem:
         apart = self.friction(theta) - self.points.difference
         return apart if self.points.spread is None else apart / self.points.spread
 
+    def sum_of_squares(self, theta: Array) -> float:
+        """Return S(theta)."""
+        residuals = self.residuals(theta)
+        return float(residuals @ residuals)
+
+    def with_best_stress(self, theta: Array) -> Array:
+        """Return `theta` with the stress, which is a factor, the best for all others."""
+        names, spread = [parameter.name for parameter in self.free], self.points.spread
+        if "stress_0" not in names:
+            return theta
+        at = names.index("stress_0")
+        weight = 1.0 if spread is None else 1.0 / spread
+        shape, wanted = self.friction(theta) * weight, self.points.difference * weight
+        square = float(shape @ shape)
+        factor = float(shape @ wanted) / square if square > 0.0 else 0.0
+        if factor > 0.0:
+            theta[at] = np.clip(theta[at] + np.log(factor), *self.free[at].limits)
+        return theta
+
     def at_limit(self, theta: Array) -> bool:
         """Return whether a parameter is at a limit of the search; zero itself is none."""
-        pairs = zip(self.free, theta, strict=True)
-        return any(
-            abs(x - end) < _AT_LIMIT * (parameter.limits[1] - parameter.limits[0])
-            for parameter, x in pairs
-            for end, value in zip(parameter.limits, (parameter.low, parameter.high), strict=True)
-            if value != 0.0
-        )
+        for parameter, x in zip(self.free, theta, strict=True):
+            low, high = parameter.limits
+            ends = [low, high] if parameter.low != 0.0 else [high]
+            if any(abs(x - end) < _AT_LIMIT * (high - low) for end in ends):
+                return True
+        return False
 
     def holding(self, index: int, scaled: float) -> CalibrationProblem:
         """Return the problem with the free parameter at `index` held."""
@@ -188,11 +266,15 @@ class CalibrationProblem:
         return replace(self, free=free, held=held)
 
 
-def check_names(kind: str, fixed: Iterable[str]) -> None:
-    """Raise `InputError` unless a law can be fitted and names of what is fixed belong to it."""
+def check_names(kind: str, fixed: Iterable[str]) -> list[str]:
+    """Return the names of the parameters of a law.
+
+    Raises `InputError` unless the law can be fitted, and names of what is fixed belong to it.
+    """
     checks.one_of("law", kind, KINDS)
     names = [parameter.name for parameter in fields(SHEAR_STRESSES[kind])]
     checks.allowed_names("parameter", fixed, names)
+    return names
 
 
 def problem_of(kind: str, points: Points, fixed: Mapping[str, float]) -> CalibrationProblem:
@@ -203,8 +285,7 @@ def problem_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Calibra
     degrees Celsius. Raises `InputError` for names and values that cannot be held, and for fewer
     points than parameters.
     """
-    check_names(kind, fixed)
-    every = _parameters(kind, points)
+    names, every = check_names(kind, fixed), parameters_of(points)
     held: dict[str, Any] = {name: checks.number(name, value) for name, value in fixed.items()}
     if kind == "gaussian":
         apart = points.temperature_range >= LEAST_APART
@@ -221,48 +302,38 @@ def problem_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Calibra
                 raise InputError("activation_energy needs the temperatures of the points; got none")
             middle = float(np.median(points.temperature)) - ZERO_CELSIUS
             held["reference_temperature"] = round(middle) + ZERO_CELSIUS
-    free = tuple(parameter for parameter in every if parameter.name not in held)
+    free = tuple(every[name] for name in names if name in every.keys() - held.keys())
     if not free:
         raise InputError(f"fixed must leave a parameter of the law {kind} to be fitted; got all")
     if points.speed.size <= len(free):
-        names = ", ".join(parameter.name for parameter in free)
+        fitted = ", ".join(parameter.name for parameter in free)
         raise InputError(
-            f"fitting {names} needs more than {len(free)} measured "
+            f"fitting {fitted} needs more than {len(free)} measured "
             f"point{'s' * (len(free) > 1)}; got {points.speed.size}"
         )
     problem = CalibrationProblem(points, kind, free, held)
-    starts = np.array([parameter.scaled(parameter.starts[0]) for parameter in free])
-    problem.law(starts)  # checks what is held
+    problem.law(np.array([each.scaled(each.starts[0]) for each in free]))  # checks what is held
     return problem
 
 
-def _parameters(kind: str, points: Points) -> tuple[Parameter, ...]:
-    """Return every parameter of a law, with limits and starts that suit the points."""
+def parameters_of(points: Points) -> dict[str, Parameter]:
+    """Return every parameter of the laws by its name, with limits and starts that suit points."""
     largest = float(np.abs(points.stress).max()) or 1.0
     slow, fast = float(points.speed.min()), float(points.speed.max())
-    along = tuple(np.geomspace(0.1 * slow, 10.0 * fast, 7).tolist())
-    stress = Parameter("stress_0", "Pa", 1e-6 * largest, 1e6 * largest, (largest,))
-
-    def speed(name: str) -> Parameter:
-        return Parameter(name, "m/s", 1e-8 * slow, 1e8 * fast, along)
-
-    return {
-        "constant": (stress,),
-        "gaussian": (
-            stress,
-            Parameter("width", "", 1e-3, 1e2, (0.05, 0.3, 1.5)),
-            speed("speed_0"),
-            Parameter("activation_energy", "eV", 0.0, 10.0, (0.5, 1.2), log=False),
-        ),
-        "le_gal_klueppel": (
-            stress,
-            Parameter("ratio", "", 1e-3, 1e6, (3.0, 100.0)),
-            speed("critical_speed"),
-            Parameter("exponent", "", 0.02, 20.0, (0.3, 1.0, 3.0)),
-        ),
-    }[kind]
+    speed = (1e-8 * slow, 1e8 * fast, np.geomspace(0.1 * slow, 10.0 * fast, 7).tolist())
+    every = (
+        Parameter("stress_0", 1e-6 * largest, 1e6 * largest, (largest,)),
+        Parameter("width", 1e-3, 1e2, (0.05, 0.3, 1.5)),
+        Parameter("speed_0", *speed),
+        Parameter("activation_energy", 0.0, 10.0, (0.5, 1.2), log=False),
+        Parameter("ratio", 1e-3, 1e6, (3.0, 100.0)),
+        Parameter("critical_speed", *speed),
+        Parameter("exponent", 0.02, 20.0, (0.3, 1.0, 3.0)),
+    )
+    return {parameter.name: parameter for parameter in every}
 
 
+LIKELIHOOD_LEVEL = 0.9  # share of measurements like this one whose interval holds the true value
 BEST_STARTS = 3  # starts, of all that are tried, from which the search goes on to its end
 _TOLERANCE = 1e-8
 
@@ -271,30 +342,47 @@ _TOLERANCE = 1e-8
 class FittedLaw:
     """The least sum of squares that was found."""
 
+    problem: CalibrationProblem
     theta: Array  # numbers of the free parameters, as the search works with them
     sum_of_squares: float
     jacobian: Array  # of the residuals by them, shape (points, free parameters)
 
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom: points less parameters."""
+        return self.problem.points.speed.size - len(self.problem.free)
+
+    @property
+    def covariance(self) -> Array:
+        """(J^T J)^-1; directions without any influence count as hardly having one."""
+        _, sizes, rows = np.linalg.svd(self.jacobian, full_matrices=False)
+        least = np.finfo(float).eps * max(float(sizes.max()), np.finfo(float).tiny)
+        scaled = rows / np.maximum(sizes, least)[:, None]
+        return np.asarray(scaled.T @ scaled)
+
+    @property
+    def threshold(self) -> float:
+        """Excess that ends an interval, with spreads stated or taken from the residuals."""
+        if self.problem.points.spread is not None:
+            return float(scipy.special.chdtri(1, 1.0 - LIKELIHOOD_LEVEL))
+        ratio = float(scipy.special.fdtri(1, self.freedom, LIKELIHOOD_LEVEL))
+        return ratio * self.sum_of_squares / float(self.freedom)
+
 
 def best(problem: CalibrationProblem) -> FittedLaw:
     """Return the least sum of squares over a grid of starts."""
-    free = problem.free
-    grid = product(*([parameter.scaled(value) for value in parameter.starts] for parameter in free))
-
-    def cost(start: tuple[float, ...]) -> float:
-        residuals = problem.residuals(np.array(start))
-        return float(residuals @ residuals)
-
-    starts = [tuple(_with_best_stress(problem, np.array(theta))) for theta in grid]
-    optima = [refined(problem, np.array(start)) for start in sorted(starts, key=cost)[:BEST_STARTS]]
+    grid = product(*([each.scaled(value) for value in each.starts] for each in problem.free))
+    starts = [problem.with_best_stress(np.array(theta)) for theta in grid]
+    starts.sort(key=problem.sum_of_squares)
+    optima = [refined(problem, start) for start in starts[:BEST_STARTS]]
     return min(optima, key=lambda optimum: optimum.sum_of_squares)
 
 
 def refined(problem: CalibrationProblem, start: Array) -> FittedLaw:
     """Return the least sum of squares near `start`."""
     if not problem.free:
-        residuals = problem.residuals(start)
-        return FittedLaw(start, float(residuals @ residuals), np.empty((residuals.size, 0)))
+        none = np.empty((problem.points.speed.size, 0))
+        return FittedLaw(problem, start, problem.sum_of_squares(start), none)
     low, high = np.array([parameter.limits for parameter in problem.free]).T
     solution = scipy.optimize.least_squares(
         problem.residuals,
@@ -304,19 +392,4 @@ def refined(problem: CalibrationProblem, start: Array) -> FittedLaw:
         ftol=_TOLERANCE,
         gtol=_TOLERANCE,
     )
-    return FittedLaw(solution.x, 2.0 * float(solution.cost), np.asarray(solution.jac))
-
-
-def _with_best_stress(problem: CalibrationProblem, theta: Array) -> Array:
-    """Return `theta` with the stress, which is a factor, the best for all others."""
-    names = [parameter.name for parameter in problem.free]
-    if "stress_0" not in names:
-        return theta
-    at = names.index("stress_0")
-    weight = 1.0 if problem.points.spread is None else 1.0 / problem.points.spread
-    shape, wanted = problem.friction(theta) * weight, problem.points.difference * weight
-    square = float(shape @ shape)
-    factor = float(shape @ wanted) / square if square > 0.0 else 0.0
-    if factor > 0.0:
-        theta[at] = np.clip(theta[at] + np.log(factor), *problem.free[at].limits)
-    return theta
+    return FittedLaw(problem, solution.x, 2.0 * float(solution.cost), np.asarray(solution.jac))

@@ -14,7 +14,7 @@ from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, ORANGE, WIDE
 from gripscale.core.units import DisplayUnit, display_unit_of
 from gripscale.experiment.measured_friction import MeasuredSeries, measured_series
-from gripscale.questions.calibration.calibration_text import PARAMETERS, WRITTEN
+from gripscale.questions.calibration.calibration_law import PARAMETERS, WRITTEN
 from gripscale.questions.compare.charts import measured_sheet
 from gripscale.questions.compare.charts_of_ladder import MARKERS
 

@@ -44,7 +44,8 @@ def calibrate_command(
     cluster: terminal.Cluster = None,
 ) -> None:
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
-    from gripscale.questions.calibration.calibration_text import parse_fixed, shear_stress_table
+    from gripscale.questions.calibration.calibration_law import parse_fixed
+    from gripscale.questions.calibration.page import shear_stress_table
     from gripscale.questions.calibration.question import calibrate, measured_of
 
     values = parse_fixed(fixed or [])

@@ -135,6 +135,7 @@ def averaged(parts: Sequence[Predicted]) -> Predicted:
         raise InputError("parts must be predicted at the same pressures; got others")
     area = np.array([part.contact_fraction for part in parts])
     kelvin = np.array([part.temperature for part in parts])
+    # of each point the first sample without an answer
     first = [
         next((part for part in parts if part.status[point] != CONVERGED), parts[0])
         for point in range(pressure.size)
@@ -266,8 +267,9 @@ def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicte
     samples = solve_design(Design(sizes, points, subjects), bench, sample_numbers)
     curves: list[xr.Dataset | None] = [None] * len(line.points)
     if case.below_measurement.down_to is not None:
+        model = case.continuation()
         continued = measured_design(
-            measured, case.continuation(), case.rubber, case.surface, case.load, "continued: "
+            measured, model, case.rubber, case.surface, case.load, "continued: "
         )
         solved = bench.solve(continued.tasks, contact_curves)
         curves = [solved[point.task.key] for point in continued.points]
@@ -277,23 +279,19 @@ def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicte
         rows.append(direct_contact_totals(of_point, case, point.task.load, curve))
         if curve is not None and curve[models.STATUS].item() != CONVERGED:
             rows[-1] = curve
-
-    def column(name: str) -> tuple[str, list[float]]:
-        return "measurement", [float(row.get(name, math.nan)) for row in rows]
-
-    def texts(name: str) -> tuple[str, Array]:
-        return "measurement", np.array([row[name].item() for row in rows], dtype=object)
-
-    data = xr.Dataset(
-        {
-            "total_friction": column("answer_friction"),
-            "total_contact_fraction": column("answer_contact_fraction"),
-            models.ADHESIVE_FRICTION: column(AREA_TERM),
-            models.FRICTION_OUTSIDE_BAND: column(models.FRICTION_OUTSIDE_BAND),
-            models.STATUS: texts(models.STATUS),
-            models.STATUS_WORD: texts(models.STATUS_WORD),
-        }
-    )
+    numbers = {
+        "total_friction": "answer_friction",
+        "total_contact_fraction": "answer_contact_fraction",
+        models.ADHESIVE_FRICTION: AREA_TERM,
+        models.FRICTION_OUTSIDE_BAND: models.FRICTION_OUTSIDE_BAND,
+    }
+    columns: dict[str, Any] = {
+        name: [float(row.get(in_answer, math.nan)) for row in rows]
+        for name, in_answer in numbers.items()
+    }
+    for name in (models.STATUS, models.STATUS_WORD):
+        columns[name] = np.array([row[name].item() for row in rows], dtype=object)
+    data = xr.Dataset({name: ("measurement", values) for name, values in columns.items()})
     return predicted_of(data.assign_coords(line.coords))
 
 
@@ -328,18 +326,14 @@ def residuals(
         short = checks.short_repr(predicted)
         raise InputError(f"predicted must hold the prediction of at least one model; got {short}")
     if shear_stress is not None and not isinstance(shear_stress, InterfacialShearStress):
-        raise InputError(
-            "shear_stress must be a law of gripscale.conditions; "
-            f"got {checks.short_repr(shear_stress)}"
-        )
+        short = checks.short_repr(shear_stress)
+        raise InputError(f"shear_stress must be a law of gripscale.conditions; got {short}")
     for name, prediction in predicted.items():
         checks.instance("each of predicted", prediction, Predicted)
         prediction.require_points_of(measured, name)
-    grid = ("model", "measurement")
-    predictions = predicted.values()
-    hysteresis = np.array([prediction.friction for prediction in predictions])
+    grid, predictions = ("model", "measurement"), predicted.values()
+    total = hysteresis = np.array([prediction.friction for prediction in predictions])
     columns: dict[str, Any] = {"hysteresis": (grid, hysteresis, "friction of the hysteresis")}
-    total = hysteresis
     if shear_stress is not None:
         law, speed = shear_stress, measured.speed
         terms = np.array([prediction.area_term(law, speed) for prediction in predictions])

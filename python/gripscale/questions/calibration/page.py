@@ -6,37 +6,30 @@ Everything is read from the result, for the terminal and for the page alike.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from gripscale.charts.draw import image
-from gripscale.core.finding import Finding, Severity, sentences
+from gripscale.conditions.area_term import shear_stress_to_dict
+from gripscale.core.finding import sentences
 from gripscale.core.units import ZERO_CELSIUS, display_unit_of
 from gripscale.experiment import measured_friction
 from gripscale.io.table import Column, Table, digits, fixed, least_to_most, percent, significant
 from gripscale.model import input_doubts_of
-from gripscale.questions.calibration.area_term_fit import Estimate
-from gripscale.questions.calibration.calibration_text import PARAMETERS, estimate_interval, written
-from gripscale.questions.calibration.charts import calibration_pictures
-from gripscale.questions.uncertainty.page import as_elements
-from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Facts, Page, Section, Text
-from gripscale.report.failures import Failure, explained, failures_in
-
-_CALIBRATION = (
-    "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
-    "and this area term together give the measured friction. The hysteresis is not fitted."
-)
+from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate
+from gripscale.questions.calibration.calibration_law import LIKELIHOOD_LEVEL, PARAMETERS, written
+from gripscale.report.elements import Facts
+from gripscale.rubber.extrapolation import WORTH_SAYING
 
 
 def calibration_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the fitted area term with its intervals, and what it does to friction."""
     values = [
-        f"{PARAMETERS[e.name].words} = {written(e.value, e.unit, 3)} ({estimate_interval(e)})"
+        f"{e.words} = {e.text(3)} ({e.interval})"
         if e.determined
-        else f"{PARAMETERS[e.name].words} not determined by the data"
+        else f"{e.words} not determined by the data"
         for e in estimates(data)
     ]
     level = round(100 * data.attrs["level"])
@@ -86,11 +79,9 @@ def parameter_table(data: xr.Dataset) -> Table:
     errors = [written(e.standard_error, e.unit, 2) if e.determined else "" for e in fitted]
     columns = [
         Column("parameter", [e.name for e in fitted]),
-        Column("value", [written(e.value, e.unit, 4) for e in fitted], words=False),
+        Column("value", [e.text(4) for e in fitted], words=False),
         Column("standard_error", errors, "standard error", words=False),
-        Column(
-            "interval", [estimate_interval(e) for e in fitted], f"{level} % by profile likelihood"
-        ),
+        Column("interval", [e.interval for e in fitted], f"{level} % by profile likelihood"),
     ]
     bad = [not e.determined for e in fitted]
     return Table("parameters", columns, "Parameters of the law", bad=bad)
@@ -120,11 +111,10 @@ def held_out_table(data: xr.Dataset) -> Table:
         Column("rms_inside", data.rms_inside.values, "rms inside", format=digits(2)),
         Column("rms_outside", data.rms_outside.values, "rms outside", format=digits(2)),
     ]
-    if np.isfinite(data.rms_outside_in_spread).any():
-        relative = data.rms_outside_in_spread.values
-        columns.append(
-            Column("rms_outside_in_spread", relative, "outside / spread", format=digits(2))
-        )
+    relative = data.rms_outside_in_spread.values
+    if np.isfinite(relative).any():
+        name = "rms_outside_in_spread"
+        columns.append(Column(name, relative, "outside / spread", format=digits(2)))
     if any(data.why_not.values):
         columns.append(Column("why_not", data.why_not.values, "why not"))
     return Table("held-out", columns, "The law at points that were left out")
@@ -135,6 +125,7 @@ def law_facts(data: xr.Dataset) -> Facts:
     attrs = data.attrs
     law, values = json.loads(attrs["law"]), json.loads(attrs["held"])
     held = [f"{name} = {written(x, PARAMETERS[name].unit)}" for name, x in values.items()]
+    scatter = "Residuals over the spread" if attrs["spread_known"] else "Scatter of the residuals"
     pairs = [
         ("Law", str(law.get("kind", "")).replace("_", " ")),
         ("Held", ", ".join(held).replace("_", " ") or "nothing"),
@@ -142,50 +133,9 @@ def law_facts(data: xr.Dataset) -> Facts:
         ("Points", str(data.sizes["measurement"])),
         ("Sum of squares", f"{float(attrs['sum_of_squares']):.3g}"),
         ("Degrees of freedom", str(attrs["degrees_of_freedom"])),
-        ("Residuals over the spread", f"{float(attrs['scatter']):.3g}"),
+        (scatter, f"{float(attrs['scatter']):.3g}"),
     ]
-    if not attrs["spread_known"]:
-        pairs[-1] = ("Scatter of the residuals", f"{float(attrs['scatter']):.3g}")
     return Facts("The fit", pairs)
-
-
-def calibration_failure(data: xr.Dataset) -> Failure | None:
-    """Return how many measured points have no prediction and why the first; None if none."""
-    failed = failures_in(data)
-    if not failed:
-        return None
-    return Failure(
-        f"{len(failed)} of {data.sizes['measurement']} measured points have no prediction; "
-        f"the first: {failed[0]}",
-        failed[0].word,
-    )
-
-
-def calibration_page(
-    data: xr.Dataset, findings: Sequence[Finding], parts: Iterable[str | Table]
-) -> Page:
-    """Return the page of a calibration: the law, the points, and the profiles of parameters."""
-    case, failed = case_title(data.attrs), calibration_failure(data)
-    points, *tables = as_elements(parts)
-    fit, residuals, profiles = map(image, calibration_pictures(data))
-    cards = []
-    for e in estimates(data):
-        value, words = written(e.value, e.unit, 3), PARAMETERS[e.name].words
-        cards.append(Card(words, value, "", not e.determined, f"{estimate_interval(e)} (90 %)"))
-    errors = [] if failed is None else [Finding(Severity.ERROR, f"{explained(failed)}.")]
-    return Page.of(
-        f"{data.attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
-        str(data.attrs.get("model", "")).replace("_", " "),
-        [*errors, *findings],
-        cards,
-        [
-            Section("law", "The law", [fit, law_facts(data), Text(_CALIBRATION), *tables]),
-            Section("points", "Point by point", [residuals, points]),
-            Section("profiles", "How well the data determine the law", [profiles]),
-            rerun_section(data.attrs),
-        ],
-        (line.strip() for line in calibration_lines(data)),
-    )
 
 
 def residual_table(data: xr.Dataset) -> Table:
@@ -194,17 +144,10 @@ def residual_table(data: xr.Dataset) -> Table:
     `data` is what `gripscale.questions.residuals` answers; its root mean squares stand below.
     """
     speeds, pressures = (display_unit_of(data.attrs, name) for name in ("speed", "pressure"))
-    spread = bool(np.isfinite(data.measured_spread).any())
+    spread, kelvin = bool(np.isfinite(data.measured_spread).any()), data.measured_temperature.values
     points = [
         Column("speed", data.measured_speed.values, "v", speeds.unit, speeds.divisor),
-        Column(
-            "temperature",
-            data.measured_temperature.values,
-            "T",
-            "°C",
-            zero=ZERO_CELSIUS,
-            format=fixed(1),
-        ),
+        Column("temperature", kelvin, "T", "°C", zero=ZERO_CELSIUS, format=fixed(1)),
         Column("pressure", data.measured_pressure.values, "p", pressures.unit, pressures.divisor),
         Column("measured_friction", data.measured_friction.values, "μ", format=fixed(3)),
         Column("measured_spread", data.measured_spread.values, "spread", format=fixed(3)),
@@ -231,3 +174,76 @@ def residual_table(data: xr.Dataset) -> Table:
             rms += f", {float(model.rms_difference_in_spread):.1f} times the spread"
         notes.append(f"Root mean square of Δμ, {group}: {rms}.")
     return Table("residuals", columns, "Measured and predicted friction", notes, keys=len(points))
+
+
+UNLIKELY = 0.01  # chance of the sum of squares below which something must be wrong
+
+
+def notes(calibration: AreaTermFit) -> Iterator[str]:
+    """Yield a sentence on each thing to know before the numbers are used."""
+    if not calibration.spread_known:
+        yield (
+            f"No spread is stated: the scatter of the residuals, {calibration.scatter:.2g}, "
+            "takes its place, whatever its cause."
+        )
+    elif calibration.chance < UNLIKELY:
+        yield (
+            f"The residuals are {calibration.scatter:.2g} times the stated spread: law, hysteresis "
+            "or spread is wrong, and the intervals are too narrow."
+        )
+    yield (
+        "The intervals hold for the spread of the measurement alone: an error of the predicted "
+        "contact area is an error of the shear stress."
+    )
+    held = calibration.problem.held
+    if calibration.law.kind == "gaussian" and held.get("activation_energy") == 0.0:
+        yield (
+            "No activation energy: the temperatures in the contact are only "
+            f"{calibration.problem.points.temperature_range:.2g} K apart and do not determine it. "
+            "The law holds at the measured temperature."
+        )
+    for estimate in calibration.estimates:
+        ends = {"lower": estimate.low, "upper": estimate.high}
+        missing = [word for word, end in ends.items() if not np.isfinite(end)]
+        if len(missing) == 2:
+            yield f"{estimate.name} is not determined by the data."
+        elif missing:
+            yield f"The {missing[0]} end of {estimate.name} is not determined by the data."
+    predicted = calibration.predicted
+    without = int((~predicted.has_answer).sum())
+    if without:
+        why = next(s for s, k in zip(predicted.status, predicted.has_answer, strict=True) if not k)
+        yield f"Measured points without a prediction, which do not count: {without}, as {why}."
+    below = int((calibration.problem.points.difference < 0.0).sum())
+    if below:
+        yield f"Measured points below the hysteresis alone: {below}."
+    beyond = int((predicted.outside_band > WORTH_SAYING).sum())
+    if beyond:
+        yield (
+            f"Points where more than {WORTH_SAYING:.0%} of the hysteresis rests on the rubber "
+            f"outside its measured frequencies: {beyond}."
+        )
+
+
+def shear_stress_table(calibration: AreaTermFit) -> str:
+    """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
+    law = shear_stress_to_dict(calibration.law)
+    estimates = {estimate.name: estimate for estimate in calibration.estimates}
+    source = Path(calibration.measured.source).name or "a measurement"
+    lines = [
+        f"# Fitted to {calibration.problem.points.speed.size} points of {source};",
+        f"# intervals of {LIKELIHOOD_LEVEL:.0%} by profile likelihood, for this rubber on this "
+        "surface.",
+        "[conditions.shear_stress]",
+        f'kind = "{law.pop("kind")}"',
+    ]
+    if calibration.law.kind == "gaussian" and law["activation_energy"] == 0.0:
+        del law["activation_energy"], law["reference_temperature"]
+        lines.insert(2, "# No activation energy: the law holds at the measured temperature.")
+    for name, value in law.items():
+        unit = PARAMETERS[name].unit
+        text = written(float(value), unit)
+        text = f'"{text}"' if unit else text
+        about = estimates[name].interval if name in estimates else "held"
+        lines.append(f"{name} = {text}  # {about}")
+    return "\n".join(lines) + "\n"

@@ -25,7 +25,6 @@ from gripscale.questions.calibration import calibration_law as fit
 from gripscale.questions.calibration.calibration_law import CalibrationProblem, FittedLaw
 from gripscale.questions.calibration.measured_comparison import rms
 
-LIKELIHOOD_LEVEL = 0.9  # share of measurements like this one whose interval holds the true value
 _REACH = 2.0  # how much further each step of a search for an end goes
 _FINE = 1e-3  # relative accuracy of the distance to an end
 LESS = 1e-6  # relative decrease of the sum of squares beyond which another minimum has been met
@@ -44,7 +43,6 @@ class BetterMinimumFound(Exception):
 class LikelihoodProfile:
     """The profile of one parameter, in the numbers the search works with."""
 
-    problem: CalibrationProblem
     optimum: FittedLaw
     index: int  # of the free parameter
 
@@ -53,9 +51,14 @@ class LikelihoodProfile:
         """Where the sum of squares is least."""
         return float(self.optimum.theta[self.index])
 
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Limits of the search."""
+        return self.optimum.problem.free[self.index].limits
+
     def excess(self, scaled: float, start: Array | None = None) -> tuple[float, Array]:
         """Return E at a value and the others there; raise `BetterMinimumFound` if E < 0."""
-        held = self.problem.holding(self.index, scaled)
+        held = self.optimum.problem.holding(self.index, scaled)
         others = np.delete(self.optimum.theta, self.index) if start is None else start
         optimum = fit.refined(held, others)
         apart = optimum.sum_of_squares - self.optimum.sum_of_squares
@@ -63,30 +66,44 @@ class LikelihoodProfile:
             raise BetterMinimumFound(np.insert(optimum.theta, self.index, scaled))
         return max(apart, 0.0), optimum.theta
 
-    def end(self, way: int, threshold: float) -> float:
-        """Return where E reaches `threshold` below (`way` -1) or above (1) the centre.
+    def held_back(self, scaled: float, others: Array) -> bool:
+        """Return whether one of the others at a value is at a limit of its own."""
+        return self.optimum.problem.holding(self.index, scaled).at_limit(others)
+
+    def end(self, way: int) -> float:
+        """Return where E reaches its threshold below (`way` -1) or above (1) the centre.
 
         Infinite where it does not before the limit of the search, or only because another
-        parameter is held back by its own.
+        parameter is held back by its own. Between two values before and behind it the root of E,
+        nearly a straight line, is followed.
         """
-        limit = self.problem.free[self.index].limits[(way + 1) // 2]
-        near, others = self.centre, np.delete(self.optimum.theta, self.index)
-        below = 0.0
+        threshold, (low, high) = self.optimum.threshold, self.limits
+        limit, near = (high if way > 0 else low), self.centre
         if way * (limit - near) <= 0.0:
             return way * math.inf
         # how far the end would be on a parabola, within reason
-        error = np.sqrt(np.diag(covariance(self.optimum.jacobian)))[self.index]
-        low, high = self.problem.free[self.index].limits
+        error = np.sqrt(np.diag(self.optimum.covariance))[self.index]
         step = float(np.clip(error * math.sqrt(threshold), 1e-6, 0.02 * (high - low)))
+        solved = {near: (0.0, np.delete(self.optimum.theta, self.index))}
         while True:
-            far = near + way * step
+            far, start = near + way * step, solved[near][1]
             far = limit if way * (far - limit) >= 0.0 else far
-            excess, met = self.excess(far, others)
-            if excess >= threshold:
-                return self._crossing({near: (below, others), far: (excess, met)}, threshold)
+            solved[far] = self.excess(far, start)
+            if solved[far][0] >= threshold:
+                break
             if far == limit:
                 return way * math.inf
-            near, below, others, step = far, excess, met, _REACH * step
+            near, step = far, _REACH * step
+
+        def above(scaled: float) -> float:
+            if scaled not in solved:
+                solved[scaled] = self.excess(scaled, start)
+            return math.sqrt(solved[scaled][0]) - math.sqrt(threshold)
+
+        fine = _FINE * abs(far - self.centre)
+        end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
+        above(end)
+        return way * math.inf if self.held_back(end, solved[end][1]) else end
 
     def curve(self, low: float, high: float) -> tuple[Array, Array]:
         """Return values from `low` to `high` and E there, each from its neighbour's others.
@@ -100,46 +117,8 @@ class LikelihoodProfile:
             others = None
             for at in way:
                 rise, others = self.excess(float(values[at]), others)
-                held_back = self.problem.holding(self.index, values[at]).at_limit(others)
-                excess[at] = math.nan if held_back else rise
+                excess[at] = math.nan if self.held_back(values[at], others) else rise
         return values, excess
-
-    def _crossing(self, solved: dict[float, tuple[float, Array]], threshold: float) -> float:
-        """Return where E crosses the threshold between two values, before and behind it.
-
-        By its root, nearly a straight line; `solved` holds E and the others at the two values.
-        """
-        near, far = solved
-        start = solved[near][1]
-
-        def above(scaled: float) -> float:
-            if scaled not in solved:
-                solved[scaled] = self.excess(scaled, start)
-            return math.sqrt(solved[scaled][0]) - math.sqrt(threshold)
-
-        fine = _FINE * abs(far - self.centre)
-        end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
-        above(end)
-        if self.problem.holding(self.index, end).at_limit(solved[end][1]):
-            return math.copysign(math.inf, far - near)
-        return end
-
-
-def threshold_of(optimum: FittedLaw, *, spread_known: bool) -> float:
-    """Return the excess that ends an interval, with spreads known or taken from the residuals."""
-    if spread_known:
-        return float(scipy.special.chdtri(1, 1.0 - LIKELIHOOD_LEVEL))
-    points, free = optimum.jacobian.shape
-    ratio = float(scipy.special.fdtri(1, points - free, LIKELIHOOD_LEVEL))
-    return ratio * optimum.sum_of_squares / float(points - free)
-
-
-def covariance(jacobian: Array) -> Array:
-    """Return (J^T J)^-1; directions without any influence count as hardly having one."""
-    _, sizes, rows = np.linalg.svd(jacobian, full_matrices=False)
-    least = np.finfo(float).eps * max(float(sizes.max()), np.finfo(float).tiny)
-    scaled = rows / np.maximum(sizes, least)[:, None]
-    return np.asarray(scaled.T @ scaled)
 
 
 def intervals(problem: CalibrationProblem) -> tuple[FittedLaw, tuple[tuple[float, float], ...]]:
@@ -149,11 +128,9 @@ def intervals(problem: CalibrationProblem) -> tuple[FittedLaw, tuple[tuple[float
     """
     optimum = fit.best(problem)
     while True:
-        threshold = threshold_of(optimum, spread_known=problem.points.spread is not None)
-        free = range(len(problem.free))
-        profiles = [LikelihoodProfile(problem, optimum, at) for at in free]
+        profiles = [LikelihoodProfile(optimum, at) for at in range(len(problem.free))]
         try:
-            return optimum, tuple((p.end(-1, threshold), p.end(1, threshold)) for p in profiles)
+            return optimum, tuple((profile.end(-1), profile.end(1)) for profile in profiles)
         except BetterMinimumFound as better:
             optimum = fit.refined(problem, better.theta)
 
@@ -206,8 +183,7 @@ def held_out(
         except InputError as error:
             results.append(replace(unknown, why_not=str(error)))
             continue
-        missing = wanted - {parameter.name for parameter in problem.free}
-        if missing:
+        if missing := wanted - {parameter.name for parameter in problem.free}:
             why = f"the other points do not determine {', '.join(sorted(missing))}"
             results.append(replace(unknown, why_not=why))
             continue

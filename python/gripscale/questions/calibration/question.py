@@ -16,9 +16,10 @@ import numpy as np
 
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
+from gripscale.charts.draw import image
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
 from gripscale.core import InputError, checks
-from gripscale.core.finding import Finding, to_json
+from gripscale.core.finding import Finding, Severity, to_json
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import (
     MeasuredFriction,
@@ -33,7 +34,6 @@ from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.calibration import calibration_law as laws
 from gripscale.questions.calibration import page
 from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate, fit_area_term
-from gripscale.questions.calibration.calibration_text import notes
 from gripscale.questions.calibration.charts import calibration_pictures
 from gripscale.questions.calibration.measured_comparison import (
     answers_at,
@@ -44,14 +44,21 @@ from gripscale.questions.calibration.profile_likelihood import groups_of
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.page_record import InputRecord
 from gripscale.questions.result import Result
+from gripscale.questions.uncertainty.page import as_elements
 from gripscale.questions.vary.inputs import default_model
-from gripscale.report.elements import Page
+from gripscale.report.again import case_title, rerun_section
+from gripscale.report.elements import Card, Page, Section, Text
+from gripscale.report.failures import Failure, explained, failures_in
 from gripscale.rubber.extrapolation import require_measured
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MODELS = ("direct", "chain")  # models whose hysteresis an area term can be put beside
+_CALIBRATION = (
+    "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
+    "and this area term together give the measured friction. The hysteresis is not fitted."
+)
 
 
 class Calibration(Result):
@@ -81,11 +88,20 @@ class Calibration(Result):
 
     @property
     def failure(self) -> str:
-        return str(page.calibration_failure(self.data) or "")
+        """How many measured points have no prediction and why the first; empty if none."""
+        return str(self._failure or "")
+
+    @property
+    def _failure(self) -> Failure | None:
+        failed = failures_in(self.data)
+        if not failed:
+            return None
+        count = f"{len(failed)} of {self.data.sizes['measurement']} measured points"
+        return Failure(f"{count} have no prediction; the first: {failed[0]}", failed[0].word)
 
     def parts(self) -> Iterator[str | Table]:
         yield page.misfit_table(self.data)
-        yield page.parameter_table(self.data)
+        yield self.table()
         yield from filter(None, [page.correlations(self.data)])
         if "left_out" in self.data.coords:
             yield page.held_out_table(self.data)
@@ -99,7 +115,27 @@ class Calibration(Result):
             yield picture.name, picture.figure
 
     def page_content(self) -> Page:
-        return page.calibration_page(self.data, self.findings, self.parts())
+        attrs, case, failed = self.data.attrs, case_title(self.data.attrs), self._failure
+        errors = [] if failed is None else [Finding(Severity.ERROR, f"{explained(failed)}.")]
+        points, *tables = as_elements(self.parts())
+        fit, residuals, profiles = map(image, calibration_pictures(self.data))
+        law = [fit, page.law_facts(self.data), Text(_CALIBRATION), *tables]
+        return Page.of(
+            f"{attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
+            str(attrs.get("model", "")).replace("_", " "),
+            [*errors, *self.findings],
+            [
+                Card(e.words, e.text(3), "", not e.determined, f"{e.interval} (90 %)")
+                for e in self.estimates
+            ],
+            [
+                Section("law", "The law", law),
+                Section("points", "Point by point", [residuals, points]),
+                Section("profiles", "How well the data determine the law", [profiles]),
+                rerun_section(attrs),
+            ],
+            (line.strip() for line in self.lines),
+        )
 
 
 def calibrate(
@@ -162,7 +198,7 @@ def calibrate(
             predicted = answers_at(friction, case, bench)
     fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
     data = fit.to_dataset().assign_attrs(
-        case.attributes, case_file=case.origin.name, model=model, notes="\n".join(notes(fit))
+        case.attributes, case_file=case.origin.name, model=model, notes="\n".join(page.notes(fit))
     )
     if far := speed_doubts(friction, case.load.speed):
         data.attrs[INPUT_DOUBTS] = to_json(far)
