@@ -66,15 +66,13 @@ def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
     """Return the steps from model to model, and the models down to each wavelength."""
     panels = []
     for name in _quantities(comparison):
-        panel, rows = _ladder_panel(comparison, name), list(ladder.rows_of(comparison, name))
-        texts = (
-            row.label if math.isfinite(row.value) else f"{row.label} ({row.note})" for row in rows
-        )
-        ticks = {float(at): textwrap.fill(text, _LINE) for at, text in enumerate(texts)}
+        panel, ticks = _ladder_panel(comparison, name), {}
+        for at, row in enumerate(ladder.rows_of(comparison, name)):
+            text = row.label if math.isfinite(row.value) else f"{row.label} ({row.note})"
+            ticks[float(at)] = textwrap.fill(text, _LINE)
         panels.append(replace(panel, y=replace(panel.y, ticks=ticks)))
-    on_surface = ladder.on_the_surface(comparison)
-    if np.isfinite(on_surface.running_friction.values).any():
-        panels += [_wavelength_panel(on_surface, name) for name in _quantities(comparison)]
+    if np.isfinite(ladder.on_the_surface(comparison).running_friction.values).any():
+        panels += [_wavelength_panel(comparison, name) for name in _quantities(comparison)]
     return draw.panels_on_page(panels)
 
 
@@ -86,12 +84,7 @@ def _quantities(comparison: xr.Dataset) -> list[str]:
 
 def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     rows = list(ladder.rows_of(comparison, name))
-    numbers = [
-        end
-        for row in rows
-        for end in (row.value, row.before, *row.samples, *row.ends)
-        if math.isfinite(end) and end > 0.0
-    ] or [0.1, 1.0]
+    numbers = [end for row in rows for end in row.numbers if end > 0.0] or [0.1, 1.0]
     low, high = min(numbers), max(numbers)
     widen = max(_LEAST_RANGE * low / high, 1.0) ** 0.5
     low, high = low / widen, high * widen
@@ -147,25 +140,18 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     label, size = f"{row.label} {factor}".strip(), 9.0 if row.marker == "*" else 4.8
     yield Series([row.value], [at], row.colour, label, "", marker=row.marker, size=size,
                  filled=row.filled, low=low, high=high, level_bars=True, order=4.0)  # fmt: skip
-    numbers = (*row.samples, *row.ends, row.before, row.value)
-    rightmost = max(end for end in numbers if math.isfinite(end))
     text = f"{row.value:#.2g}".rstrip(".")  # two significant digits, zeros too
-    yield chart.Note(rightmost, at, text, offset=(5.0, 0.0))
+    yield chart.Note(max(row.numbers), at, text, offset=(5.0, 0.0))
 
 
-def comparison_wavelength_figure(comparison: xr.Dataset) -> Figure:
-    """Draw area and friction of each model down to each wavelength.
+def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
+    """Describe area or friction of each model down to each wavelength.
 
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
-    on_surface = ladder.on_the_surface(comparison)
-    panels = [_wavelength_panel(on_surface, name) for name in _quantities(comparison)]
-    return Sheet(panels, height=3.5).on_paper()
-
-
-def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
-    data = comparison.isel(wavelength=ladder.worth_drawing(comparison))
+    data = ladder.on_the_surface(comparison)
+    data = data.isel(wavelength=ladder.worth_drawing(data))
     length = data.wavelength.values / MILLI
     beyond = style.down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
     marks: list[Mark] = []
@@ -234,12 +220,11 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         values, *ends = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))
         marks.append(Series(x, values, INK, BEST, "", marker="*", size=8.0, order=4.0,
                             low=ends[0], high=ends[1]))  # fmt: skip
-    adhesive = with_adhesive(comparison) if name == "friction" else None
-    for (_, look), values in zip(_compared_models(comparison),
-                                 () if adhesive is None else adhesive.values,
-                                 strict=adhesive is not None):  # fmt: skip
-        if np.isfinite(values).any():
-            marks.append(Series(x, values, look.colour, "with the area term", "dashdot", width=0.9))
+    if name == "friction" and (adhesive := with_adhesive(comparison)) is not None:
+        for (_, look), values in zip(_compared_models(comparison), adhesive.values, strict=True):
+            if np.isfinite(values).any():
+                term = Series(x, values, look.colour, "with the area term", "dashdot", width=0.9)
+                marks.append(term)
     low, high = float(x.min()), float(x.max())
     if axis == "speed" and name == "friction":
         points = list(ladder.measured_points(comparison, axis_shown(comparison, "speed")))
@@ -320,4 +305,5 @@ def comparison_figures(data: xr.Dataset) -> Iterator[tuple[str, Figure]]:
         return
     yield "comparison", comparison_figure(data)
     if ladder.worth_drawing(ladder.on_the_surface(data)).any():
-        yield "by_wavelength", comparison_wavelength_figure(data)
+        panels = [_wavelength_panel(data, name) for name in _quantities(data)]
+        yield "by_wavelength", Sheet(panels, height=3.5).on_paper()

@@ -63,10 +63,9 @@ def looks(names: list[str]) -> list[Look]:
     ]
 
 
-def flawed(comparison: xr.Dataset) -> list[bool]:
-    """Return for each model whether a sample of it failed."""
-    few: list[bool] = (comparison["converged_samples"] < comparison["samples"]).values.tolist()
-    return few
+def flawed(comparison: xr.Dataset) -> NDArray[np.bool_]:
+    """Return whether a sample of each model failed."""
+    return np.asarray((comparison["converged_samples"] < comparison["samples"]).values)
 
 
 def varied(comparison: xr.Dataset) -> str:
@@ -128,13 +127,18 @@ class Row:
         spread = math.exp(self.uncertainty)
         return self.value / spread, self.value * spread
 
+    @property
+    def numbers(self) -> list[float]:
+        """All that is drawn on the line."""
+        numbers = (self.value, self.before, *self.samples, *self.ends)
+        return [number for number in numbers if math.isfinite(number)]
+
 
 def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the lines of one panel; both panels have the same."""
     comparison = on_the_surface(comparison)
-    values = dict(
-        zip(comparison.model.values, comparison[f"total_{name}"].values.tolist(), strict=True)
-    )
+    totals = comparison[f"total_{name}"].values.tolist()
+    values = dict(zip(comparison.model.values, totals, strict=True))
     for at, (member, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
         solved = comparison.isel(model=at)
         theory, judge = str(solved.group.item()) == "theory", member == DirectContact.name
@@ -153,7 +157,14 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
             note="failed" if math.isnan(values[member]) and not theory else "none",
         )
     yield from _best(comparison, name, values.get(DirectContact.name, math.nan))
-    yield from _measured(comparison, name)
+    for series in measured_series(comparison):
+        point = series.at(float(comparison.nominal_speed)) if name == "friction" else None
+        if point is None:
+            note = "not at this speed" if name == "friction" else "–"
+            yield Row(series.label, math.nan, note=note)
+        else:
+            friction, spread = point
+            yield Row(series.label, friction, spread / friction, marker="P", colour=INK)
 
 
 def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
@@ -173,15 +184,3 @@ def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
         answer = headline(comparison, name)
         width = math.log(answer.high / answer.value) if answer.value > 0.0 else math.nan
         yield Row(BEST, answer.value, width, marker="*", colour=ORANGE)
-
-
-def _measured(comparison: xr.Dataset, name: str) -> Iterator[Row]:
-    """Yield the measured friction at the speed of the comparison, by temperature."""
-    for series in measured_series(comparison):
-        point = series.at(float(comparison.nominal_speed)) if name == "friction" else None
-        if point is None:
-            note = "not at this speed" if name == "friction" else "–"
-            yield Row(series.label, math.nan, note=note)
-        else:
-            friction, spread = point
-            yield Row(series.label, friction, spread / friction, marker="P", colour=INK)

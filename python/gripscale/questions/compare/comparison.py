@@ -16,13 +16,13 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
-from gripscale.core import Described, InputError, checks, labelled, provenance
+from gripscale.core import Array, Described, InputError, checks, labelled, provenance
 from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.task import Store, Task
 from gripscale.half_space.model import resolved_wavelength
-from gripscale.model import input_doubts
+from gripscale.model import Doubtful
 from gripscale.questions.answer import estimate as estimates
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.estimate import Factor
@@ -69,6 +69,42 @@ class SolvedLadder(Described):
     def data(self) -> xr.Dataset:
         """Everything as a labelled Dataset over the axis and `model`."""
         return comparison_dataset(self)
+
+    @property
+    def best(self) -> xr.Dataset:
+        """The answer with its factors: of the direct contact, or of waves stated by hand."""
+        if self.case.surface.measured is None:
+            chain = self.samples.isel(model=0, sample=0, drop=True)
+            names = ["friction", "contact_fraction", "adhesive_friction"]
+            return estimate_of_waves(chain[names].where(reduce.converged(chain)))
+        best = estimates.answer_of_samples(self.samples, self.factors)
+        return estimates.with_large_strain(best, self.samples, self.factors)
+
+    @property
+    def octaves(self) -> Array:
+        """Octaves of wavelength that hold the curves of all samples [m]; empty without curves."""
+        if "curve_wavelength" not in self.samples:
+            return np.empty(0)
+        smallest = min(setup.surface.cutoff_wavelength for setup in self.setups)
+        ends = reduce.usable(self.samples, "curve_wavelength")
+        return reduce.octaves(float(ends.max()), float(ends.min()), smallest)
+
+    def steps(self, name: str) -> list[xr.DataArray]:
+        """Return how well the mean of a number is known, and its factor from the model before.
+
+        Over `model`: the relative uncertainty of the mean, the factor, and that of the factor; NaN
+        for a model that follows none.
+        """
+        rows = []
+        for at, member in enumerate(self.models):
+            samples = self.samples.isel(model=at, drop=True)
+            factor = sigma = reduce.usable(samples, name).mean("sample") * np.nan
+            if member.follows in self.samples["model"].values:
+                before = self.samples.sel(model=member.follows, drop=True)
+                factor, error = reduce.ratio(samples, before, name)
+                sigma = error.sigma
+            rows.append((reduce.relative_uncertainty(samples, name), factor, sigma))
+        return [xr.concat(parts, "model") for parts in zip(*rows, strict=True)]
 
 
 # Inputs a comparison can be made over: numbers of the load and of the surface.
@@ -129,11 +165,10 @@ def solved_ladder(
             continuation=case.continuation(),
             conditions=conditions,
         )
+        if case.chain.extrapolate == "refuse":
+            wavelength = setup.surface.sines.wavelength
+            require_measured(setup.rubber_before, wavelength, setup.load.speed)
         setups.append(setup)
-    if case.chain.extrapolate == "refuse":
-        for setup in setups:
-            wavelength, speed = setup.surface.sines.wavelength, setup.load.speed
-            require_measured(setup.rubber_before, wavelength, speed)
 
     wanted = chosen(models)
     answering = [m for m in wanted if m.name == estimates.DIRECT] if axis is None else []
@@ -277,15 +312,12 @@ def at_measured(
         return None
     designs: dict[str, list[Design]] = {}
     for member in ladder.models:
-        if member.name not in PREDICTING:
-            continue
-        specs = member.draws(setup)
-        designs[member.name] = []
+        specs = member.draws(setup) if member.name in PREDICTING else []
         for number, (predicting, surface, _) in enumerate(specs, start=1):
             label = f"{member.label}{f' {number} of {len(specs)}' if len(specs) > 1 else ''}: "
             met = setup.rubber_for(predicting)
             design = friction.measured_design(measured, predicting, met, surface, setup.load, label)
-            designs[member.name].append(design)
+            designs.setdefault(member.name, []).append(design)
     if not designs:
         return None
     tasks = {
@@ -308,85 +340,65 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     """Return means, scatter, factors and the answer of the models of a comparison."""
     samples, setups, axis = comparison.samples, comparison.setups, comparison.axis
     outer = () if axis is None else (axis.name,)
-    wavelength = np.empty(0)
-    if "curve_wavelength" in samples:  # octaves that hold the curves of all samples
-        smallest = min(setup.surface.cutoff_wavelength for setup in setups)
-        ends = reduce.usable(samples, "curve_wavelength")
-        wavelength = reduce.octaves(float(ends.max()), float(ends.min()), smallest)
+    order = (*outer, "model", "factor", "sample", "wavelength")
     data: dict[str, xr.Variable] = {}
 
-    def add(name: str, values: xr.DataArray, long_name: str, *dims: str, unit: str = "1") -> None:
-        ordered = values.transpose(*outer, *dims)
+    def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
+        ordered = values.transpose(*(dim for dim in order if dim in values.dims))
         data[name] = labelled(ordered.dims, ordered.values, unit, long_name, _SOURCE)
 
-    def add_by_load(name: str, values: Any, long_name: str, *dims: str, unit: str = "1") -> None:
-        array = np.asarray(values if outer else values[0])
-        add(name, xr.DataArray(array, dims=(*outer, *dims)), long_name, *dims, unit=unit)
+    def by_load(values: Sequence[Any], *dims: str) -> xr.DataArray:
+        """Return values of each setup over the axis, or of the only one."""
+        return xr.DataArray(np.asarray(values if outer else values[0]), dims=(*outer, *dims))
 
     for name in reduce.SAMPLED_QUANTITIES:
         text = f"{model.TOTALS[f'total_{name}']}, mean of the samples"
-        add(f"total_{name}", reduce.mean(samples, name), text, "model")
-    if comparison.case.surface.measured is None:
-        chain = samples.isel(model=0, sample=0, drop=True)
-        names = ["friction", "contact_fraction", "adhesive_friction"]
-        best = estimate_of_waves(chain[names].where(reduce.converged(chain)))
-    else:
-        best = estimates.answer_of_samples(samples, comparison.factors)
-        best = estimates.with_large_strain(best, samples, comparison.factors)
+        add(f"total_{name}", reduce.mean(samples, name), text)
     cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
-    add_by_load("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", unit="m")
+    text = "shortest wavelength of the roughness"
+    add("cutoff_wavelength", by_load(cut_offs), text, "m")
+    wavelength = comparison.octaves
+    about = "relative standard uncertainty of the"
     for name, text in _WORDS.items():
         values = reduce.usable(samples, name)
-        about = "relative standard uncertainty of the"
-        add(f"{name}_spread", reduce.spread(values), f"standard deviation of the {text}", "model")
+        add(f"{name}_spread", reduce.spread(values), f"standard deviation of the {text}")
         error = reduce.mean(samples, f"{name}_error")
-        add(f"{name}_error", error, f"error of the {text} as the model estimates it", "model")
-        models = [samples.isel(model=at) for at in range(samples.sizes["model"])]
-        uncertainty = xr.concat(
-            [reduce.relative_uncertainty(member, name) for member in models], "model"
-        )
-        add(f"{name}_uncertainty", uncertainty, f"{about} mean {text}", "model")
-        factors = [_factor(comparison, at, name) for at in range(len(models))]
-        value, uncertainty = (xr.concat(parts, "model") for parts in zip(*factors, strict=True))
-        add(f"{name}_factor", value, f"{text} over that of the model it follows", "model")
-        text_of_factor = f"{about} factor on the {text}"
-        add(f"{name}_factor_uncertainty", uncertainty, text_of_factor, "model")
-        add(f"sample_{name}", values, f"{text} by sample", "model", "sample")
+        add(f"{name}_error", error, f"error of the {text} as the model estimates it")
+        of_mean, factor, of_factor = comparison.steps(name)
+        add(f"{name}_uncertainty", of_mean, f"{about} mean {text}")
+        add(f"{name}_factor", factor, f"{text} over that of the model it follows")
+        add(f"{name}_factor_uncertainty", of_factor, f"{about} factor on the {text}")
+        add(f"sample_{name}", values, f"{text} by sample")
         curves = reduce.running(samples, name, wavelength)
-        add(f"running_{name}", curves, f"{text} down to the wavelength", "model", "wavelength")
+        add(f"running_{name}", curves, f"{text} down to the wavelength")
+    best = comparison.best
     for name in estimates.ANSWER_NUMBERS | estimates.LARGE_STRAIN_NUMBERS:
         if name in best and "slope" not in best[name].dims:
-            dims = [dim for dim in ("factor",) if dim in best[name].dims]
-            add(name, best[name], best[name].attrs["long_name"], *dims)
+            add(name, best[name], best[name].attrs["long_name"])
     adhesive = reduce.mean(samples, "adhesive_friction")
     if adhesive.notnull().any():
-        text = "friction coefficient of the area term"
-        add(model.ADHESIVE_FRICTION, adhesive, text, "model")
+        add(model.ADHESIVE_FRICTION, adhesive, "friction coefficient of the area term")
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     for name, (_, text) in (model.OUTSIDE_BAND | model.CUT_OFF_EXPONENTS).items():
-        add(name, (beyond if name in beyond else exponents)[name], text, "model")
+        add(name, (beyond if name in beyond else exponents)[name], text)
     text = "why an exponent of the cut-off is not known"
-    add(model.WHY_NO_EXPONENT, exponents[model.WHY_NO_EXPONENT], text, "model")
-    add_by_load(
-        "outside_band",
-        [
-            setup.rubber.outside_band(2.0 * np.pi * setup.load.speed / wavelength).astype(np.int8)
-            for setup in setups
-        ],
-        "1 where the wavelength excites the rubber outside the measured frequencies",
-        "wavelength",
-    )
+    add(model.WHY_NO_EXPONENT, exponents[model.WHY_NO_EXPONENT], text)
+    excited = [
+        setup.rubber.outside_band(2.0 * np.pi * setup.load.speed / wavelength).astype(np.int8)
+        for setup in setups
+    ]
+    text = "1 where the wavelength excites the rubber outside the measured frequencies"
+    add("outside_band", by_load(excited, "wavelength"), text)
     count = (samples.prediction_status != "").sum("sample")
-    add("samples", count, "number of samples", "model")
+    add("samples", count, "number of samples")
     count = reduce.converged(samples).sum("sample")
-    add("converged_samples", count, "number of samples that converged", "model")
-    add("status", reduce.status(samples), "converged, or what failed", "model")
-    add("status_word", reduce.status_word(samples), "word of the status", "model")
-    add("seconds", samples.seconds.sum("sample"), "time its samples took", "model", unit="s")
+    add("converged_samples", count, "number of samples that converged")
+    add("status", reduce.status(samples), "converged, or what failed")
+    add("status_word", reduce.status_word(samples), "word of the status")
+    add("seconds", samples.seconds.sum("sample"), "time its samples took", "s")
     pressures = [setup.load.pressure for setup in setups]
-    add_by_load("nominal_pressure", pressures, "nominal pressure", unit="Pa")
-    speeds = [setup.load.speed for setup in setups]
-    add_by_load("nominal_speed", speeds, "sliding speed", unit="m/s")
+    add("nominal_pressure", by_load(pressures), "nominal pressure", "Pa")
+    add("nominal_speed", by_load([setup.load.speed for setup in setups]), "sliding speed", "m/s")
     words = {
         "label": "the model in words",
         "group": "what it can be asked for with",
@@ -394,27 +406,23 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         "change": "what changes from that model",
     }
     for name, text in words.items():
-        column = [getattr(member, name) for member in comparison.models]
-        data[name] = labelled("model", np.array(column, dtype=object), "1", text, _SOURCE)
-    labels, text = best.factor_label.values, "factors of the answer"
-    data["factor_label"] = labelled("factor", labels, "1", text, _SOURCE)
+        column = np.array([getattr(member, name) for member in comparison.models], dtype=object)
+        add(name, xr.DataArray(column, dims="model"), text)
+    add("factor_label", best.factor_label, "factors of the answer")
     measured = comparison.measured
     data |= {} if measured is None else measured_variables(measured)
     coords = {} if axis is None else coordinates([axis], comparison.case.units)
     text = "lower end of the octave"
     coords["wavelength"] = labelled("wavelength", wavelength, "m", text, _SOURCE)
-    conditions = setups[0].conditions
+    subjects: list[Doubtful] = [setups[0].surface, *comparison.rubbers]
+    loads, conditions = [setup.load for setup in setups], setups[0].conditions
     return xr.Dataset(
         data,
         {"model": [member.name for member in comparison.models], **coords},
         {
             "title": "Contact and friction by model",
             **comparison.case.attributes,
-            **input_doubts(
-                [setups[0].surface, *comparison.rubbers],
-                [setup.load for setup in setups],
-                comparison.case.units,
-            ),
+            **model.input_doubts(subjects, loads, comparison.case.units),
             "case_file": comparison.case.origin.name,
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,
@@ -423,16 +431,3 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
             **provenance.version_attributes(),
         },
     )
-
-
-def _factor(comparison: SolvedLadder, at: int, name: str) -> tuple[xr.DataArray, xr.DataArray]:
-    """Return the factor from the model that the one at `at` follows; NaN if it is not there."""
-    samples = comparison.samples
-    before = comparison.models[at].follows
-    if before not in samples["model"].values:
-        unknown = reduce.usable(samples.isel(model=at, drop=True), name).mean("sample") * np.nan
-        return unknown, unknown
-    value, error = reduce.ratio(
-        samples.isel(model=at, drop=True), samples.sel(model=before, drop=True), name
-    )
-    return value, error.sigma

@@ -182,9 +182,7 @@ def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     sines = _of_upper_half(setup.lines, max_lag, end) if setup.lines else None
     if sines is None:
         return []
-    solver = HalfPlane(points=POINTS_OF_A_CLASS)
-    conditions = setup.conditions and setup.conditions.dry
-    chain = Chain(solver, pressure_classes=CLASSES, conditions=conditions)
+    chain = replace(setup.chain(HalfPlane(points=POINTS_OF_A_CLASS)), pressure_classes=CLASSES)
     return [SampleSpec(chain, Surface(sines, "waves of the upper half"))]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -115,11 +115,9 @@ def comparison_table(comparison: xr.Dataset) -> Table:
                 total = both.values
                 columns.append(Column("with_area_term", total, "μ", "+ area term", group=group))
         for part in ("spread", "error"):
-            with np.errstate(divide="ignore", invalid="ignore"):
-                share = np.where(value == 0.0, np.nan, comparison[f"{name}_{part}"].values / value)
-            columns.append(
-                Column(f"{name}_{part}", share, part, "%", 0.01, format=per_cent, group=group)
-            )
+            column = f"{name}_{part}"
+            share = comparison[column].values / np.where(value == 0.0, np.nan, value)
+            columns.append(Column(column, share, part, "%", 0.01, format=per_cent, group=group))
         factors = comparison[f"{name}_factor"].values
         columns.append(Column(f"{name}_factor", factors, "×", group=group))
     columns.append(Column("samples", samples, "n", words=False))
@@ -130,17 +128,10 @@ def comparison_table(comparison: xr.Dataset) -> Table:
     columns.append(
         Column("friction_outside_band", beyond, "μ", "beyond", group="band", format=percent)
     )
-    columns += [
-        Column(
-            f"decades_{end}_band",
-            comparison[f"total_decades_{end}_band"].values,
-            end,
-            "decades",
-            group="band",
-            format=digits(2),
-        )
-        for end in ("below", "above")
-    ]
+    far = Column("", unit="decades", group="band", format=digits(2))
+    for end in ("below", "above"):
+        decades = comparison[f"total_decades_{end}_band"].values
+        columns.append(far.of(decades, name=f"decades_{end}_band", heading=end))
     strong = [i for i, name in enumerate(comparison.model.values) if str(name) == DIRECT]
     return Table(
         "ladder", columns, "The ladder of models", [_NOTE], bad=flawed(comparison), strong=strong
@@ -149,21 +140,11 @@ def comparison_table(comparison: xr.Dataset) -> Table:
 
 def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     """Return `contact_fraction` or `friction` of each model over the axis that was varied."""
-    display_unit = axis_shown(comparison, axis)
     data = comparison.transpose(axis, ...)
-    failed = (data.converged_samples < data.samples).values
+    failed = flawed(data)
     beyond = data[model.FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
-    columns = [
-        Column(
-            axis,
-            data[axis].values,
-            axis.replace("_", " "),
-            display_unit.unit,
-            display_unit.divisor,
-            display_unit.zero,
-            "{:.3g}".format,
-        )
-    ]
+    words, (unit, divisor, zero) = axis.replace("_", " "), astuple(axis_shown(comparison, axis))
+    columns = [Column(axis, data[axis].values, words, unit, divisor, zero, "{:.3g}".format)]
     for at, member in enumerate(data.model.values):
         flags = zip(failed[:, at], beyond[:, at], strict=True)
         marks = [("!" if bad else "") + ("*" if far else "") for bad, far in flags]
@@ -173,7 +154,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     if is_estimated(data, name) and is_measured(data):
         texts = [str(headline(data.isel({axis: i}), name)) for i in range(data.sizes[axis])]
         columns.insert(1, Column("answer", texts, "answer (90 %)", words=False))
-    caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {axis.replace('_', ' ')}"
+    caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {words}"
     return Table(f"over-{axis}-{name}", columns, caption)
 
 
@@ -206,7 +187,7 @@ def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:
         yield from answer_cards(ladder)
         return
     member = ladder.isel(model=0)
-    bad = int(member.converged_samples) < int(member.samples)
+    bad = bool(flawed(member))
     for name, symbol in SYMBOLS.items():
         words = f"{HEADINGS[name].capitalize()} {symbol}"
         detail = f"{member.label.item()}; ± {elements.percent_text(member[f'{name}_uncertainty'])}"
@@ -221,10 +202,13 @@ def best_line(comparison: xr.Dataset) -> str:
 
 def with_half_widths(answer: xr.Dataset) -> str:
     """Return area and friction of an answer with the half widths of their intervals."""
-    return ", ".join(
-        f"{symbol} = {_with_half_width(answer, name)}"
-        for symbol, name in (("A_r/A_0", "contact_fraction"), ("mu", "friction"))
-    )
+    texts = []
+    for symbol, name in (("A_r/A_0", "contact_fraction"), ("mu", "friction")):
+        number = headline(answer, name)
+        width = 0.5 * (number.high - number.low) / (number.value or math.nan)
+        spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
+        texts.append(f"{symbol} = {significant(number.value)}{spread}")
+    return ", ".join(texts)
 
 
 def comparison_lines(comparison: xr.Dataset) -> Iterator[str]:
@@ -268,23 +252,16 @@ def judgement(chain: PredictionView, answer: xr.Dataset) -> Iterator[str]:
 def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:
     """Yield where a model has a sample that did not converge, and what it says."""
     axis = varied(comparison)
-    for at in range(comparison.sizes[axis]) if axis else [None]:
-        data = comparison if at is None else comparison.isel({axis: at})
-        where = ""
-        if at is not None:
+    points = [{axis: at} for at in range(comparison.sizes[axis])] if axis else [{}]
+    for point in points:
+        data, where = comparison.isel(point), ""
+        if axis:
             value = axis_shown(comparison, axis).text(float(data[axis]), 4)
             where = f"{axis.replace('_', ' ')} {value}, "
         words = model.status_words(data, "status").values
         for label, text, word in zip(data.label.values, data.status.values, words, strict=True):
             if str(text) != CONVERGED:
                 yield f"{where}{label}", Failure(str(text), str(word))
-
-
-def _with_half_width(comparison: xr.Dataset, name: str) -> str:
-    number = headline(comparison, name)
-    width = 0.5 * (number.high - number.low) / (number.value or math.nan)
-    spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
-    return f"{significant(number.value)}{spread}"
 
 
 _LADDER = (
@@ -323,10 +300,9 @@ def comparison_elements(compared: Compared) -> list[Element]:
         return []
     elements: list[Element] = [Text(_LADDER)]
     for data in compared.parts:
+        level = "warning" if is_estimated(data, "contact_fraction") else "error"
         for where, failure in comparison_failures(data):
-            placed = replace(failure, sentence=f"{where}: {failure}")
-            level = "warning" if is_estimated(data, "contact_fraction") else "error"
-            text = f"{explained(placed)}."
+            text = f"{explained(replace(failure, sentence=f'{where}: {failure}'))}."
             elements.append(Finding(level, text, topic=Topic.SOLUTION))
     for data in compared.over:
         over = f"Over {varied(data).replace('_', ' ')}"

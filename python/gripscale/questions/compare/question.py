@@ -28,6 +28,7 @@ from gripscale.questions.answer.estimate import Factor
 from gripscale.questions.answer.findings import answer_notices, measured_at_load
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
+from gripscale.questions.compare.charts import comparison_figures
 from gripscale.questions.compare.charts_of_ladder import varied
 from gripscale.questions.compare.comparison import OnStage, SolvedLadder, solved_ladder
 from gripscale.questions.cut_off.curve import continuation_doubts
@@ -54,12 +55,10 @@ class Comparison(Result):
 
     @property
     def file(self) -> str:
-        """Name of the result in a results folder."""
         return f"over_{self.axis}.nc" if self.axis else "comparison.nc"
 
     @property
     def lines(self) -> Sequence[str]:
-        """The answer and what it rests on; over a varied input its range."""
         if not self.axis:
             return tuple(page.comparison_lines(self.data))
         ranges = []
@@ -73,7 +72,6 @@ class Comparison(Result):
 
     @property
     def findings(self) -> Sequence[Finding]:
-        """Doubts of measured friction, and what may change the answer."""
         doubts = from_json(str(self.data.attrs.get(FRICTION_DOUBTS, "")))
         return tuple(doubts if self.axis else ranked([*doubts, *answer_notices(self.data)]))
 
@@ -89,14 +87,13 @@ class Comparison(Result):
         return first_of(failed, self.data.status.size, "models with all their samples")
 
     def parts(self) -> Iterator[str | Table]:
-        """Yield the models with all that qualifies their numbers."""
         if self.axis:
             yield from (page.axis_table(self.data, self.axis, name) for name in SYMBOLS)
             yield from (f"* {notice.sentence}" for notice in comparison_notices(self.data))
             yield from page.temperature_only(self.data)
-            return
-        yield page.comparison_table(self.data)
-        yield from page.remarks(self.data)
+        else:
+            yield page.comparison_table(self.data)
+            yield from page.remarks(self.data)
 
     def table(self) -> Table:
         """Return the models, one a row; over a varied input the friction of each."""
@@ -105,13 +102,9 @@ class Comparison(Result):
         return page.comparison_table(self.data)
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield the ladder and the friction by wavelength, or everything over the varied input."""
-        from gripscale.questions.compare.charts import comparison_figures
-
-        yield from comparison_figures(self.data)
+        return comparison_figures(self.data)
 
     def page_content(self) -> Page:
-        """Return the models side by side."""
         return page.comparison_page(page.Compared([self.data]))
 
 
