@@ -51,31 +51,27 @@ def read_result(path: Path) -> ReportSource:
 
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
     """
-    if path.is_dir():
-        return _read_folder(path)
-    if not path.exists():
-        raise FileError(f"result {path} does not exist")
-    tree = netcdf.load_tree(path)
-    result: Result | None = result_of(tree)
-    if result is not None:
-        return result
-    require_totals(tree, path)
-    return run_of({path.stem: tree})
-
-
-def _read_folder(folder: Path) -> ReportSource:
-    run = read_run(folder)
+    if not path.is_dir():
+        if not path.exists():
+            raise FileError(f"result {path} does not exist")
+        tree = netcdf.load_tree(path)
+        result: Result | None = result_of(tree)
+        if result is not None:
+            return result
+        require_totals(tree, path)
+        return run_of({path.stem: tree})
+    run = read_run(path)
     if run is not None:
         return run
-    compared = replace(stored_comparisons(folder), uncertainty=stored_uncertainty(folder.parent))
+    compared = replace(stored_comparisons(path), uncertainty=stored_uncertainty(path.parent))
     if compared.parts:
         return compared
-    others = sorted(path for path in folder.glob("*.nc") if not path.name.startswith("."))
+    others = sorted(file for file in path.glob("*.nc") if not file.name.startswith("."))
     if not others:
-        raise FileError(f"{folder} holds no result; expected the folder of a {KINDS_OF_REPORTS}")
+        raise FileError(f"{path} holds no result; expected the folder of a {KINDS_OF_REPORTS}")
     # a comparison of compounds leaves the study it was made of beside its own result
-    others = [path for path in others if path.name == "compounds.nc"] or others
+    others = [file for file in others if file.name == "compounds.nc"] or others
     if len(others) > 1:
-        names = ", ".join(path.name for path in others)
-        raise FileError(f"{folder} holds several results; name one of them: {names}")
+        names = ", ".join(file.name for file in others)
+        raise FileError(f"{path} holds several results; name one of them: {names}")
     return read_result(others[0])

@@ -24,7 +24,6 @@ from gripscale.questions.answer.reliance import has_answer, no_answer
 SUMMARY_FILE = "summary.xlsx"
 # Numbers of which a result has a row for each value: the first that is in it counts.
 ROWS = (STATUS, "status", "gain", "force")
-OF_MODELS = ("model", "model")  # dimensions of models side by side
 DOUBTS = "not_to_rely_on"
 # Columns behind those that name the row.
 FIRST = (
@@ -58,24 +57,18 @@ def summary_table(results: Sequence[xr.Dataset]) -> Table:
     about = {name: value for data in reversed(results) for name, value in data.attrs.items()}
     about.pop("model", None)
     parts = [_columns(data, about) for data in results]
+    counts = [next(iter(part.values())).values.size for part in parts]
     columns = {name: column for part in parts for name, column in part.items()}
     places = [str(dim) for data in results for dim in _rows(data).dims]
     order = {name: at for at, name in reversed([*enumerate([*places, *FIRST])])}
-    empty = [np.full(_rows(data).size, None) for data in results]
-    return Table(
-        "summary",
-        [
-            columns[name].of(
-                np.concatenate(
-                    [
-                        part[name].values if name in part else nothing
-                        for part, nothing in zip(parts, empty, strict=True)
-                    ]
-                )
-            )
-            for name in sorted(columns, key=lambda name: order.get(name, len(order)))
-        ],
-    )
+    table = []
+    for name in sorted(columns, key=lambda name: order.get(name, len(order))):
+        values = [
+            part[name].values if name in part else np.full(count, None)
+            for part, count in zip(parts, counts, strict=True)
+        ]
+        table.append(columns[name].of(np.concatenate(values)))
+    return Table("summary", table)
 
 
 def _rows(data: xr.Dataset) -> xr.DataArray:
@@ -84,44 +77,32 @@ def _rows(data: xr.Dataset) -> xr.DataArray:
 
 
 def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
-    """Return the columns of a result by name; `about` holds attributes that it may lack."""
+    """Return the columns of a result by name; `about` holds attributes that it may lack.
+
+    Rubber at rest has no friction. An answer is made of the direct contact: it stands in its row,
+    not in that of each model.
+    """
     rows = _rows(data)
     numbered = {dim: np.arange(n) for dim, n in rows.sizes.items() if dim not in data.coords}
-    full = _at_rest_without_friction(data).assign_coords(numbered)
-    columns = {
-        str(name): _in_rows(full[name], rows, full)
-        for name, variable in full.variables.items()
-        if not str(name).endswith(LEFT_OUT) and set(variable.dims) <= set(rows.dims)
-    }
+    full, speed = data.assign_coords(numbered), data.get("nominal_speed")
+    columns = {}
+    for key, number in full.variables.items():
+        name = str(key)
+        if name.endswith(LEFT_OUT) or not set(number.dims) <= set(rows.dims):
+            continue
+        values = full[name].broadcast_like(rows)
+        if speed is not None and name.startswith(("answer_friction", "total_friction")):
+            values = values.where(speed > 0.0)
+        if name in ANSWER_NUMBERS and "model" in {*rows.dims} - {*number.dims}:
+            values = values.where(full["model"] == DIRECT)
+        unit = str(number.attrs.get("units", "")) if number.dtype.kind in "fiu" else ""
+        of_rows = values.transpose(*rows.dims).values.astype(object).ravel()
+        columns[name] = Column(name, of_rows, unit=unit)
     texts = {name: data.attrs.get(name, about.get(name)) for name in ABOUT}
     texts[DOUBTS] = no_answer(data) if has_answer(data) else sentences(input_doubts_of(data))
     for name, value in texts.items():
         varied = {name, name.removeprefix("nominal_")} & columns.keys()
         if not varied and value not in (None, "", "null"):
-            values = np.full(rows.size, value, object)
-            columns[name] = Column(name, values, unit=_UNITS.get(name, ""))
+            everywhere = np.full(rows.size, value, object)
+            columns[name] = Column(name, everywhere, unit=_UNITS.get(name, ""))
     return columns
-
-
-def _in_rows(number: xr.DataArray, rows: xr.DataArray, data: xr.Dataset) -> Column:
-    """Return a number of a result in each of its rows.
-
-    An answer is made of the direct contact: it stands in its row, not in that of each model.
-    """
-    name, full = str(number.name), number.broadcast_like(rows)
-    if name in ANSWER_NUMBERS:
-        for dim in {*OF_MODELS} & {*rows.dims} - {*number.dims}:
-            full = full.where(data[dim] == DIRECT)
-    unit = str(number.attrs.get("units", "")) if number.dtype.kind in "fiu" else ""
-    return Column(name, full.transpose(*rows.dims).values.astype(object).ravel(), unit=unit)
-
-
-def _at_rest_without_friction(data: xr.Dataset) -> xr.Dataset:
-    """Return a result without the friction of rubber at rest, which has none."""
-    speed = data.get("nominal_speed")
-    if speed is None or bool((speed > 0.0).all()):
-        return data
-    frictions = [
-        name for name in data if str(name).startswith(("answer_friction", "total_friction"))
-    ]
-    return data.assign({name: data[name].where(speed > 0.0) for name in frictions})

@@ -121,7 +121,7 @@ def test_braking_distance_of_constant_friction() -> None:
 def test_road_without_an_interval_has_a_value() -> None:
     """Ends that are not known stay unknown: the peak of the value does not."""
     force = np.array([np.full(30, np.nan), np.linspace(0.1, 1.0, 30)])
-    peak, slip = question._peaks(SLIPS, force)
+    peak, slip = question.peaks(SLIPS, force)
     assert np.isnan([peak[0], slip[0]]).all()
     assert (peak[1], slip[1]) == pytest.approx((1.0, 1.0))
 

@@ -30,50 +30,46 @@ def cut_off_sheet(data: xr.Dataset) -> draw.Sheet:
 def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
     """Return friction, contact and slope in contact over the cut-off."""
     lengths = data.cut_off.values / MILLI
-    ends = chart.wavelength_axis(lengths)
-    words = "cut-off: shortest wavelength of the surface [mm]"
-    axis = chart.PlotAxis(words, True, ends.low, ends.high)
+    axis = replace(
+        chart.wavelength_axis(lengths), label="cut-off: shortest wavelength of the surface [mm]"
+    )
     rules = list(_rules(data))
     panels = []
     for name, (label, colour, title) in _CURVES.items():
+        area = name == AREA
         low, high = (data[f"{name}_{end}"].values for end in ("lower", "upper"))
-        band = "90 % band of the continuation" if name == FRICTION else ""
-        marks: list[chart.Mark] = [
-            chart.ShadedBand(lengths, low, high, colour, band),
-            *_curve(data, name, colour, labelled=name == FRICTION),
-            *rules,
-        ]
-        panels.append(
-            chart.Panel(
-                axis,
-                chart.PlotAxis(label, log=name == AREA, low=None if name == AREA else 0.0),
-                marks,
-                name=f"cut-off-{'friction' if name == FRICTION else 'area'}",
-                caption=f"{title} against the cut-off: measured roughness solid, continued dotted, "
-                "with its 90 % band. Upright lines are rules of cut-off.",
-                alt=f"{title} against the shortest wavelength of the surface.",
-            )
-        )
-    slope: list[chart.Mark] = [
-        *_curve(data, SLOPE_IN_CONTACT, GREY, labelled=False),
-        chart.CrossLine(CONTACT_SLOPE),
-        *(replace(rule, label="") for rule in rules),
-    ]
-    panels.append(
-        chart.Panel(
+        band = "" if area else "90 % band of the continuation"
+        panel = chart.Panel(
             axis,
-            chart.PlotAxis("rms slope in contact [-]", low=0.0),
-            slope,
-            name="cut-off-slope",
-            caption="Rms slope of the surface where it touches: small strain ends near 1.",
-            alt="Rms slope in contact against the cut-off.",
+            chart.PlotAxis(label, log=area, low=None if area else 0.0),
+            [
+                chart.ShadedBand(lengths, low, high, colour, band),
+                *_curve(data, name, colour),
+                *rules,
+            ],
+            name=f"cut-off-{'area' if area else 'friction'}",
+            caption=f"{title} against the cut-off: measured roughness solid, continued dotted, "
+            "with its 90 % band. Upright lines are rules of cut-off.",
+            alt=f"{title} against the shortest wavelength of the surface.",
         )
+        panels.append(panel)
+    unlabelled = (replace(rule, label="") for rule in rules)
+    slope = chart.Panel(
+        axis,
+        chart.PlotAxis("rms slope in contact [-]", low=0.0),
+        [*_curve(data, SLOPE_IN_CONTACT, GREY), chart.CrossLine(CONTACT_SLOPE), *unlabelled],
+        name="cut-off-slope",
+        caption="Rms slope of the surface where it touches: small strain ends near 1.",
+        alt="Rms slope in contact against the cut-off.",
     )
-    return panels
+    return [*panels, slope]
 
 
-def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Iterator[chart.Mark]:
-    """Yield a curve, solid where it was measured and dotted where it is continued."""
+def _curve(data: xr.Dataset, name: str, colour: str) -> Iterator[chart.Mark]:
+    """Yield a curve, solid where it was measured and dotted where it is continued.
+
+    That of the friction is in the legend.
+    """
     lengths, values = data.cut_off.values / MILLI, data[name].values
     measured = data.curve_measured.values.astype(bool)
     below = ~measured | np.append(~measured[1:], False)  # from the last measured point on
@@ -83,7 +79,7 @@ def _curve(data: xr.Dataset, name: str, colour: str, *, labelled: bool) -> Itera
     ):
         if where.any():
             x, y = lengths[where], values[where]
-            words = label if labelled else ""
+            words = label if name == FRICTION else ""
             yield chart.Series(x, y, colour, words, dash, marker="o", size=3.0)
 
 

@@ -45,16 +45,13 @@ def cut_off_curve(
     if "cut_off" not in data.dims:
         return data
     names, lengths = zip(*_rules(data, case.surface), strict=True)
-
-    def along(values: list[float], text: str, unit: str = "1") -> tuple[object, ...]:
-        return "rule", values, variable_attributes(text, unit)
-
-    friction, area = ([at_cut_off(data, name, x) for x in lengths] for name in (FRICTION, AREA))
-    return data.assign_coords(rule=list(names)).assign(
-        rule_cut_off=along(list(lengths), "cut-off of the rule", "m"),
-        rule_friction=along(friction, "friction there"),
-        rule_contact_fraction=along(area, "contact fraction there"),
-    )
+    data = data.assign_coords(rule=list(names))
+    text = variable_attributes("cut-off of the rule", "m")
+    data["rule_cut_off"] = "rule", list(lengths), text
+    for name, curve in (("friction", FRICTION), ("contact_fraction", AREA)):
+        text = variable_attributes(f"{name.replace('_', ' ')} there")
+        data[f"rule_{name}"] = "rule", [at_cut_off(data, curve, x) for x in lengths], text
+    return data
 
 
 def contact_curves(answer: xr.Dataset, task: Task) -> xr.Dataset:

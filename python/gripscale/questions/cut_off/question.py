@@ -54,15 +54,14 @@ class CutOff(Result):
         if self.failure:
             return [f"Answer: none. {self.failure}"]
         below = not bool(data.curve_measured[-1])
-        numbers = ", ".join(
-            f"{SYMBOLS[name]} = {significant(float(data[curve][-1]))}"
-            + (f" ({self._range(curve)})" if below else "")
-            for name, curve in self._curves
-        )
+        numbers = []
+        for name, curve in self._curves:
+            band = f" ({self._range(curve)})" if below else ""
+            numbers.append(f"{SYMBOLS[name]} = {significant(float(data[curve][-1]))}{band}")
         level = f" ({_LEVEL} bands)" if below else ""
         if any(refusals(data)):
             level = ", where the measurement ends: it foretells no octave"
-        lead = f"Answer: {numbers} with roughness down to {in_mm(self._end, 3)}{level}"
+        lead = f"Answer: {', '.join(numbers)} with {self._down_to}{level}"
         return [lead, *(f"  {line}" for line in self.basis)]
 
     @property
@@ -104,11 +103,9 @@ class CutOff(Result):
         columns = [
             Column("rule", data.rule.values.tolist(), "rule"),
             Column("rule_cut_off", data.rule_cut_off.values, "cut-off", "mm", MILLI),
-            *(
-                Column(f"rule_{name}", data[f"rule_{name}"].values, SYMBOLS[name])
-                for name, _ in self._curves
-            ),
         ]
+        for name, _ in self._curves:
+            columns.append(Column(f"rule_{name}", data[f"rule_{name}"].values, SYMBOLS[name]))
         beyond = bool(np.isnan(data.rule_contact_fraction.values).any())
         notes = ["Without numbers: beyond the curve."] if beyond else []
         return Table("rules", columns, "Rules of cut-off", notes, keys=1)
@@ -148,23 +145,17 @@ class CutOff(Result):
         else:
             for name, curve in self._curves:
                 value = on_page(significant(float(self.data[curve][-1])))
-                detail, ends = f"roughness down to {in_mm(self._end, 3)}", self._range(curve)
-                cards.append(Card(HEADINGS[name].capitalize(), value, detail, interval=ends))
-        return Page.of(
-            f"Contact and friction of {case} against the cut-off",
-            self.lines[0],
-            [*errors, *self.findings],
-            cards,
-            [
-                Section("cut-off", "Against the cut-off", self.elements()),
-                rerun_section(self.data.attrs),
-            ],
-        )
+                label, ends = HEADINGS[name].capitalize(), self._range(curve)
+                cards.append(Card(label, value, self._down_to, interval=ends))
+        title = f"Contact and friction of {case} against the cut-off"
+        curves = Section("cut-off", "Against the cut-off", self.elements())
+        sections = [curves, rerun_section(self.data.attrs)]
+        return Page.of(title, self.lines[0], [*errors, *self.findings], cards, sections)
 
     @property
-    def _end(self) -> float:
-        """Last cut-off [m]."""
-        return float(self.data.cut_off[-1])
+    def _down_to(self) -> str:
+        """The last cut-off in words."""
+        return f"roughness down to {in_mm(float(self.data.cut_off[-1]), 3)}"
 
     @property
     def _curves(self) -> list[tuple[str, str]]:
@@ -181,13 +172,11 @@ def _source(data: xr.Dataset) -> str:
     """Return where the continued roughness comes from, and how well it did."""
     if "slope_ratio" not in data:
         overlap = float(data.get("overlap", math.nan))
-        compared = (
-            f"; the faces that touch are {significant(overlap, 2)} times as steep where both are "
-            "measured"
-            if math.isfinite(overlap)
-            else "; no wavelength is measured by both"
-        )
-        return f"with the slopes of the finer measurement{compared}"
+        compared = "no wavelength is measured by both"
+        if math.isfinite(overlap):
+            times = f"{significant(overlap, 2)} times as steep"
+            compared = f"the faces that touch are {times} where both are measured"
+        return f"with the slopes of the finer measurement; {compared}"
     ends = [data.get("withheld_slope_ratio", data.slope_ratio), data.slope_ratio]
     first, end = (significant(float(ratio), 3) for ratio in ends)
     text = f"with slopes {end} times those of the octave above"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import product
 
 import numpy as np
 import xarray as xr
@@ -23,33 +24,30 @@ def slip_sheet(data: xr.Dataset) -> Sheet:
 def slip_panels(data: xr.Dataset) -> list[Panel]:
     """Return the braking force over slip, a panel for each kind of friction."""
     highest = 1.08 * float(data.force.max())
-    return [
-        Panel(
+    each = [*product(range(data.sizes["temperature"]), range(data.sizes["speed"]))]
+    colours = style.colours(len(each), ordered=len(each) > 1)
+    slip = np.concatenate([[0.0], 100.0 * data.slip.values])
+    panels = []
+    for number, kind in enumerate(data.kind.values, start=1):
+        bands: list[Mark] = []
+        curves: list[Mark] = []
+        for (i, j), colour in zip(each, colours, strict=True):
+            curve = data.sel(kind=kind).isel(temperature=i, speed=j)
+            low, value, high = (np.concatenate([[0.0], row]) for row in curve.force.values)
+            kelvin = float(curve.temperature)
+            words = [celsius(kelvin)] if math.isfinite(kelvin) else []
+            if data.sizes["speed"] > 1 or not words:
+                words.append(f"{3.6 * float(curve.speed):.3g} km/h")
+            bands.append(ShadedBand(slip, low, high, colour))
+            curves.append(Series(slip, value, colour, ", ".join(words)))
+        panel = Panel(
             PlotAxis("slip [%]", low=0.0, high=100.0),
             PlotAxis("braking force over load [-]", low=0.0, high=highest),
-            _marks(data.sel(kind=kind)),
+            [*bands, *curves],
             name=f"slip-{number}",
             title=str(kind),
             caption=f"Braking force over slip, friction: {kind}. Bands: 90 % interval of it.",
             alt="Braking force over load against slip.",
         )
-        for number, kind in enumerate(data.kind.values, start=1)
-    ]
-
-
-def _marks(data: xr.Dataset) -> list[Mark]:
-    every = [(i, j) for i in range(data.sizes["temperature"]) for j in range(data.sizes["speed"])]
-    colours = style.colours(len(every), ordered=len(every) > 1)
-    slip = np.concatenate([[0.0], 100.0 * data.slip.values])
-    bands: list[Mark] = []
-    curves: list[Mark] = []
-    for (i, j), colour in zip(every, colours, strict=True):
-        curve = data.isel(temperature=i, speed=j)
-        low, value, high = (np.concatenate([[0.0], row]) for row in curve.force.values)
-        kelvin = float(curve.temperature)
-        words = [celsius(kelvin)] if math.isfinite(kelvin) else []
-        if data.sizes["speed"] > 1 or not words:
-            words.append(f"{3.6 * float(curve.speed):.3g} km/h")
-        bands.append(ShadedBand(slip, low, high, colour))
-        curves.append(Series(slip, value, colour, ", ".join(words)))
-    return [*bands, *curves]
+        panels.append(panel)
+    return panels

@@ -12,7 +12,6 @@ import json
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 import xarray as xr
@@ -63,15 +62,21 @@ def friction_table(
 
 
 def _solved(case: Case, temperatures: Sequence[float], fastest: float, bench: Bench) -> xr.Dataset:
-    conditions = replace(case.conditions or Conditions(), heat=None)
-    warms = case.conditions is not None and case.conditions.heat is not None
+    conditions, rubber = replace(case.conditions or Conditions(), heat=None), case.rubber
+    kelvins = np.array([math.nan])  # of a rubber without a temperature
+    if temperatures:
+        warms = case.conditions is not None and case.conditions.heat is not None
+        low, high = min(temperatures), max(temperatures) + (_WARMEST if warms else 0.0)
+        if rubber.shift is not None:
+            high = max(min(high, rubber.shift.limits[1]), low)
+        kelvins = np.linspace(low, high, 1 + math.ceil((high - low) / _WARMER - 1e-9))
     values = {
         "speed": np.geomspace(_SLOWEST, max(fastest, 10.0 * _SLOWEST), _SPEEDS),
-        "temperature": _temperatures(case, temperatures, warms),
+        "temperature": kelvins,
         "pressure": case.load.pressure * np.array(_PRESSURES),
     }
     points = []
-    for index in product(*(range(axis.size) for axis in values.values())):
+    for index in np.ndindex(*(axis.size for axis in values.values())):
         speed, kelvin, pressure = (
             float(axis[i]) for axis, i in zip(values.values(), index, strict=True)
         )
@@ -81,36 +86,21 @@ def _solved(case: Case, temperatures: Sequence[float], fastest: float, bench: Be
         model = AnswerModel(None, there, case.below_measurement)
         label = f"{speed:.3g} m/s, {pressure:.3g} Pa"
         label += f", {kelvin - ZERO_CELSIUS:.3g} C" if shifted else ""
-        points.append(Point(index, label, Task(case.rubber, case.surface, load, model)))
+        points.append(Point(index, label, Task(rubber, case.surface, load, model)))
     design = Design({name: axis.size for name, axis in values.items()}, points)
     data = solve_design(design, bench, study_numbers).assign_coords(values)
     failed = [str(word) for word in data.prediction_status.values.flat if word != "converged"]
     if failed:
         raise InputError(f"the friction of the case has no result at every speed: {failed[0]}")
-    return _of_kinds(data).rename(dict(zip(values, AXES, strict=True)))
-
-
-def _temperatures(case: Case, asked: Sequence[float], warms: bool) -> Array:
-    """Return the temperatures of the table [K]; one that is NaN for a rubber without one."""
-    if not asked:
-        return np.array([math.nan])
-    low, high = min(asked), max(asked) + (_WARMEST if warms else 0.0)
-    if case.rubber.shift is not None:
-        high = max(min(high, case.rubber.shift.limits[1]), low)
-    return np.linspace(low, high, 1 + math.ceil((high - low) / _WARMER - 1e-9))
-
-
-def _of_kinds(data: xr.Dataset) -> xr.Dataset:
-    """Return the friction of the answer with its interval: hysteresis, and with the area term."""
-    numbers = ["answer_friction", *([TOTAL] if TOTAL in data else [])]
-    ends = ("_low", "", "_high")
-    kinds = [xr.concat([data[f"{name}{end}"] for end in ends], "bound") for name in numbers]
-    if not np.isfinite(kinds[0].sel(bound=1)).all():
+    if not np.isfinite(data["answer_friction"]).all():
         raise InputError("the direct contact of the case has no friction for a slip curve")
-    table = xr.concat(kinds, "kind").transpose("kind", "bound", "speed", "temperature", "pressure")
+    names, ends = ["answer_friction", *([TOTAL] if TOTAL in data else [])], ("_low", "", "_high")
+    kinds = [xr.concat([data[f"{name}{end}"] for end in ends], "bound") for name in names]
+    table = xr.concat(kinds, "kind").transpose("kind", "bound", *values)
     coords = {"kind": list(KINDS_OF_FRICTION[: len(kinds)]), "bound": list(BOUNDS)}
     text = variable_attributes("sliding friction with the interval of the answer")
-    return xr.Dataset({TABLE: table.assign_coords(coords).assign_attrs(text)})
+    data = xr.Dataset({TABLE: table.assign_coords(coords).assign_attrs(text)})
+    return data.rename(dict(zip(values, AXES, strict=True)))
 
 
 class TableFriction:

@@ -31,7 +31,7 @@ from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
 from gripscale.questions.slip.charts import slip_panels, slip_sheet
 from gripscale.questions.slip.friction_table import BOUNDS, TABLE, TableFriction, friction_table
-from gripscale.questions.slip.vehicle_formulas import FORMULAS, MISFIT
+from gripscale.questions.slip.vehicle_formulas import FORMULAS, MISFIT, fitted_formulas
 from gripscale.questions.vary.axis import axes_of
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section
@@ -78,39 +78,34 @@ class SlipCurve(Result):
 
     @property
     def findings(self) -> Sequence[Finding]:
-        findings = [Finding(Severity.WARNING, _NO_TYRE, topic=Topic.LOAD)]
         room = float(self.data.rubber_temperature.max() - self.data.temperature.max())
         warm = self.data.slip.where(self.data.warming > room)
+        text = ""
         if "effusivity" not in self.data.attrs:
             text = (
                 "The rubber does not warm in the patch: the case states no thermal properties in "
                 "[conditions.heat]."
             )
-            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
         elif bool(warm.notnull().any()):
             text = (
                 f"From {float(warm.min()):.1%} slip on sliding rubber warms by more than the "
                 f"{room:.0f} K for which friction was solved; it then has the last friction."
             )
-            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
+        findings = [Finding(Severity.WARNING, _NO_TYRE, topic=Topic.LOAD)]
+        findings += [Finding(Severity.WARNING, text, topic=Topic.RUBBER)] if text else []
         return (*findings, *super().findings)
 
     def parts(self) -> Iterator[str | Table]:
         yield self.table()
         yield self.formulas_table()
 
-    @property
-    def _rows(self) -> xr.Dataset:
-        """The curves over `row`."""
-        data = self.data.drop_vars(TABLE).assign_coords(
-            temperature=self.data.temperature.fillna(0.0)
-        )
-        return data.stack(row=("kind", "temperature", "speed"))
-
-    def _names(self) -> list[Column]:
-        rows = self._rows
+    def _rows(self) -> tuple[xr.Dataset, list[Column]]:
+        """Return the curves over `row`, and the columns that name them."""
+        temperature = self.data.temperature.fillna(0.0)
+        data = self.data.drop_vars(TABLE).assign_coords(temperature=temperature)
+        rows = data.stack(row=("kind", "temperature", "speed"))
         kelvin = np.where(rows.temperature > 0.0, rows.temperature, np.nan)
-        return [
+        return rows, [
             Column("friction", rows.kind.values.tolist()),
             Column("temperature", kelvin - ZERO_CELSIUS, "T", "°C"),
             Column("speed", rows.speed.values, "v", "km/h", 1.0 / 3.6),
@@ -118,12 +113,11 @@ class SlipCurve(Result):
 
     def table(self) -> Table:
         """Return peak, slip at the peak, locked value and braking distances of each curve."""
-        rows = self._rows.transpose("row", ...)
+        rows, columns = self._rows()
         value, ends = rows.sel(bound="value"), rows.peak.sel(bound=["low", "high"])
-        columns = [
-            *self._names(),
+        columns += [
             Column("peak", value.peak.values, "peak"),
-            Column("peak_interval", ends.values, "90 %"),
+            Column("peak_interval", ends.transpose("row", ...).values, "90 %"),
             Column("peak_slip", value.peak_slip.values, "at slip", "%", 0.01),
             Column("locked", value.locked.values, "locked"),
         ]
@@ -141,7 +135,7 @@ class SlipCurve(Result):
 
     def formulas_table(self) -> Table:
         """Return the parameters of Burckhardt's formula and of the Magic Formula."""
-        rows, columns = self._rows, self._names()
+        rows, columns = self._rows()
         for name in FORMULAS:
             for parameter in self.data[f"{name}_parameter"].values:
                 values = rows[name].sel({f"{name}_parameter": parameter}).values
@@ -157,10 +151,15 @@ class SlipCurve(Result):
         lead, *basis = self.lines
         first = self.data.isel(kind=-1, temperature=0, speed=0)
         slip = 100.0 * float(first.peak_slip.sel(bound="value"))
-        cards = [
-            _card(first.peak, "Peak braking force", f"over the load, at {slip:.3g} % slip"),
-            _card(first.locked, "Locked", "over the load"),
-        ]
+        cards = []
+        for force, title, detail in (
+            (first.peak, "Peak braking force", f"over the load, at {slip:.3g} % slip"),
+            (first.locked, "Locked", "over the load"),
+        ):
+            number = _number(force)
+            interval = f"{on_page(number.interval)} (90 %)" if number.interval else ""
+            value = on_page(significant(number.value))
+            cards.append(Card(title, value, detail, interval=interval))
         charts = draw.panels_on_page(slip_panels(self.data))
         sections = [
             Section("curves", "Force over slip", [*charts, self.table()]),
@@ -175,13 +174,6 @@ def _number(values: xr.DataArray) -> AnswerNumber:
     """Return a number over `bound` with the ends of its interval."""
     low, value, high = (float(values.sel(bound=bound)) for bound in BOUNDS)
     return AnswerNumber(value, low, high)
-
-
-def _card(force: xr.DataArray, title: str, detail: str) -> Card:
-    """Return a force with its interval at the head of the page."""
-    number = _number(force)
-    interval = f"{on_page(number.interval)} (90 %)" if number.interval else ""
-    return Card(title, on_page(significant(number.value)), detail, interval=interval)
 
 
 def slip_curve(
@@ -292,7 +284,7 @@ def _curves(
     every = np.concatenate([np.array(speeds), on_the_way])
     solved = brush_force(brush, friction, slips, every[:, None])
     force = solved.force.reshape(*friction.rows, every.size, slips.size)
-    peak, peak_slip = _peaks(slips, force)
+    peak, peak_slip = peaks(slips, force)
     dims = ("kind", "bound", "temperature", "speed")
     count = len(speeds)
     held = np.stack([peak, force[..., -1]])[..., count:]
@@ -310,10 +302,11 @@ def _curves(
         },
         {"temperature": kelvins, "speed": list(speeds), "slip": slips, "brake": list(BRAKES)},
     ).assign_coords(table[["kind", "bound"]].coords)
-    return data.merge(table).assign(_formulas(data))
+    formulas = fitted_formulas(data.force.sel(bound="value", drop=True))
+    return data.merge(table).assign(formulas)
 
 
-def _peaks(slips: Array, force: Array) -> tuple[Array, Array]:
+def peaks(slips: Array, force: Array) -> tuple[Array, Array]:
     """Return the largest forces and their slips, by cubics through the curves over ln s."""
     from scipy.interpolate import CubicSpline  # slow to import
 
@@ -322,16 +315,3 @@ def _peaks(slips: Array, force: Array) -> tuple[Array, Array]:
     unknown = np.isnan(force).any(-1)  # an end without an interval
     best = fine[np.argmax(curves, axis=-1)]
     return np.where(unknown, np.nan, curves.max(-1)), np.where(unknown, np.nan, best)
-
-
-def _formulas(data: xr.Dataset) -> dict[str, Any]:
-    """Return the parameters of the formulas through the value of each curve, and their misfits."""
-    curves = data.force.sel(bound="value", drop=True)
-    variables: dict[str, Any] = {}
-    for name, formula in FORMULAS.items():
-        along = f"{name}_parameter"
-        fits = [formula.fit(data.slip.values, y) for y in curves.values.reshape(-1, data.slip.size)]
-        variables[along] = (along, [*formula.parameters, MISFIT])
-        values = np.reshape(fits, (*curves.shape[:-1], -1))
-        variables[name] = ((*curves.dims[:-1], along), values, {"units": "1"})
-    return variables

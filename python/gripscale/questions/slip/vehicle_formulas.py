@@ -7,9 +7,10 @@ Dynamics, 3rd ed. (2012), eq. 4.49, the Magic Formula without shifts.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from gripscale.core.arrays import Array
 
@@ -62,3 +63,16 @@ FORMULAS = {
         "D sin(C atan(B s - E (B s - atan(B s))))",
     ),
 }
+
+
+def fitted_formulas(force: xr.DataArray) -> dict[str, Any]:
+    """Return the parameters of the formulas through curves over `slip`, and their misfits."""
+    curves, slip = force.transpose(..., "slip"), force.slip.values
+    variables: dict[str, Any] = {}
+    for name, formula in FORMULAS.items():
+        along = f"{name}_parameter"
+        fits = [formula.fit(slip, curve) for curve in curves.values.reshape(-1, slip.size)]
+        variables[along] = (along, [*formula.parameters, MISFIT])
+        values = np.reshape(fits, (*curves.shape[:-1], -1))
+        variables[name] = ((*curves.dims[:-1], along), values, {"units": "1"})
+    return variables
