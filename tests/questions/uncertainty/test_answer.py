@@ -220,6 +220,16 @@ def test_derivatives_stand_beside_samples(folder: Path) -> None:
     assert any("not linear" in note for note in with_errors(data, label, 1.5 * carried))
 
 
+def test_a_range_of_the_chain_alone_has_no_derivative(folder: Path) -> None:
+    """It asks for both models; derivatives are those of the direct contact."""
+    choice = only(cut_off="0.98 mm:1.02 mm", load_time="0.5:2")
+    data = propagate(read_case(folder / "case.toml"), choice, samples=10)
+    assert data.model.values.tolist() == ["chain", "direct"]
+    carried = data.friction_first_order
+    assert float(carried.sel(source="cut_off")) > 0.0
+    assert np.isnan(float(carried.sel(source="load_time")))
+
+
 def with_errors(data: xr.Dataset, label: str, sampled: float) -> list[str]:
     """Return the notes of the parts where the samples gave a source this error."""
     errors = data.answer_friction_part_error.copy()

@@ -230,7 +230,9 @@ def first_order(
     measurement = Measurement.of(case)
     asked = uncertainty or Uncertainty.of_case(stated_options(case))
     tangent = Tangent.of(case)
-    drawn = replace(asked, without=(*asked.without, ROAD, GRID))
+    # a range of a source that only the chain has says nothing of the direct contact
+    ranges = {name: v for name, v in asked.ranges.items() if DIRECT in SOURCES[name].models}
+    drawn = replace(asked, without=(*asked.without, ROAD, GRID), ranges=ranges)
     sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
