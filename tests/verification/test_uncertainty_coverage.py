@@ -13,13 +13,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.model import Load
 from gripscale.questions import Uncertainty
 from gripscale.questions.uncertainty.propagation import quantiles
-from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
+from gripscale.questions.uncertainty.sampled_inputs import Inputs
 from gripscale.questions.uncertainty.sampling import draws
-from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
+from gripscale.rubber import MasterCurve, Rubber
 from gripscale.surface import (
     HeightDifference,
     Measured,
@@ -60,8 +61,8 @@ def road(seed: int) -> Profile:
     return self_affine_profile(HURST, CUT_OFF, HEIGHT, LENGTH, STEP, seed)
 
 
-def measured(seed: int) -> Measurement:
-    """Return a stretch of the road and a noisy master curve of the rubber."""
+def measured(seed: int) -> Case:
+    """Return a case of a stretch of the road and a noisy master curve of the rubber."""
     line = road(seed)
     correlation = height_difference(line)
     surface = Surface(
@@ -70,8 +71,8 @@ def measured(seed: int) -> Measurement:
     modulus = TRUE_RUBBER.complex_modulus(2.0 * np.pi * FREQUENCY)
     noise = np.exp(NOISE * np.random.default_rng(seed).standard_normal((2, FREQUENCY.size)))
     master = MasterCurve(FREQUENCY, modulus.real * noise[0], modulus.imag * noise[1])
-    rubber, fit = fit_prony_report(master)
-    return Measurement(surface, rubber, LOAD, master, fit)
+    load = {name: getattr(LOAD, name) for name in ("pressure", "speed", "footprint")}
+    return Case(surface, master, **load)
 
 
 def interval(seed: int) -> np.ndarray:

@@ -1,7 +1,8 @@
-"""Samples of a case, with an `Uncertainty` made by hand."""
+"""Samples of a case with an `Uncertainty` made by hand, and of a case that is changed."""
 
 from __future__ import annotations
 
+from copy import copy
 from typing import Any
 
 import xarray as xr
@@ -10,6 +11,14 @@ from gripscale.case import Case
 from gripscale.questions import Uncertainty
 from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.sampling import stated_options
+
+
+def changed(case: Case, **parts: Any) -> Case:
+    """Return a case with other parts, which are taken as they are."""
+    other = copy(case)
+    vars(other).update(parts)
+    return other
+
 
 _BENCH = ("folder", "workers", "client", "on_task", "on_answer")
 

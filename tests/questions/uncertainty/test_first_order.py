@@ -14,7 +14,7 @@ from gripscale.case_file import read_case
 from gripscale.core.errors import InputError
 from gripscale.questions import Uncertainty, first_order
 from gripscale.questions.uncertainty.first_order import SOLVED, Tangent
-from gripscale.questions.uncertainty.sampled_inputs import CleanedProfiles, Measurement
+from gripscale.questions.uncertainty.sampled_inputs import CleanedProfiles
 from gripscale.questions.uncertainty.sampling import draws
 from gripscale.questions.uncertainty.sources import SOURCES
 from tests.samples import case_text, write_short_road
@@ -100,7 +100,7 @@ def test_noise_of_the_heights_is_one_way(results, tangent):
     scatter alone."""
     names = [name for name in SOURCES if name != "height_noise"]
     noise = Uncertainty(names, {"height_noise": "120 um"})
-    sources = noise.of(Measurement.of(results), ["direct"]).sources
+    sources = noise.of(results, ["direct"]).sources
     drawn = [each.inputs for each in draws(tangent.usual, sources, SOLVED["height_noise"], 0)]
     changes = np.array([tangent.solved_change(inputs) for inputs in drawn])
     mean, scatter = changes.mean(axis=0), changes.std(axis=0)

@@ -8,19 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripscale import Rubber
+from gripscale import Case, Rubber
 from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
 from gripscale.questions import Range, Uncertainty
-from gripscale.questions.uncertainty.sampled_inputs import (
-    Inputs,
-    LongerLoaded,
-    Measurement,
-    RefinableLongerLoaded,
-    loaded_longer,
-)
+from gripscale.questions.uncertainty.sampled_inputs import Inputs, LongerLoad
 from gripscale.questions.uncertainty.sampling import draws
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.rubber import WLF
@@ -34,8 +28,8 @@ from gripscale.surface import (
     height_difference,
 )
 from gripscale.theory.half_plane import HalfPlane
-from gripscale.wave.block import FiniteStrainBlock
-from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
+
+from .sampled import changed
 
 SAMPLES = 40
 HALF_PLANES = Chain(HalfPlane(points=64))
@@ -111,12 +105,12 @@ def test_profiles_vary_the_correlation_and_the_lines(known):
     one = alone("profile", known)[0]
     assert one.inputs.correlation is not known.surface.correlation
     measured, _ = one.inputs.for_model(DirectContact())
-    assert not np.array_equal(measured.measured.cleaned[0].z, known.profiles[0].z)
+    assert not np.array_equal(measured.measured.cleaned[0].z, known.surface.measured.followed[0].z)
 
 
 def test_temperature_and_pressure_are_normal_about_the_case(known):
     rubber = replace(known.rubber, reference_temperature=293.15, shift=WLF(8.0, 120.0))
-    shifted = replace(known, rubber=rubber, temperature=293.15)
+    shifted = changed(known, measured_rubber=replace(known.measured_rubber, rubber=rubber))
     drawn = alone("temperature", shifted, temperature="2 K")
     conditions = [one.inputs.for_model(DirectContact())[1].conditions for one in drawn]
     # the ends of forty draws scatter
@@ -175,20 +169,19 @@ def test_waves_are_stacks_as_good(known):
         alone("waves", known, waves=24)
 
 
-def test_longer_loads_reach_the_solver():
-    class Told(HalfPlane):
-        def solve(self, problem, start=None):
-            return problem.load.load_time
-
-    problem = WaveProblem(Rubber(6e6), Sine(1e-2, 1e-3), WaveLoad(3e5, 0.3, 2.0))
-    assert loaded_longer(Told(), 1.5).solve(problem) == 3.0
-
-
-def test_a_solver_stays_refinable_or_not():
-    assert type(loaded_longer(HalfPlane(), 2.0)) is LongerLoaded
-    longer = loaded_longer(FiniteStrainBlock(), 2.0)
-    assert isinstance(longer, RefinableLongerLoaded)
-    assert longer.coarser() == loaded_longer(FiniteStrainBlock().coarser(), 2.0)
+@pytest.mark.parametrize("load_time", ["passage", 0.4])
+def test_longer_loads_reach_the_solver(known, load_time):
+    """Whatever load time the case states; not the direct contact, which has none."""
+    load = Load(3e5, 0.3, 0.1, load_time)
+    inputs = replace(Inputs.of(known), load_time_factor=1.5)
+    tasks = [inputs.tasks(model, [load])[0] for model in (HALF_PLANES, DirectContact())]
+    assert isinstance(tasks[0].load, LongerLoad)
+    assert tasks[1].load == load
+    longer, usual = (
+        HALF_PLANES.solve(known.rubber, known.surface.sines, each).scales[0].load_time
+        for each in (tasks[0].load, load)
+    )
+    assert longer == pytest.approx(1.5 * usual)
 
 
 STEPS = {100: 2.0, 400: 2.0, 700: 5.0, 1000: 9.5}
@@ -198,7 +191,7 @@ STEPS = {100: 2.0, 400: 2.0, 700: 5.0, 1000: 9.5}
 @pytest.fixture(scope="module")
 def spiky(known):
     """Return what is known of the road with jumps, cleaned as in a case with the usual limit."""
-    line = known.profiles[0]
+    line = known.surface.measured.followed[0]
     z = line.z.copy()
     for at, slope in STEPS.items():
         # between its neighbours, but for the jump
@@ -208,7 +201,7 @@ def spiky(known):
     measured = Measured([(raw, clean(raw, **options)[0])], [], None, "")
     correlation = height_difference(measured.cleaned)
     surface = replace(known.surface, measured=measured, correlation=correlation)
-    return replace(known, surface=surface, cleaning=options)
+    return changed(known, surface=surface, cleaning=options)
 
 
 def test_cleaning_marks_other_spikes_and_fills_gaps_in_both_ways(spiky):
@@ -256,12 +249,12 @@ def test_cleaning_reaches_correlation_blocks_and_contact(spiky):
 
 
 def test_cleaning_has_nothing_to_draw_where_nothing_is_cleaned(spiky, known):
-    left = replace(spiky, cleaning={**spiky.cleaning, "spikes": None})
+    left = changed(spiky, cleaning={**spiky.cleaning, "spikes": None})
     with pytest.raises(InputError, match="no source of uncertainty is left"):
         alone("cleaning", left)
     assert alone("cleaning", left, cleaning="2:4"), "a stated range asks for it"
     with pytest.raises(InputError, match="no source of uncertainty is left"):
-        alone("cleaning", replace(known, cleaning={}))
+        alone("cleaning", changed(known, cleaning={}))
 
 
 def test_leaving_out_a_source_changes_no_draw_of_the_others(known):
@@ -273,7 +266,7 @@ def test_leaving_out_a_source_changes_no_draw_of_the_others(known):
 
 def test_waves_by_hand_and_a_named_rubber_leave_what_they_leave():
     stack = SineStack(np.array([0.01, 0.002]), np.array([5e-4, 1e-4]))
-    known = Measurement(Surface(stack, "by hand"), Rubber(6e6), Load(3e5, 0.3, 0.1))
+    known = Case(Surface(stack, "by hand"), Rubber(6e6), pressure=3e5, speed=0.3)
     chosen = Uncertainty().of(known, ["chain"])
     assert [source.name for source in chosen.sources] == ["bulk_modulus", "load_time"]
     assert len(chosen.left_out) == len(SOURCES) - 2
@@ -314,10 +307,10 @@ def predicted(known, one):
 
 def test_the_direct_contact_of_a_map_is_refused_at_the_start_where_blocks_are_drawn(known):
     """One sentence before anything is solved; the chain draws blocks of its lines."""
-    line = known.profiles[0]
+    line = known.surface.measured.followed[0]
     across = np.arange(16) * line.step
     heights = HeightMap(line.x, across, np.repeat(line.z[:, None], across.size, axis=1))
-    on_map = replace(known, surface=replace(known.surface, measured=Measured.of(heights)))
+    on_map = changed(known, surface=replace(known.surface, measured=Measured.of(heights)))
     said = "the direct contact of a map has no blocks of profiles to draw; leave out the source"
     for models in (["direct"], ["chain", "direct"]):
         with pytest.raises(InputError, match=said):
@@ -330,10 +323,10 @@ def test_the_direct_contact_of_a_map_is_refused_at_the_start_where_blocks_are_dr
 def test_profiles_without_a_block_each_are_refused_at_the_start(known):
     """Twelve profiles of a largest wave each hold fewer blocks of two waves than profiles."""
     wave = float(known.surface.sines.wavelength[0])
-    line = known.profiles[0]
+    line = known.surface.measured.followed[0]
     points = int(wave / line.step)
     short = [Profile(line.x[:points], line.z[k : k + points]) for k in range(12)]
-    cut = replace(known, surface=replace(known.surface, measured=Measured.of(short)))
+    cut = changed(known, surface=replace(known.surface, measured=Measured.of(short)))
     choice = Uncertainty(block_length=2.0 * wave)
     with pytest.raises(InputError, match="12 profiles must hold a block each"):
         choice.of(cut, ["direct"])

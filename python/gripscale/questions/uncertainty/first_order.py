@@ -43,7 +43,7 @@ from gripscale.half_space.sensitivity import FrictionAdjoint
 from gripscale.model import SAMPLING_ERRORS
 from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.uncertainty.sampled_answer import GRID, ROAD
-from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
+from gripscale.questions.uncertainty.sampled_inputs import Inputs
 from gripscale.questions.uncertainty.sampling import Uncertainty, draws, stated_options
 from gripscale.questions.uncertainty.sources import SOURCES, Source
 from gripscale.rubber import Rubber
@@ -91,7 +91,7 @@ class Tangent:
         amounts = _amounts(contacts)
         errors = [float(answer.get(name, math.nan)) for name in reversed(SAMPLING_ERRORS)]
         adjoints = [FrictionAdjoint.of(contact) for contact in contacts]
-        usual, share = Inputs.of(Measurement.of(case)), amounts / amounts.sum(1, keepdims=True)
+        usual, share = Inputs.of(case), amounts / amounts.sum(1, keepdims=True)
         return cls(case, usual, contacts, adjoints, share, np.array(errors))
 
     def solved_change(self, inputs: Inputs) -> Array:
@@ -227,13 +227,12 @@ def first_order(
     seed : int
         Seed of the random numbers.
     """
-    measurement = Measurement.of(case)
     asked = uncertainty or Uncertainty.of_case(stated_options(case))
     tangent = Tangent.of(case)
     # a range of a source that only the chain has says nothing of the direct contact
     ranges = {name: v for name, v in asked.ranges.items() if DIRECT in SOURCES[name].models}
     drawn = replace(asked, without=(*asked.without, ROAD, GRID), ranges=ranges)
-    sources = drawn.of(measurement, (DIRECT,), any_number=True).sources
+    sources = drawn.of(case, (DIRECT,), any_number=True).sources
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         errors = _standard_errors(tangent, sources, count, seed)

@@ -36,7 +36,7 @@ from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.uncertainty import sampling
 from gripscale.questions.uncertainty.first_order import first_order
 from gripscale.questions.uncertainty.sampled_answer import chain_answer, measured_answer
-from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
+from gripscale.questions.uncertainty.sampled_inputs import Inputs
 from gripscale.questions.uncertainty.sampling import SampledInputs, Uncertainty
 from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES, Source
 from gripscale.questions.uncertainty.variance_shares import shares
@@ -308,7 +308,7 @@ def propagate(
     data = None if path is None else load_stored(path)
     if data is not None and data.attrs.get("plan_key") == plan.key:
         return data
-    chosen = plan.uncertainty.of(Measurement.of(plan.case), plan.models)
+    chosen = plan.uncertainty.of(plan.case, plan.models)
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         data = _answered(plan, chosen, bench, on_answer)
@@ -335,7 +335,7 @@ def _answered(
 ) -> xr.Dataset:
     """Return all samples, and the answer of the case at each load."""
     case, axis = plan.case, plan.axis
-    usual = Inputs.of(Measurement.of(case))
+    usual = Inputs.of(case)
     drawn = list(sampling.draws(usual, chosen.sources, plan.samples, plan.seed))
     loads, labels = [case.load], [""]
     if axis is not None:

@@ -16,101 +16,34 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
-from gripscale.core import Checked, InputError, checks, parse_quantity, provenance
+from gripscale.core import Checked, InputError, checked, checks, parse_quantity, provenance
 from gripscale.experiment.task import Task
 from gripscale.model import Load, Model, OnProgress
 from gripscale.questions.vary.axis import plain_number
-from gripscale.rubber import PronyFit, Rubber
-from gripscale.rubber.master_curve import MasterCurve
+from gripscale.rubber import Rubber
 from gripscale.surface import Profile, fit_sines
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.resampling import fill_gaps_smoothly
 from gripscale.surface.sine_fit import MOST_SINE_WAVES
 from gripscale.surface.surface import Measured, Surface, SurfacePart
-from gripscale.wave.kernel import RefinableSolver, WaveSolver
-from gripscale.wave.problem import WaveProblem
-from gripscale.wave.result import ScaleResult
 
 
-def loaded_longer(solver: WaveSolver, factor: float) -> WaveSolver:
-    """Return the solver for waves loaded `factor` [-] times as long: t_i = factor A_(i-1) / v.
+class LongerLoad(Load):
+    """A load under which each wave is loaded `factor` [-] times as long: t_i = factor A_(i-1) / v.
 
     The load time is that of a mean contact; contacts are shorter and longer than their mean, and
     the modulus of the mean state goes with it.
     """
-    if isinstance(solver, RefinableSolver):
-        return RefinableLongerLoaded(solver, factor)
-    return LongerLoaded(solver, factor)
 
+    factor: float = checked(checks.positive, default=1.0)
 
-@dataclass(frozen=True)
-class LongerLoaded:
-    """What `loaded_longer` makes of a solver that cannot be refined."""
-
-    solver: WaveSolver
-    factor: float
-
-    @property
-    def name(self) -> str:
-        """Word for the solver within."""
-        return self.solver.name
-
-    def solve(self, problem: WaveProblem, start: ScaleResult | None = None) -> ScaleResult:
-        """Return contact and friction of `problem`, loaded so much longer."""
-        load = replace(problem.load, load_time=self.factor * problem.load.load_time)
-        return self.solver.solve(replace(problem, load=load), start)
-
-
-@dataclass(frozen=True)
-class RefinableLongerLoaded(LongerLoaded):
-    """What `loaded_longer` makes of a `RefinableSolver`."""
-
-    solver: RefinableSolver
-
-    def coarser(self) -> WaveSolver:
-        """Return the coarser solver, loaded as long."""
-        return loaded_longer(self.solver.coarser(), self.factor)
+    def time_under(self, contact_length: float) -> float:
+        """Return for how long what slides under a contact so long [m] is loaded [s]."""
+        return self.factor * super().time_under(contact_length)
 
 
 # Arguments of `fit_sines` that say where the waves end.
 END_KEYS = ("cut_off", "smallest_wavelength")
-
-
-@dataclass(frozen=True, eq=False)
-class Measurement:
-    """What a case is known from: prepared surface and rubber, and what they were fitted to."""
-
-    surface: Surface
-    rubber: Rubber
-    load: Load
-    master: MasterCurve | None = None
-    fit: PronyFit | None = None
-    temperature: float | None = None  # before the contact [K]; None where it is not known
-    # Arguments of `gripscale.clean` the profiles were cleaned with; none where it is not known.
-    cleaning: Mapping[str, Any] = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, case: Case) -> Measurement:
-        """Return what a prepared case is known from."""
-        measured = case.measured_rubber
-        rubber, master, fit = measured.rubber, measured.master, measured.fit
-        kelvin = (case.conditions or Conditions()).temperature_of(rubber)
-        return cls(case.surface, rubber, case.load, master, fit, kelvin, case.cleaning)
-
-    @property
-    def profiles(self) -> list[Profile]:
-        """The profiles or lines of a map that rubber follows; none of waves stated by hand."""
-        return [] if self.surface.measured is None else self.surface.measured.followed
-
-    @property
-    def is_map(self) -> bool:
-        """Whether a map was measured."""
-        return self.surface.measured is not None and self.surface.measured.map is not None
-
-    @property
-    def fitted(self) -> bool:
-        """Whether the waves were fitted to a measured correlation."""
-        return self.surface.correlation is not None and bool(self.surface.fit)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,10 +79,9 @@ class Inputs:
     log_pressure: float = 0.0  # logarithm of the nominal pressure over that of the load [-]
 
     @classmethod
-    def of(cls, measurement: Measurement) -> Inputs:
+    def of(cls, case: Case) -> Inputs:
         """Return the inputs of the case itself."""
-        surface = measurement.surface
-        return cls(surface, measurement.rubber, surface.fit)
+        return cls(case.surface, case.rubber, case.surface.fit)
 
     @property
     def correlation(self) -> HeightDifference | None:
@@ -200,8 +132,6 @@ class Inputs:
             model = model.with_conditions(warmed)
         if "waves" not in model.needs:
             return Surface(None, surface.source, measured=self.measured, end=self.end), model
-        if isinstance(model, Chain) and self.load_time_factor != 1.0:
-            model = replace(model, solver=loaded_longer(model.solver, self.load_time_factor))
         correlation = self.correlation
         prepared = correlation is surface.correlation and dict(self.fit) == dict(surface.fit)
         if correlation is None or prepared:
@@ -211,9 +141,11 @@ class Inputs:
     def tasks(self, model: Model, loads: Sequence[Load]) -> list[Task]:
         """Return what has to be solved under each load; a refusal of the model is an answer."""
         surface, changed = self.for_model(model)
-        relevant = surface.only(changed.needs)
-        solved = FailSafeModel(changed)
-        return [Task(self.rubber, relevant, self.under(load), solved) for load in loads]
+        relevant, solved = surface.only(changed.needs), FailSafeModel(changed)
+        loads = [self.under(load) for load in loads]
+        if isinstance(model, Chain) and self.load_time_factor != 1.0:
+            loads = [LongerLoad(**vars(load), factor=self.load_time_factor) for load in loads]
+        return [Task(self.rubber, relevant, load, solved) for load in loads]
 
     def under(self, load: Load) -> Load:
         """Return a load with the pressure of this sample."""

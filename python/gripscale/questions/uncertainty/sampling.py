@@ -11,7 +11,7 @@ import numpy as np
 
 from gripscale.case import Case
 from gripscale.core import InputError, checks
-from gripscale.questions.uncertainty.sampled_inputs import Inputs, Measurement
+from gripscale.questions.uncertainty.sampled_inputs import Inputs
 from gripscale.questions.uncertainty.sources import (
     SOURCES,
     Source,
@@ -32,6 +32,13 @@ class Chosen(NamedTuple):
 
     sources: list[Source]
     left_out: list[str]
+
+
+# Sources that nobody can give values of, and what they are drawn from.
+NO_VALUES = {
+    **dict.fromkeys(("profile", "modulus"), "what was measured"),
+    "grid": "its estimate",
+}
 
 
 @dataclass(frozen=True)
@@ -66,10 +73,8 @@ class Uncertainty:
         for name in self.ranges:
             if name in self.without:
                 raise InputError(f"{name} must be left out or given; got both")
-            if name in ("profile", "modulus"):
-                raise InputError(f"{name} is drawn from what was measured; got values given for it")
-            if name == "grid":
-                raise InputError("grid is drawn from its estimate; got values given for it")
+            if name in NO_VALUES:
+                raise InputError(f"{name} is drawn from {NO_VALUES[name]}; got values given for it")
         if self.block_length is not None:
             checks.positive("block_length", self.block_length, unit="m")
 
@@ -95,9 +100,7 @@ class Uncertainty:
         length = options.block_length if block_length is None else block_length
         return cls(tuple(without), merged | now, length)
 
-    def of(
-        self, measurement: Measurement, models: Sequence[str], *, any_number: bool = False
-    ) -> Chosen:
+    def of(self, case: Case, models: Sequence[str], *, any_number: bool = False) -> Chosen:
         """Return the sources of a case that have an effect on one of `models`.
 
         Raises `InputError` if a source that is given has nothing to draw, or, unless `any_number`
@@ -110,8 +113,9 @@ class Uncertainty:
                     raise SourceNotApplicable("left out as asked")
                 if not set(source.models) & set(models):
                     raise SourceNotApplicable(f"no effect on the model {' or '.join(models)}")
-                options = SourceOptions(self.ranges.get(name), self.block_length, models)
-                chosen.sources.append(source.of(measurement, options))
+                values = self.ranges.get(name)
+                options = SourceOptions(name, values, self.block_length, models)
+                chosen.sources.append(source.of(case, options))
             except SourceNotApplicable as why:
                 if name in self.ranges:
                     raise InputError(f"{name} is given and has nothing to draw: {why}") from None

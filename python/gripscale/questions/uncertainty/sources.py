@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, MutableMapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Container, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from statistics import NormalDist
 from typing import Any, NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from gripscale.case import Case
+from gripscale.conditions import Conditions
 from gripscale.core import Array, InputError, checks
 from gripscale.questions.uncertainty import sampled_inputs as quantities
 from gripscale.questions.uncertainty.profile_blocks import ProfileBlocks
-from gripscale.questions.uncertainty.sampled_inputs import CleanedProfiles, Inputs, Measurement
+from gripscale.questions.uncertainty.sampled_inputs import CleanedProfiles, Inputs, Range
 from gripscale.questions.uncertainty.series_scatter import SeriesScatter, with_series
 from gripscale.rubber import Rubber
-from gripscale.surface import Profile, SineStack, clean, sine_ambiguity
+from gripscale.surface import Profile, SineStack, Surface, clean, sine_ambiguity
 from gripscale.surface.low_pass import followed
 from gripscale.surface.sines import FACTOR_RANGE
 from gripscale.uncertainty_options import pressure_error
@@ -26,6 +27,7 @@ from gripscale.uncertainty_options import pressure_error
 # Sources whose standard error a case must state: nothing in it says how large it is.
 STATED = ("height_noise", "temperature", "pressure")
 NOT_STATED = "standard error not stated"
+NOT_MEASURED, BY_HAND = "no profile was measured", "the waves are stated by hand"
 
 
 class Coordinate(NamedTuple):
@@ -44,17 +46,18 @@ class Coordinate(NamedTuple):
 class SourceOptions:
     """What the user says: the values of one source, the length of a block, what predicts."""
 
+    name: str
     values: Any = None
     block_length: float | None = None
     models: Sequence[str] = ()
 
-    def range_of(
-        self, name: str, quantity: Callable[[Any], float], usual: quantities.Range
-    ) -> quantities.Range:
+    def range_of(self, quantity: Callable[[Any], float], usual: Range | None = None) -> Range:
         """Return the values the user states, else the usual range."""
-        return usual if self.values is None else quantities.Range.read(name, self.values, quantity)
+        if usual is not None and self.values is None:
+            return usual
+        return Range.read(self.name, self.values, quantity)
 
-    def standard_error(self, name: str, quantity: Callable[[Any], float]) -> float:
+    def standard_error(self, quantity: Callable[[Any], float]) -> float:
         """Return the standard error the user states [SI]; raise `InputError` for what is none."""
         if self.values is None:
             raise SourceNotApplicable(NOT_STATED)
@@ -62,7 +65,7 @@ class SourceOptions:
             return quantity(self.values)
         except ValueError as wrong:
             short = checks.short_repr(self.values)
-            raise InputError(f"{name}: {short}: {wrong}") from wrong
+            raise InputError(f"{self.name}: {short}: {wrong}") from wrong
 
 
 class SourceNotApplicable(InputError):
@@ -73,7 +76,7 @@ Drawn = tuple[Inputs, Sequence[float]]  # the inputs with one draw, and the coor
 # Draws from a quantile, above 0 and below 1 and spread evenly over all samples, the random numbers
 # of one sample and its inputs.
 Draw = Callable[[float, np.random.Generator, Inputs], Drawn]
-Prepare = Callable[[Measurement, SourceOptions], Draw]
+Prepare = Callable[[Case, SourceOptions], Draw]
 
 
 @dataclass(frozen=True)
@@ -97,33 +100,24 @@ class Source:
         """Degrees of freedom of what it draws from; None where nothing limits them."""
         return self.draw.freedom if isinstance(self.draw, BlockDraw) else None
 
-    def of(self, measurement: Measurement, options: SourceOptions) -> Source:
+    def of(self, case: Case, options: SourceOptions) -> Source:
         """Return the source of a case, as `prepare` makes it."""
-        return replace(self, draw=self.prepare(measurement, options))
+        return replace(self, draw=self.prepare(case, options))
 
 
-@dataclass(frozen=True, eq=False)
 class BlockDraw:
     """Draws another stretch of the same road, see `ProfileBlocks`; blocks have no order."""
 
-    blocks: ProfileBlocks
-    # Of profiles that many samples share.
-    _recut: MutableMapping[CleanedProfiles, ProfileBlocks] = field(
-        default_factory=WeakKeyDictionary
-    )
-
-    @property
-    def freedom(self) -> float:
-        """Degrees of freedom of the scatter of the draws: they are of so many blocks."""
-        return len(self.blocks) - 1.0
+    def __init__(self, blocks: ProfileBlocks) -> None:
+        self.blocks = blocks
+        self.freedom = len(blocks) - 1.0  # of the scatter of the draws: they are of so many blocks
+        # of profiles cleaned otherwise, which many samples share
+        self.of_cleaned = cache(lambda cleaned: replace(blocks, profiles=cleaned.profiles))
 
     def __call__(self, _: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
         """Draw blocks of the profiles as they are cleaned in the sample."""
-        drawn, blocks = self.blocks.draw(random), self.blocks
-        if inputs.cleaned is not None:
-            if inputs.cleaned not in self._recut:
-                self._recut[inputs.cleaned] = replace(blocks, profiles=inputs.cleaned.profiles)
-            blocks = self._recut[inputs.cleaned]
+        drawn, cleaned = self.blocks.draw(random), inputs.cleaned
+        blocks = self.blocks if cleaned is None else self.of_cleaned(cleaned)
         changed = replace(
             inputs,
             recorrelated=partial(blocks.correlation, drawn),
@@ -160,11 +154,20 @@ def _number(value_at: Callable[[float], float], applied: Callable[[Inputs, float
     return draw
 
 
-def _cleaned(lines: Sequence[Profile], measurement: Measurement, **changed: Any) -> CleanedProfiles:
+def _cleaned(lines: Sequence[Profile], case: Case, **changed: Any) -> CleanedProfiles:
     """Return profiles cleaned as in the case but for what is changed."""
-    options = {**measurement.cleaning, **changed}
-    after = tuple(followed(clean(line, **options)[0]) for line in lines)
-    return CleanedProfiles(after, measurement.surface.counted)
+    after = tuple(followed(clean(line, **{**case.cleaning, **changed})[0]) for line in lines)
+    return CleanedProfiles(after, case.surface.counted)
+
+
+def _raw(case: Case, on_map: str) -> list[Profile]:
+    """Return the profiles before cleaning; `on_map` says why there are none of a map."""
+    measured = case.surface.measured
+    if measured is None or not case.cleaning:
+        raise SourceNotApplicable(NOT_MEASURED)
+    if measured.map is not None:
+        raise SourceNotApplicable(on_map)
+    return [line for line, _ in measured.profiles]
 
 
 def _rms_step(lines: Sequence[Profile]) -> float:
@@ -175,30 +178,26 @@ def _rms_step(lines: Sequence[Profile]) -> float:
 @_source(
     "noise of the heights", rms_step=Coordinate("ln of the rms step over that of the profiles")
 )
-def _height_noise(measurement: Measurement, options: SourceOptions) -> Draw:
+def _height_noise(case: Case, options: SourceOptions) -> Draw:
     """Draw the noise of the instrument once more, before the profiles are cleaned.
 
     The measured heights hold one draw of it already, which is not known. A second one of the same
     size moves the results about as far as the first did.
     """
-    measured = measurement.surface.measured
-    if measured is None or not measurement.cleaning:
-        raise SourceNotApplicable("no profile was measured")
-    if measurement.is_map:
-        raise SourceNotApplicable("a map is taken as measured")
-    size = options.standard_error("height_noise", quantities.length)
-    usual = _rms_step(measurement.profiles)
+    lines = _raw(case, "a map is taken as measured")
+    assert case.surface.measured is not None
+    size = options.standard_error(quantities.length)
+    usual = _rms_step(case.surface.measured.followed)
 
     def noisy(seed: int) -> list[Profile]:
         random = np.random.default_rng(seed)
         return [
-            replace(line, z=line.z + size * random.standard_normal(len(line)))
-            for line, _ in measured.profiles
+            replace(line, z=line.z + size * random.standard_normal(len(line))) for line in lines
         ]
 
     def draw(_: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
         raw = partial(noisy, int(random.integers(2**62)))
-        cleaned = _cleaned(raw(), measurement)
+        cleaned = _cleaned(raw(), case)
         ratio = math.log(_rms_step(cleaned.profiles) / usual)
         return replace(inputs, raw=raw, cleaned=cleaned), [ratio]
 
@@ -217,27 +216,21 @@ SPIKE_LEVELS = 8  # limits a range is drawn at: the profiles are cleaned once fo
     spike_slope=Coordinate("ln of the limit of spikes over that of the case"),
     smooth_gaps=Coordinate("1 where cubics fill the gaps, 0 for straight lines"),
 )
-def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
+def _cleaning(case: Case, options: SourceOptions) -> Draw:
     """Draw the limit of spikes, and how the gaps they leave are filled.
 
     Whether the limit holds across gaps is not drawn: that wears away true flanks, a third of the
     points of a coarse road at low limits, and is a choice of the case.
     """
-    usual, measured = measurement.cleaning, measurement.surface.measured
-    if measured is None or not usual:
-        raise SourceNotApplicable("no profile was measured")
-    if measurement.is_map:
-        raise SourceNotApplicable("a map is cleaned as the case states")
-    scale = usual["spike_slope"] / USUAL_SPIKE
+    raw, usual = _raw(case, "a map is cleaned as the case states"), case.cleaning
     if options.values is None and usual["spikes"] is None:
         raise SourceNotApplicable("the case leaves spikes in")
-    usual_range = quantities.Range((scale * SPIKE_RANGE[0], scale * SPIKE_RANGE[1]))
-    levels = options.range_of("cleaning", quantities.factor, usual_range).levels(SPIKE_LEVELS)
-    raw = [line for line, _ in measured.profiles]
+    scale = usual["spike_slope"] / USUAL_SPIKE
+    usual_range = Range((scale * SPIKE_RANGE[0], scale * SPIKE_RANGE[1]))
+    levels = options.range_of(quantities.factor, usual_range).levels(SPIKE_LEVELS)
 
     def cleaned(lines: Sequence[Profile], slope: float) -> CleanedProfiles:
-        rule = usual["spikes"] or "isolated"
-        return _cleaned(lines, measurement, spikes=rule, spike_slope=slope)
+        return _cleaned(lines, case, spikes=usual["spikes"] or "isolated", spike_slope=slope)
 
     as_measured = cache(partial(cleaned, raw))
 
@@ -257,21 +250,27 @@ def _cleaning(measurement: Measurement, options: SourceOptions) -> Draw:
         for lags in ("short", "middle", "long")
     },
 )
-def _profile(measurement: Measurement, options: SourceOptions) -> Draw:
+def _profile(case: Case, options: SourceOptions) -> Draw:
     """Draw another stretch of the same road."""
-    if not measurement.fitted or not measurement.profiles:
-        raise SourceNotApplicable("no profile was measured")
-    if "direct" in options.models and measurement.is_map:
+    surface, measured = case.surface, case.surface.measured
+    profiles = [] if measured is None else measured.followed
+    if not _fitted(surface) or not profiles:
+        raise SourceNotApplicable(NOT_MEASURED)
+    if "direct" in options.models and measured is not None and measured.map is not None:
         raise InputError(
             "the direct contact of a map has no blocks of profiles to draw; leave out the "
             "source profile (without), or ask for the chain only"
         )
-    surface = measurement.surface
     largest = float(surface.sines.wavelength[0])
-    blocks = ProfileBlocks(measurement.profiles, largest, options.block_length, surface.counted)
+    blocks = ProfileBlocks(profiles, largest, options.block_length, surface.counted)
     if "direct" in options.models:
         blocks.require_lines()
     return BlockDraw(blocks)
+
+
+def _fitted(surface: Surface) -> bool:
+    """Return whether the waves were fitted to a measured correlation."""
+    return surface.correlation is not None and bool(surface.fit)
 
 
 GRID_PLACE = "grid_place"  # coordinate of the source `grid`
@@ -282,10 +281,10 @@ GRID_PLACE = "grid_place"  # coordinate of the source `grid`
     ("direct",),
     grid_place=Coordinate("error of the grid over its estimate, from -1 to 1"),
 )
-def _grid(measurement: Measurement, options: SourceOptions) -> Draw:
+def _grid(case: Case, options: SourceOptions) -> Draw:
     """Draw where within the estimated error of its grid the answer of a sample lies."""
-    if measurement.surface.measured is None:
-        raise SourceNotApplicable("no profile was measured")
+    if case.surface.measured is None:
+        raise SourceNotApplicable(NOT_MEASURED)
     return _number(lambda quantile: 2.0 * quantile - 1.0, lambda inputs, _: inputs)
 
 
@@ -304,13 +303,13 @@ def _log_ratios(rubber: Rubber, omega: Array) -> Array:
         for name, text in (("modulus", "|E*|"), ("loss", "E''/E'"))
     },
 )
-def _modulus(measurement: Measurement, options: SourceOptions) -> Draw:
+def _modulus(case: Case, options: SourceOptions) -> Draw:
     """Draw a series the measured moduli leave open, see `SeriesScatter`; series have no order."""
-    master, fit, speed = measurement.master, measurement.fit, measurement.load.speed
+    master, fit, speed = case.measured_rubber.master, case.measured_rubber.fit, case.load.speed
     if master is None or fit is None:
         raise SourceNotApplicable("no moduli were measured")
-    series = SeriesScatter.of(master, fit, measurement.rubber.bulk_modulus)
-    excited = 2.0 * np.pi * speed / measurement.surface.sines.wavelength[[0, -1]]
+    series = SeriesScatter.of(master, fit, case.rubber.bulk_modulus)
+    excited = 2.0 * np.pi * speed / case.surface.sines.wavelength[[0, -1]]
     omega = excited if speed > 0.0 else np.array(fit.measured_band)
 
     def draw(_: float, random: np.random.Generator, inputs: Inputs) -> Drawn:
@@ -327,17 +326,17 @@ BULK_MODULUS_FACTOR = 1.5
 
 
 @_source("bulk modulus", bulk_modulus=Coordinate("bulk modulus", "Pa", False))
-def _bulk_modulus(measurement: Measurement, options: SourceOptions) -> Draw:
+def _bulk_modulus(case: Case, options: SourceOptions) -> Draw:
     """Draw the bulk modulus, hardly ever measured together with a master curve."""
-    usual = quantities.Range.about(measurement.rubber.bulk_modulus, BULK_MODULUS_FACTOR)
+    usual = Range.about(case.rubber.bulk_modulus, BULK_MODULUS_FACTOR)
     return _number(
-        options.range_of("bulk_modulus", quantities.modulus, usual).at,
+        options.range_of(quantities.modulus, usual).at,
         lambda inputs, value: replace(inputs, rubber=replace(inputs.rubber, bulk_modulus=value)),
     )
 
 
 @_source("equilibrium modulus", equilibrium_modulus=Coordinate("equilibrium modulus", "Pa", False))
-def _equilibrium_modulus(measurement: Measurement, options: SourceOptions) -> Draw:
+def _equilibrium_modulus(case: Case, options: SourceOptions) -> Draw:
     """Draw the equilibrium modulus where somebody states it; it has no default.
 
     A DMA measurement does not reach it, and the source `modulus` varies it as far as the slow end
@@ -352,25 +351,24 @@ def _equilibrium_modulus(measurement: Measurement, options: SourceOptions) -> Dr
         rubber = replace(inputs.rubber, equilibrium_modulus=value, admissible=None)
         return replace(inputs, rubber=rubber)
 
-    values = quantities.Range.read("equilibrium_modulus", options.values, quantities.modulus)
-    return _number(values.at, applied)
+    return _number(options.range_of(quantities.modulus).at, applied)
 
 
 @_source("temperature", warming=Coordinate("above the temperature of the case", "K"))
-def _temperature(measurement: Measurement, options: SourceOptions) -> Draw:
+def _temperature(case: Case, options: SourceOptions) -> Draw:
     """Draw the temperature before the contact, normally about that of the case."""
-    error = options.standard_error("temperature", quantities.kelvins)
-    if measurement.rubber.shift is None or measurement.temperature is None:
+    normal = NormalDist(0.0, options.standard_error(quantities.kelvins))
+    before = (case.conditions or Conditions()).temperature_of(case.rubber)
+    if case.rubber.shift is None or before is None:
         raise SourceNotApplicable("the rubber has no temperature shift")
-    normal = NormalDist(0.0, error)
     return _number(normal.inv_cdf, lambda inputs, value: replace(inputs, warming=value))
 
 
 @_source("nominal pressure", log_pressure=Coordinate("ln of the pressure over that of the case"))
-def _pressure(measurement: Measurement, options: SourceOptions) -> Draw:
+def _pressure(case: Case, options: SourceOptions) -> Draw:
     """Draw the nominal pressure, normally in its logarithm about that of the case."""
-    of_load = partial(pressure_error, pressure=measurement.load.pressure)
-    normal = NormalDist(0.0, options.standard_error("pressure", of_load))
+    of_load = partial(pressure_error, pressure=case.load.pressure)
+    normal = NormalDist(0.0, options.standard_error(of_load))
     return _number(normal.inv_cdf, lambda inputs, value: replace(inputs, log_pressure=value))
 
 
@@ -384,14 +382,13 @@ LOAD_TIME_FACTOR = 2.0
     ("chain",),
     load_time_factor=Coordinate("load time over that of the case", "1", False),
 )
-def _load_time(measurement: Measurement, options: SourceOptions) -> Draw:
+def _load_time(case: Case, options: SourceOptions) -> Draw:
     """Draw how long the mean state of a wave has had to relax, over the passage."""
-    if measurement.load.speed == 0.0:
+    if case.load.speed == 0.0:
         raise SourceNotApplicable("at rest it is infinite")
-    if options.values is None and measurement.load.load_time != "passage":
+    if options.values is None and case.load.load_time != "passage":
         raise SourceNotApplicable("the case states it")
-    usual = quantities.Range.about(1.0, LOAD_TIME_FACTOR)
-    values = options.range_of("load_time", quantities.factor, usual)
+    values = options.range_of(quantities.factor, Range.about(1.0, LOAD_TIME_FACTOR))
     return _number(values.at, lambda inputs, value: replace(inputs, load_time_factor=value))
 
 
@@ -399,15 +396,15 @@ def _load_time(measurement: Measurement, options: SourceOptions) -> Draw:
     "cut-off of the roughness",
     cut_off=Coordinate("cut-off, or last wave, of the roughness", "m", False),
 )
-def _cut_off(measurement: Measurement, options: SourceOptions) -> Draw:
+def _cut_off(case: Case, options: SourceOptions) -> Draw:
     """Draw where the roughness ends, by default in an octave about the end of the case.
 
     Nobody knows it better; evenly in its logarithm, as d ln mu / d ln(cut-off) is nearly constant.
     """
-    if not measurement.fitted:
-        raise SourceNotApplicable("the waves are stated by hand")
-    usual = quantities.Range.about(measurement.surface.cutoff_wavelength, math.sqrt(2.0))
-    return _number(options.range_of("cut_off", quantities.length, usual).at, Inputs.ended_at)
+    if not _fitted(case.surface):
+        raise SourceNotApplicable(BY_HAND)
+    usual = Range.about(case.surface.cutoff_wavelength, math.sqrt(2.0))
+    return _number(options.range_of(quantities.length, usual).at, Inputs.ended_at)
 
 
 # Arguments of a fit that leave no choice of waves.
@@ -420,16 +417,16 @@ CHOSEN = ("s_wavelength", "s_amplitude", "first_wavelength", "first_amplitude")
     waves=Coordinate("number of sine waves", "1", False),
     first_wavelength=Coordinate("wavelength of the largest wave", "m", False),
 )
-def _waves(measurement: Measurement, options: SourceOptions) -> Draw:
+def _waves(case: Case, options: SourceOptions) -> Draw:
     """Draw one of the stacks that follow C_z as well as it is known, see `sine_ambiguity`.
 
     All of them count alike; they are ordered by their rms slope, so that the quantile spreads them
     evenly. The cut-off of the sample may leave no room for as many waves: there are fewer where
     factors get too small.
     """
-    surface = measurement.surface
+    surface = case.surface
     if surface.correlation is None or not surface.fit:
-        raise SourceNotApplicable("the waves are stated by hand")
+        raise SourceNotApplicable(BY_HAND)
     fixed = [key for key in CHOSEN if surface.fit.get(key) is not None]
     if fixed or surface.fit.get("single_factor") or len(surface.sines) < 2:
         raise SourceNotApplicable(
@@ -438,9 +435,10 @@ def _waves(measurement: Measurement, options: SourceOptions) -> Draw:
     stacks = sine_ambiguity(surface.correlation, surface.sines).stacks
     good: Sequence[SineStack] = stacks
     if options.values is not None:
-        values = quantities.Range.read("waves", options.values, quantities.count)
-        wanted: Sequence[int] = [int(value) for value in values.values]
-        wanted = range(wanted[0], wanted[-1] + 1) if values.between else wanted
+        values = options.range_of(quantities.count)
+        wanted: Container[int] = [int(value) for value in values.values]
+        if values.between:
+            wanted = range(int(values.values[0]), int(values.values[1]) + 1)
         good = [stack for stack in stacks if len(stack) in wanted]
     if not good:
         numbers = sorted({len(stack) for stack in stacks})
