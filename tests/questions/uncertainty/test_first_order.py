@@ -116,7 +116,7 @@ def test_errors_of_each_source(results):
     assert set(errors) == {"cleaning", "cut_off", "modulus", "bulk_modulus", "profile"}
     assert errors["cut_off"] > errors["bulk_modulus"] > 0.0
     # cut-offs are spread evenly in their logarithm over an octave
-    exponent = Tangent.of(results).contacts[0].cut_off_exponents.friction
+    exponent = Tangent.of(results).parts[0].contact.cut_off_exponents.friction
     spread = abs(exponent) * math.log(2.0) / math.sqrt(12.0)
     assert errors["cut_off"] == pytest.approx(spread, rel=0.05)
     areas = dict(zip(data.source.values, data.contact_fraction_error.values, strict=True))

@@ -23,9 +23,9 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 import xarray as xr
@@ -64,13 +64,76 @@ CARRIED_QUANTITIES = ("friction", "contact_fraction")
 
 
 @dataclass(frozen=True)
+class ContactTangent:
+    """One direct contact of a case, and the derivatives of its friction."""
+
+    usual: Inputs
+    number: int  # of the profile
+    contact: RoughContact
+    adjoint: FrictionAdjoint
+
+    def friction_change(self, inputs: Inputs) -> float:
+        """Return what other inputs than the usual change in ln mu, to first order [-]."""
+        contact, usual, change = self.contact, self.usual, 0.0
+        if inputs.rubber is not usual.rubber:
+            change += float(self.adjoint.by_modulus(self._log_ratio(inputs.rubber)).sum())
+        if inputs.cleaned is not usual.cleaned or inputs.smooth_gaps != usual.smooth_gaps:
+            assert inputs.measured is not None
+            heights = periodic_heights(
+                inputs.measured.surfaces[self.number],
+                smallest_wavelength=contact.smallest_wavelength,
+                periodic=False,
+            )
+            differences = heights.on(contact.grid.shape) - contact.height
+            change += float((self.adjoint.by_height * differences).sum())
+        change /= contact.friction_from_dissipation
+        if inputs.end != usual.end:
+            change += contact.cut_off_exponents.friction * math.log(inputs.end / usual.end)
+        return change + self._by_conditions(inputs, 0)
+
+    def area_changes(self, drawn: Sequence[Inputs]) -> Array:
+        """Return what other rubbers or cut-offs change in ln A_r/A_0, to first order [-]."""
+        ends = np.log([inputs.end / self.usual.end for inputs in drawn])
+        parts = self.contact.cut_off_exponents.contact_fraction * ends
+        if any(inputs.rubber is not self.usual.rubber for inputs in drawn):
+            changes = np.array([self._log_ratio(inputs.rubber) for inputs in drawn])
+            along, directions = _directions(changes, np.abs(self.adjoint.weight))
+            differences = sensitivity.ContactFractionDifferences(self.contact)
+            parts += along @ [differences.by_modulus(each) for each in directions]
+        return np.asarray(parts + [self._by_conditions(inputs, 1) for inputs in drawn])
+
+    def _log_ratio(self, rubber: Rubber) -> ComplexArray:
+        """Return ln(M'/M) [-] of each wave of another rubber, at the temperature of the case."""
+        contact, body = self.contact, self.contact.body
+        solid = (contact.conditions or Conditions()).before(rubber)
+        scales = None if body.by_scale is None else replace(body.by_scale, rubber=solid)
+        other = HalfSpace(solid, body.speed, by_scale=scales, thickness=body.thickness)
+        change = np.log(other.modulus(contact.grid) / body.modulus(contact.grid))
+        return np.broadcast_to(change, contact.grid.spectrum_shape)
+
+    def _by_conditions(self, inputs: Inputs, quantity: int) -> float:
+        """Return what pressure and temperature change in ln mu or ln A_r/A_0."""
+        change = [inputs.log_pressure, inputs.warming]
+        return float(self._by_pressure_and_kelvin[quantity] @ change) if any(change) else 0.0
+
+    @cached_property
+    def _by_pressure_and_kelvin(self) -> Array:
+        """Derivatives of ln mu and ln A_r/A_0 by ln p_0 and T [1/K], shape (2, 2)."""
+        differences = sensitivity.ContactFractionDifferences(self.contact)
+        change = sensitivity.scalar_changes(self.contact).get("temperature", np.zeros(1, complex))
+        by_kelvin = float(self.adjoint.by_modulus(change).sum())
+        friction = np.array([self.adjoint.by_log_pressure, by_kelvin])
+        area = [differences.by_log_pressure(), differences.by_modulus(change)]
+        return np.array([friction / self.contact.friction_from_dissipation, area])
+
+
+@dataclass(frozen=True)
 class Tangent:
-    """The direct contacts of a case, the derivatives of their friction, and the shares in it."""
+    """The direct contacts of a case with their derivatives, and the shares of each in all."""
 
     case: Case
     usual: Inputs
-    contacts: Sequence[RoughContact]
-    adjoints: Sequence[FrictionAdjoint]
+    parts: Sequence[ContactTangent]
     share: Array  # of each contact in friction and contact area of all [-], shape (2, contacts)
     sampling_errors: Array  # relative standard errors of both from pieces of the profiles [-]
 
@@ -88,87 +151,41 @@ class Tangent:
                 "the direct contact must have a result with friction for its derivatives; got "
                 f"status {status}, friction {frictions}"
             )
-        amounts = _amounts(contacts)
+        usual, amounts = Inputs.of(case), _amounts(contacts)
         errors = [float(answer.get(name, math.nan)) for name in reversed(SAMPLING_ERRORS)]
-        adjoints = [FrictionAdjoint.of(contact) for contact in contacts]
-        usual, share = Inputs.of(case), amounts / amounts.sum(1, keepdims=True)
-        return cls(case, usual, contacts, adjoints, share, np.array(errors))
+        parts = [
+            ContactTangent(usual, number, contact, FrictionAdjoint.of(contact))
+            for number, contact in enumerate(contacts)
+        ]
+        return cls(case, usual, parts, amounts / amounts.sum(1, keepdims=True), np.array(errors))
 
     def solved_change(self, inputs: Inputs) -> Array:
         """Return the changes of ln mu and ln A_r/A_0 by a contact with the other inputs [-]."""
         surface, model = inputs.for_model(_model(self.case))
         assert isinstance(model, DirectContact)
-        load, contacts = inputs.under(self.case.load), []
-        for measured, usual, contact in zip(
-            _surfaces(surface), _surfaces(self.case.surface), self.contacts, strict=True
-        ):
+        surfaces = zip(_surfaces(surface), _surfaces(self.case.surface), strict=True)
+        load, usual, contacts = inputs.under(self.case.load), [p.contact for p in self.parts], []
+        for contact, (measured, before) in zip(usual, surfaces, strict=True):
             # cleaned otherwise, a profile may lose its end
-            start = contact if measured.z.shape == usual.z.shape else None
+            start = contact if measured.z.shape == before.z.shape else None
             contacts.append(model.contact(inputs.rubber, surface, measured, load, start))
-        amounts = [_amounts(each).sum(1) for each in (contacts, self.contacts)]
-        return np.asarray(np.log(amounts[0] / amounts[1]))
+        return np.asarray(np.log(_amounts(contacts).sum(1) / _amounts(usual).sum(1)))
 
     def change(self, inputs: Inputs) -> float:
         """Return what other inputs than those of the case change in ln mu, to first order [-]."""
-        usual = self.usual
-        parts = np.zeros(len(self.contacts))
-        for at, (contact, adjoint) in enumerate(zip(self.contacts, self.adjoints, strict=True)):
-            friction = contact.friction_from_dissipation
-            if inputs.rubber is not usual.rubber:
-                effect = adjoint.by_modulus(_log_ratio(adjoint, inputs.rubber))
-                parts[at] += float(effect.sum() / friction)
-            if inputs.cleaned is not usual.cleaned or inputs.smooth_gaps != usual.smooth_gaps:
-                assert inputs.measured is not None
-                heights = periodic_heights(
-                    inputs.measured.surfaces[at],
-                    smallest_wavelength=contact.smallest_wavelength,
-                    periodic=False,
-                )
-                change = heights.on(contact.grid.shape) - contact.height
-                parts[at] += float((adjoint.by_height * change).sum() / friction)
-            if inputs.end != usual.end:
-                exponent = contact.cut_off_exponents.friction
-                parts[at] += exponent * math.log(inputs.end / usual.end)
-        return float(self.share[0] @ (parts + self._by_conditions(inputs, 0)))
+        return float(self.share[0] @ [part.friction_change(inputs) for part in self.parts])
 
     def area_changes(self, drawn: Sequence[Inputs]) -> Array:
         """Return what other rubbers or cut-offs change in ln A_r/A_0, to first order [-]."""
-        parts = np.zeros((len(drawn), len(self.contacts)))
-        ends = np.array([inputs.end / self.usual.end for inputs in drawn])
-        changed = any(inputs.rubber is not self.usual.rubber for inputs in drawn)
-        for at, (contact, adjoint) in enumerate(zip(self.contacts, self.adjoints, strict=True)):
-            parts[:, at] = contact.cut_off_exponents.contact_fraction * np.log(ends)
-            if changed:
-                changes = np.array([_log_ratio(adjoint, inputs.rubber) for inputs in drawn])
-                along, directions = _directions(changes, np.abs(adjoint.weight))
-                differences = sensitivity.ContactFractionDifferences(contact)
-                parts[:, at] += along @ [differences.by_modulus(each) for each in directions]
-        parts += [self._by_conditions(inputs, 1) for inputs in drawn]
-        return np.asarray(parts @ self.share[1])
+        return np.asarray(self.share[1] @ [part.area_changes(drawn) for part in self.parts])
 
-    def _by_conditions(self, inputs: Inputs, quantity: int) -> Array:
-        """Return what pressure and temperature change in ln mu or ln A_r/A_0 of each contact."""
-        change = [inputs.log_pressure, inputs.warming]
-        if not any(change):
-            return np.zeros(len(self.contacts))
-        return np.asarray(self._by_pressure_and_kelvin[quantity] @ change)
 
-    @cached_property
-    def _by_pressure_and_kelvin(self) -> tuple[Array, Array]:
-        """Derivatives of ln mu and ln A_r/A_0 by ln p_0 and T [1/K], each (contacts, 2)."""
-        friction, area = [], []
-        for contact, adjoint in zip(self.contacts, self.adjoints, strict=True):
-            differences = sensitivity.ContactFractionDifferences(contact)
-            change = sensitivity.scalar_changes(contact).get("temperature", np.zeros(1, complex))
-            by_kelvin = float(adjoint.by_modulus(change).sum())
-            pair = np.array([adjoint.by_log_pressure, by_kelvin])
-            friction.append(pair / contact.friction_from_dissipation)
-            area.append([differences.by_log_pressure(), differences.by_modulus(change)])
-        return np.array(friction), np.array(area)
+def _model(case: Case) -> DirectContact:
+    """Return the direct contact on the grid with four points in the smallest wave."""
+    return DirectContact(tolerance=None, conditions=case.conditions)
 
 
 def _surfaces(surface: Surface) -> list[Profile | HeightMap]:
-    """Return the profiles of a measured surface, or its map."""
     assert surface.measured is not None
     return list(surface.measured.surfaces)
 
@@ -190,21 +207,6 @@ def _directions(changes: ComplexArray, weight: Array) -> tuple[Array, ComplexArr
     rest = np.cumsum(np.maximum(values, 0.0))
     kept = vectors[:, rest > SMALLEST_PART * rest[-1]]
     return kept, np.tensordot(kept.T, changes, 1)
-
-
-def _model(case: Case) -> DirectContact:
-    """Return the direct contact on the grid with four points in the smallest wave."""
-    return DirectContact(tolerance=None, conditions=case.conditions)
-
-
-def _log_ratio(adjoint: FrictionAdjoint, rubber: Rubber) -> ComplexArray:
-    """Return ln(M'/M) [-] of each wave of another rubber, at the temperature of the case."""
-    contact, body = adjoint.contact, adjoint.contact.body
-    solid = (contact.conditions or Conditions()).before(rubber)
-    scales = None if body.by_scale is None else replace(body.by_scale, rubber=solid)
-    other = HalfSpace(solid, body.speed, by_scale=scales, thickness=body.thickness)
-    change = np.log(other.modulus(contact.grid) / body.modulus(contact.grid))
-    return np.broadcast_to(change, contact.grid.spectrum_shape)
 
 
 def first_order(
@@ -233,9 +235,40 @@ def first_order(
     ranges = {name: v for name, v in asked.ranges.items() if DIRECT in SOURCES[name].models}
     drawn = replace(asked, without=(*asked.without, ROAD, GRID), ranges=ranges)
     sources = drawn.of(case, (DIRECT,), any_number=True).sources
+
+    def inputs_of(source: Source, count: int) -> list[Inputs]:
+        every = (each.inputs for each in draws(tangent.usual, [source], count, seed))
+        return [inputs for inputs in every if inputs is not None]
+
+    def scatter(source: Source) -> Array:
+        inputs = few = inputs_of(source, count)
+        if source.name in OF_RUBBER:
+            few = inputs_of(source, FEW_DRAWS)
+        friction, area = [tangent.change(each) for each in inputs], tangent.area_changes(few)
+        return np.array([np.std(friction), np.std(area)])
+
+    def job(change: Callable[[], Array]) -> Job[Array]:
+        return lambda _: change()
+
+    names: list[str] = []
+    changes: list[Callable[[], Array]] = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        errors = _standard_errors(tangent, sources, count, seed)
+        # the draws that are solved come last, so that all threads are busy to the end
+        for source in sorted(sources, key=lambda source: source.name in SOLVED):
+            of_source = [partial(scatter, source)]
+            if source.name in SOLVED:
+                every = inputs_of(source, SOLVED[source.name])
+                of_source = [partial(tangent.solved_change, inputs) for inputs in every]
+            names += [source.name] * len(of_source)
+            changes += of_source
+        done = dict(in_threads([job(change) for change in changes], worker_count(None)))
+    # of a single scatter itself, of solved draws their rms change
+    squares = np.array([done[at] for at in range(len(changes))]) ** 2
+    errors = {
+        source.name: np.sqrt(squares[np.array(names) == source.name].mean(axis=0))
+        for source in sources
+    }
     errors |= {ROAD: tangent.sampling_errors} if ROAD not in asked.without else {}
     labels = np.array([SOURCES[name].label for name in errors], dtype=object)
     text = "relative standard error of {}, by first order"
@@ -250,44 +283,3 @@ def first_order(
         },
         {"source": np.array([*errors], dtype=object), "label": ("source", labels)},
     )
-
-
-def _standard_errors(
-    tangent: Tangent, sources: Sequence[Source], count: int, seed: int
-) -> dict[str, Array]:
-    """Return the standard errors of ln mu and ln A_r/A_0 by draws of each source [-].
-
-    The draws that are solved come last, so that all threads are busy to the end.
-    """
-
-    def drawn(source: Source, count: int) -> list[Inputs]:
-        every = (each.inputs for each in draws(tangent.usual, [source], count, seed))
-        return [inputs for inputs in every if inputs is not None]
-
-    def scatter(source: Source) -> Array:
-        few = FEW_DRAWS if source.name in OF_RUBBER else count
-        friction = [tangent.change(inputs) for inputs in drawn(source, count)]
-        return np.array([np.std(friction), np.std(tangent.area_changes(drawn(source, few)))])
-
-    def of_draws(source: Source) -> Job[Array]:
-        return lambda _: scatter(source)
-
-    def of_draw(inputs: Inputs) -> Job[Array]:
-        return lambda _: tangent.solved_change(inputs)
-
-    jobs: list[Job[Array]] = []
-    names: list[str] = []
-    for source in sorted(sources, key=lambda source: source.name in SOLVED):
-        if source.name in SOLVED:
-            of_source = [of_draw(inputs) for inputs in drawn(source, SOLVED[source.name])]
-        else:
-            of_source = [of_draws(source)]
-        jobs += of_source
-        names += [source.name] * len(of_source)
-    done = dict(in_threads(jobs, worker_count(None)))
-    values = np.array([done[at] for at in range(len(jobs))])
-    # of a single scatter itself, of solved draws their rms change
-    return {
-        source.name: np.sqrt(np.mean(values[np.array(names) == source.name] ** 2, axis=0))
-        for source in sources
-    }

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
 import tomllib
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -32,13 +31,14 @@ from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import Load, Model, input_doubts
 from gripscale.questions.answer.direct_contact import continued_curve, direct_contact_design
-from gripscale.questions.answer.samples import sample_numbers
+from gripscale.questions.answer.estimate import DIRECT
+from gripscale.questions.answer.samples import sample_numbers, usable
 from gripscale.questions.uncertainty import sampling
 from gripscale.questions.uncertainty.first_order import first_order
 from gripscale.questions.uncertainty.sampled_answer import chain_answer, measured_answer
 from gripscale.questions.uncertainty.sampled_inputs import Inputs
-from gripscale.questions.uncertainty.sampling import SampledInputs, Uncertainty
-from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES, Source
+from gripscale.questions.uncertainty.sampling import SampledInputs, SampleSet, Uncertainty
+from gripscale.questions.uncertainty.sources import BOTH, GRID_PLACE, SOURCES
 from gripscale.questions.uncertainty.variance_shares import shares
 from gripscale.questions.vary.axis import Axis, axes_of
 from gripscale.questions.vary.study import coordinates
@@ -74,53 +74,71 @@ _NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
 }
 
 
-def uncertainty_dataset(
-    solved: xr.Dataset,
-    chosen: sampling.Chosen,
-    drawn: Mapping[str, Any],
-    logarithms: Mapping[str, Array],
-) -> xr.Dataset:
+# What is kept of the shares of the sources in a variance: dimensions and meaning.
+_SHARES = {
+    "share": (["source"], "share of each source in the variance of the logarithm of {}"),
+    "share_error": (["source"], "standard error of the share"),
+    "share_difference_error": (
+        ["source", "other_source"],
+        "standard error of the difference of two shares",
+    ),
+    "end": (["source", "end"], "{}, at 5 and 95 % of what a source alone does"),
+    "unexplained": ([], "share of no source in the variance of the logarithm of {}"),
+}
+
+
+def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     """Return all samples with their quantiles and shares; the first of `solved` is the case.
 
-    `solved` holds the `sample_numbers`; `drawn` and `logarithms` are those of `drawn_values`. A
-    sample of the direct contact has the error of its grid in it that was drawn.
+    `solved` holds the `sample_numbers`. A sample of the direct contact has the error of its grid in
+    it that was drawn.
     """
-    usable = solved.rename({model.FRICTION_OUTSIDE_BAND: "outside_band"})[
-        [*_NUMBERS, *(f"{name}_error" for name in PROPAGATED_QUANTITIES)]
-    ].where(solved.prediction_status == CONVERGED)
-    case, samples = usable.isel(sample=0), usable.isel(sample=slice(1, None))
-    status = solved[[model.STATUS, model.STATUS_WORD, "seconds"]].isel(sample=slice(1, None))
-    status_case = solved[[model.STATUS, model.STATUS_WORD]].isel(sample=0)
+    sources, logarithms = drawn.chosen.sources, drawn.logarithms
+    sizes = {"source": len(sources), "other_source": len(sources), "end": 2}
     data: dict[str, xr.DataArray] = {}
 
     def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
         data[name] = values.drop_attrs().assign_attrs(units=unit, long_name=long_name)
 
-    add("status", status[model.STATUS], "converged, or why the sample has no answer")
-    add("status_word", status[model.STATUS_WORD], "word of the status")
-    text = "converged, or why not, of the case itself"
-    add("status_case", status_case[model.STATUS], text)
-    text = "word of the status of the case itself"
-    add("status_case_word", status_case[model.STATUS_WORD], text)
-    add("seconds", status.seconds, "time to solve the sample", "s")
-    failed = (status[model.STATUS] != CONVERGED).sum("sample")
+    def share_numbers(values: Array) -> tuple[Any, ...]:
+        """Return the numbers of `_SHARES` in their order."""
+        fit = shares(values, logarithms)
+        if fit is None:
+            return tuple(np.full([sizes[n] for n in dims], np.nan) for dims, _ in _SHARES.values())
+        ends = np.stack([fit.low, fit.high], axis=-1)
+        return fit.share, fit.error, fit.apart, ends, fit.unexplained
+
+    solved = solved.rename({model.FRICTION_OUTSIDE_BAND: "outside_band"})
+    case, samples = solved.isel(sample=0), solved.isel(sample=slice(1, None))
+    add("status", samples[model.STATUS], "converged, or why the sample has no answer")
+    add("status_word", samples[model.STATUS_WORD], "word of the status")
+    add("status_case", case[model.STATUS], "converged, or why not, of the case itself")
+    add("status_case_word", case[model.STATUS_WORD], "word of the status of the case itself")
+    add("seconds", samples.seconds, "time to solve the sample", "s")
+    failed = (samples[model.STATUS] != CONVERGED).sum("sample")
     add("failed", failed, "samples without an answer; they count in no quantile")
     for name, text in _NUMBERS.items():
-        add(name, samples[name], text)
-        add(f"{name}_case", case[name], f"{text} of the case itself")
+        add(name, usable(samples, name), text)
+        add(f"{name}_case", usable(case, name), f"{text} of the case itself")
     is_direct = solved["model"] == DirectContact.name
-    _, in_error, _ = drawn.get(GRID_PLACE, ("sample", np.zeros(samples.sizes["sample"]), {}))
+    in_error = drawn.coordinates.get(GRID_PLACE, xr.Variable((), 0.0))
     for name, (_, text) in PROPAGATED_QUANTITIES.items():
-        error = (samples[f"{name}_error"] / abs(samples[name])).where(is_direct)
+        error = (usable(samples, f"{name}_error") / abs(data[name])).where(is_direct)
         about = f"estimated relative error of the grid of a direct contact, {text}"
         add(f"{name}_grid_error", error, about)
-        values = samples[name] * np.exp(error.fillna(0.0) * xr.DataArray(in_error, dims="sample"))
-        add(name, values.transpose(*samples[name].dims), text)
+        values = data[name] * np.exp(error.fillna(0.0) * xr.DataArray(in_error))
+        add(name, values.transpose(*data[name].dims), text)
         add(f"{name}_quantile", quantiles(data[name]), text)
-        parts = _shares(data[name], logarithms, name)
-        for part, (_, meaning) in _SHARES.items():
-            add(f"{name}_{part}", parts[f"{name}_{part}"], meaning.format(text))
-    labels = [source.label for source in chosen.sources]
+        parts = xr.apply_ufunc(
+            share_numbers,
+            data[name],
+            input_core_dims=[["sample"]],
+            output_core_dims=[dims for dims, _ in _SHARES.values()],
+            vectorize=True,
+        )
+        for (part, (_, meaning)), values in zip(_SHARES.items(), parts, strict=True):
+            add(f"{name}_{part}", values, meaning.format(text))
+    labels = [source.label for source in sources]
     return xr.Dataset(
         data,
         {
@@ -128,62 +146,14 @@ def uncertainty_dataset(
             "source": ("source", list(logarithms), {"long_name": "source"}),
             "label": ("source", labels, {"long_name": "source in words"}),
             "end": ("end", ["low", "high"]),
-            **drawn,
+            **drawn.coordinates,
         },
         {
             "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
-            "left_out": json.dumps(chosen.left_out),
+            "left_out": json.dumps(drawn.chosen.left_out),
             **provenance.version_attributes(),
         },
     )
-
-
-def drawn_values(
-    sources: Sequence[Source], drawn: Sequence[SampledInputs]
-) -> tuple[dict[str, Any], dict[str, Array]]:
-    """Return what was drawn over `sample`, and by source its logarithms (samples, coordinates)."""
-    values: dict[str, Any] = {}
-    logarithms = {}
-    for source in sources:
-        columns = []
-        for name, number in source.coordinates.items():
-            column = np.array([inputs.coordinates[name] for inputs in drawn], dtype=float)
-            attributes = designs.variable_attributes(number.long_name, number.unit)
-            values[name] = ("sample", column, attributes | {"source": source.name})
-            columns.append(column if number.logarithm else np.log(column))
-        logarithms[source.name] = np.stack(columns, axis=-1)
-    return values, logarithms
-
-
-# What is kept of the shares of the sources in a variance: dimensions and meaning.
-_SHARES = {
-    "share": (("source",), "share of each source in the variance of the logarithm of {}"),
-    "share_error": (("source",), "standard error of the share"),
-    "share_difference_error": (
-        ("source", "other_source"),
-        "standard error of the difference of two shares",
-    ),
-    "end": (("source", "end"), "{}, at 5 and 95 % of what a source alone does"),
-    "unexplained": ((), "share of no source in the variance of the logarithm of {}"),
-}
-
-
-def _shares(samples: xr.DataArray, logarithms: Mapping[str, Array], name: str) -> xr.Dataset:
-    """Return `_SHARES` of a quantity at every model and value of the axis, as `<name>_share`..."""
-    outer, count = samples.isel(sample=0), len(logarithms)
-    row, square = np.full(count, np.nan), np.full((count, count), np.nan)
-    parts: dict[tuple[int, ...], xr.Dataset] = {}
-    for at in np.ndindex(outer.shape):
-        fit = shares(samples.values[at], logarithms)
-        numbers = (row, row, square, np.full((count, 2), np.nan), math.nan)
-        if fit is not None:
-            ends = np.stack([fit.low, fit.high], axis=-1)
-            numbers = (fit.share, fit.error, fit.apart, ends, fit.unexplained)
-        columns = zip(_SHARES.items(), numbers, strict=True)
-        parts[at] = xr.Dataset(
-            {f"{name}_{part}": (dims, values) for (part, (dims, _)), values in columns}
-        )
-    return designs.stack(parts, dict(zip(map(str, outer.dims), outer.shape, strict=True)))
 
 
 FOLDER, _RESULT = "uncertainty", "uncertainty.nc"  # where it is in the results folder of the case
@@ -217,11 +187,8 @@ def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = 
 
 # Name of the error of a quantity that each source carries by derivatives alone.
 FIRST_ORDER = "{}_first_order"
-_MODELS = ("chain", "direct")
 # Inputs that may be varied beside the samples: those of the load, the same samples at each.
 SAMPLED_OVER = ("speed", "pressure")
-# Models by the word of a case for one or both of them.
-BOTH = {"chain": ("chain",), "direct": ("direct",), "both": _MODELS}
 
 
 @dataclass(frozen=True)
@@ -233,7 +200,7 @@ class Plan:
     samples: int
     seed: int
     models: tuple[str, ...]
-    axis: Axis | None
+    axes: tuple[Axis, ...]  # none, or one
     # Estimated relative error of a direct contact; None: that of its first full grid.
     tolerance: float | None
 
@@ -254,18 +221,14 @@ class Plan:
         named = stated_models(case, choice) if models is None else models
         named = [named] if isinstance(named, str) else list(named)
         for name in named:
-            checks.one_of("model", name, _MODELS)
+            checks.one_of("model", name, BOTH["both"])
         if not named or len(set(named)) < len(named):
             short = checks.short_repr(models)
             raise InputError(f"models must be one or both of chain, direct; got {short}")
-        axis: Axis | None = None
-        if vary:
-            axis, *further = axes_of(vary)
-            if further or axis.name not in SAMPLED_OVER:
-                names = ", ".join(each.name for each in (axis, *further))
-                raise InputError(
-                    f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}"
-                )
+        axes = axes_of(vary) if vary else ()
+        if len(axes) > 1 or any(axis.name not in SAMPLED_OVER for axis in axes):
+            names = ", ".join(axis.name for axis in axes)
+            raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
         number = defaults.samples if samples is None else samples
         start = defaults.seed if seed is None else seed
         return cls(
@@ -273,15 +236,23 @@ class Plan:
             choice,
             checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
             checks.whole("seed", start, least=0, most=MOST_SEED),
-            tuple(name for name in _MODELS if name in named),
-            axis,
+            tuple(name for name in BOTH["both"] if name in named),
+            axes,
             defaults.tolerance if tolerance is None else checks.positive("tolerance", tolerance),
         )
 
     @property
+    def loads(self) -> dict[str, Load]:
+        """The loads by how the names of their tasks begin, such as "speed 0.3, "."""
+        return {
+            f"{axis.name} {label}, ": replace(self.case.load, **{axis.name: value})
+            for axis in self.axes
+            for label, value in zip(axis.labels, axis.values, strict=True)
+        } or {"": self.case.load}
+
+    @property
     def key(self) -> str:
         """A hash of all the result depends on."""
-        axis = self.axis
         content = {
             "software": software(),
             "case": [self.case.key, self.case.origin.text],
@@ -289,9 +260,54 @@ class Plan:
             "samples": [self.samples, self.seed],
             "models": list(self.models),
             "tolerance": canonical_json(self.tolerance),
-            "axis": None if axis is None else [axis.name, canonical_json(axis.values)],
+            "axes": [[axis.name, canonical_json(axis.values)] for axis in self.axes],
         }
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+    def design(self, samples: Sequence[SampledInputs]) -> Design:
+        """Return the tasks of samples, of which the first is the case, by each model and load."""
+        case, shape = self.case, [len(axis.values) for axis in self.axes]
+        points: list[Point] = []
+        refused: dict[designs.Index, str] = {}
+        for at, name in enumerate(self.models):
+            predicting: Model = case.chain
+            if name == DirectContact.name:
+                if case.surface.measured is None:
+                    raise InputError(
+                        "the direct contact needs a measured profile; got waves stated by hand"
+                    )
+                predicting = DirectContact(tolerance=self.tolerance, conditions=case.conditions)
+            for number, sample in enumerate(samples):
+                by_load = [(at, *of_load, number) for of_load in np.ndindex(*shape)]
+                subject = f"sample {number}" if number else "the case itself"
+                try:
+                    if sample.inputs is None:
+                        raise InputError(sample.why_not)
+                    tasks = sample.inputs.tasks(predicting, list(self.loads.values()))
+                except InputError as refusal:
+                    refused |= dict.fromkeys(by_load, str(refusal))
+                    continue
+                for index, label, task in zip(by_load, self.loads, tasks, strict=True):
+                    points.append(Point(index, f"{name}, {label}{subject}", task))
+        sizes = {axis.name: len(axis.values) for axis in self.axes}
+        coords = {"model": list(self.models), **coordinates(self.axes, case.units)}
+        sizes = {"model": len(self.models), **sizes, "sample": len(samples)}
+        return Design(sizes, points, coords, refused)
+
+
+def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
+    """Return the models a case states; by default that of its answer, if it is quick.
+
+    The direct contact of a map takes minutes and has no blocks to draw. A range of a source that
+    only the chain has asks for both.
+    """
+    word, measured = sampling.stated_options(case).model, case.surface.measured
+    if word is None and (measured is None or measured.map is not None):
+        word = "chain"
+    elif word is None:
+        of_chain = [name for name in uncertainty.ranges if SOURCES[name].models == (Chain.name,)]
+        word = "both" if of_chain else "direct"
+    return BOTH[word]
 
 
 def propagate(
@@ -311,71 +327,41 @@ def propagate(
     chosen = plan.uncertainty.of(plan.case, plan.models)
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        data = _answered(plan, chosen, bench, on_answer)
+        samples = sampling.draws(Inputs.of(plan.case), chosen.sources, plan.samples, plan.seed)
+        data = solve_samples(plan, SampleSet(chosen, list(samples)), bench, on_answer)
     return data if path is None else netcdf.load_dataset(netcdf.save(data, path))
 
 
-def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
-    """Return the models a case states; by default that of its answer, if it is quick.
-
-    The direct contact of a map takes minutes and has no blocks to draw. A range of a source that
-    only the chain has asks for both.
-    """
-    word, measured = sampling.stated_options(case).model, case.surface.measured
-    if word is None and (measured is None or measured.map is not None):
-        word = "chain"
-    elif word is None:
-        of_chain = [name for name in uncertainty.ranges if SOURCES[name].models == (Chain.name,)]
-        word = "both" if of_chain else "direct"
-    return BOTH[word]
-
-
-def _answered(
-    plan: Plan, chosen: sampling.Chosen, bench: Bench, on_answer: OnAnswer | None
+def solve_samples(
+    plan: Plan, drawn: SampleSet, bench: Bench, on_answer: OnAnswer | None = None
 ) -> xr.Dataset:
-    """Return all samples, and the answer of the case at each load."""
-    case, axis = plan.case, plan.axis
-    usual = Inputs.of(case)
-    drawn = list(sampling.draws(usual, chosen.sources, plan.samples, plan.seed))
-    loads, labels = [case.load], [""]
-    if axis is not None:
-        loads = [replace(case.load, **{axis.name: value}) for value in axis.values]
-        labels = [f"{axis.name} {label}, " for label in axis.labels]
-    design = _design(plan, [SampledInputs(usual, {}), *drawn], loads)
-    references = [
-        direct_contact_design(case, load, label) for load, label in zip(loads, labels, strict=True)
-    ]
-    by_load = list(zip(loads, references, strict=True))
-    tasks = design.tasks
+    """Return all samples of a plan, and the answer of its case at each load."""
+    case, loads = plan.case, list(plan.loads.values())
+    design = plan.design([SampledInputs(Inputs.of(case), {}), *drawn.samples])
+    references = [direct_contact_design(case, load, label) for label, load in plan.loads.items()]
+    measured = case.surface.measured is not None
+    curves = [continued_curve(case, load) if measured else None for load in loads]
+    tasks, answers = design.tasks, dict[str, xr.Dataset]()
     for reference in references:
         tasks |= {} if reference is None else reference.tasks
-    curves = [None if each is None else continued_curve(case, load) for load, each in by_load]
     first, *further = references
-    answers: dict[str, xr.Dataset] = {}
     if on_answer is not None and first is not None and not further:
         answers = bench.solve(first.tasks, sample_numbers)
-        samples = first.dataset(answers)
-        on_answer(measured_answer(samples, case, case.load, curves[0], None, [], {}))
+        on_answer(measured_answer(first.dataset(answers), case, case.load, curves[0]))
     tasks = {label: task for label, task in tasks.items() if task.key not in answers}
     answers |= bench.solve(tasks, sample_numbers)
-    values, logarithms = drawn_values(chosen.sources, drawn)
-    data = uncertainty_dataset(design.dataset(answers), chosen, values, logarithms)
-    answered = []
-    for at, (load, reference) in enumerate(by_load):
-        part = data if axis is None else data.isel({axis.name: at}, drop=True)
+    data = uncertainty_dataset(design.dataset(answers), drawn)
+    of_case = []
+    for at, (load, reference, curve) in enumerate(zip(loads, references, curves, strict=True)):
+        part = data.isel({axis.name: at for axis in plan.axes}, drop=True)
         if reference is None:
-            chain = part.sel(model=Chain.name)
-            answered.append(chain_answer(chain, case, load, chosen.sources, logarithms))
+            of_case.append(chain_answer(part.sel(model=Chain.name), case, load, drawn))
             continue
-        direct = None
-        if DirectContact.name in plan.models:
-            direct = part.sel(model=DirectContact.name)
+        direct = part.sel(model=DIRECT) if DIRECT in plan.models else None
         samples = reference.dataset(answers)
-        answered.append(
-            measured_answer(samples, case, load, curves[at], direct, chosen.sources, logarithms)
-        )
-    answer = answered[0] if axis is None else xr.concat(answered, axis.name)
-    if axis is None and DirectContact.name in plan.models and case.load.speed > 0.0:
+        of_case.append(measured_answer(samples, case, load, curve, drawn, direct))
+    answer = xr.concat(of_case, plan.axes[0].name) if plan.axes else of_case[0]
+    if not plan.axes and DIRECT in plan.models and case.load.speed > 0.0:
         carried = first_order(case, plan.uncertainty, seed=plan.seed)
         carried = carried.reindex(source=data.source.values)
         for name in PROPAGATED_QUANTITIES:
@@ -388,37 +374,3 @@ def _answered(
         plan_key=plan.key,
         software=software(),
     )
-
-
-def _design(plan: Plan, samples: Sequence[SampledInputs], loads: Sequence[Load]) -> Design:
-    """Return the tasks of the samples, of which the first is the case, by each model and load."""
-    case, axis = plan.case, plan.axis
-    points: list[Point] = []
-    refused: dict[designs.Index, str] = {}
-    for at, name in enumerate(plan.models):
-        predicting: Model = case.chain
-        if name == DirectContact.name:
-            if case.surface.measured is None:
-                raise InputError(
-                    "the direct contact needs a measured profile; got waves stated by hand"
-                )
-            predicting = DirectContact(tolerance=plan.tolerance, conditions=case.conditions)
-        for sample, inputs in enumerate(samples):
-            by_load = [(at, sample) if axis is None else (at, i, sample) for i in range(len(loads))]
-            try:
-                if inputs.inputs is None:
-                    raise InputError(inputs.why_not)
-                tasks = inputs.inputs.tasks(predicting, loads)
-            except InputError as refusal:
-                refused |= dict.fromkeys(by_load, str(refusal))
-                continue
-            for i, (index, task) in enumerate(zip(by_load, tasks, strict=True)):
-                at_value = "" if axis is None else f", {axis.name} {axis.labels[i]}"
-                subject = f"sample {sample}" if sample else "the case itself"
-                points.append(Point(index, f"{name}{at_value}, {subject}", task))
-    sizes = {"model": len(plan.models)}
-    coords: dict[str, Any] = {"model": list(plan.models)}
-    if axis is not None:
-        sizes[axis.name] = len(loads)
-        coords |= coordinates([axis], case.units)
-    return Design(sizes | {"sample": len(samples)}, points, coords, refused)

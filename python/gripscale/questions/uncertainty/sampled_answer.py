@@ -20,7 +20,7 @@ one.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -31,11 +31,12 @@ from gripscale.core.arrays import Array
 from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import FRICTION_OUTSIDE_BAND, OUTSIDE_BAND, STATUS, STATUS_WORD, Load
 from gripscale.questions.answer.direct_contact import direct_contact_totals
-from gripscale.questions.answer.estimate import ESTIMATED, TOTAL, SampledErrors
+from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, TOTAL, SampledErrors
 from gripscale.questions.answer.intervals import LogError, combined
 from gripscale.questions.answer.samples import SAMPLED_QUANTITIES, running, usable
 from gripscale.questions.answer.waves import answer_of_waves
-from gripscale.questions.uncertainty.sources import GRID_PLACE, Source
+from gripscale.questions.uncertainty.sampling import SampleSet
+from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES
 from gripscale.questions.uncertainty.variance_shares import shares
 
 # End of the name of the half width without errors of the inputs, as `gripscale run` states it.
@@ -97,25 +98,24 @@ def measured_answer(
     case: Case,
     load: Load,
     curve: xr.Dataset | None,
-    direct: xr.Dataset | None,
-    sources: Sequence[Source],
-    logarithms: Mapping[str, Array],
+    drawn: SampleSet | None = None,
+    direct: xr.Dataset | None = None,
 ) -> xr.Dataset:
     """Return the answer of a case with a measured surface under one load, widened by samples.
 
     `reference` are the samples of `direct_contact_design`, `curve` is the `continued_curve` of the
-    load. `direct` holds the drawn samples of the direct contact with `_case` of the case itself;
+    load. `direct` holds the `drawn` samples of the direct contact with `_case` of the case itself;
     None if only the chain was sampled, whose errors say nothing of the direct contact.
     `answer_..._half_width_of_run` is without samples; over `part` stand `part_label` and the
     standard errors `answer_..._part_error` that the interval is made of.
     """
     total = of_run = direct_contact_totals(reference, case, load, curve)
     errors, of_road = {}, False
-    if direct is not None and int(direct.contact_fraction.count()) > 1:
+    if drawn is not None and direct is not None and int(direct.contact_fraction.count()) > 1:
         # the grid of the answer is finer than that of the samples, and counts by itself
-        ours = [s for s in sources if "direct" in s.models and s.name != GRID]
+        ours = [s for s in drawn.chosen.sources if DIRECT in s.models and s.name != GRID]
         of_road = any(source.name == ROAD for source in ours)
-        drawn = {source.name: logarithms[source.name] for source in ours}
+        logarithms = {source.name: drawn.logarithms[source.name] for source in ours}
         freedom = {s.name: s.freedom for s in ours if s.freedom is not None}
         for name, measure in ESTIMATED.items():
             values = direct[measure]
@@ -123,7 +123,7 @@ def measured_answer(
                 error = direct[f"{measure}_grid_error"].fillna(0.0)
                 values = values / np.exp(direct[GRID_PLACE] * error)
             usual = float(direct[f"{measure}_case"])
-            errors[name] = sampled_error(values.values, usual, drawn, freedom)
+            errors[name] = sampled_error(values.values, usual, logarithms, freedom)
         sampled = {name: error.errors for name, error in errors.items()}
         total = direct_contact_totals(reference, case, load, curve, SampledErrors(sampled, of_road))
     correlation = case.surface.correlation
@@ -134,86 +134,65 @@ def measured_answer(
         friction = float(usable(reference, "friction_from_dissipation").mean("sample"))
         share = 1.0 - above / friction if friction > 0.0 else math.nan
         total = total.assign({"resolution_limit": limit, FRICTION_BELOW_MEASUREMENT: share})
-    return _with_parts(total, of_run, errors, sources, of_road=of_road)
+    return _with_parts(total, of_run, errors, of_road=of_road)
 
 
-def chain_answer(
-    chain: xr.Dataset,
-    case: Case,
-    load: Load,
-    sources: Sequence[Source],
-    logarithms: Mapping[str, Array],
-) -> xr.Dataset:
+def chain_answer(chain: xr.Dataset, case: Case, load: Load, drawn: SampleSet) -> xr.Dataset:
     """Return the answer of a case of waves stated by hand: the chain, with the scatter of samples.
 
     As `measured_answer`, with no factors and nothing of a road.
     """
-    drawn = {source.name: logarithms[source.name] for source in sources}
-    of_case = {name: chain[f"{name}_case"] for name in (*SAMPLED_QUANTITIES, "adhesive_friction")}
-    numbers = xr.Dataset(of_case | dict.fromkeys(OUTSIDE_BAND, math.nan)).assign(
-        {
-            FRICTION_OUTSIDE_BAND: chain["outside_band_case"],
-            STATUS: chain.status_case,
-            STATUS_WORD: chain.status_case_word,
-        }
-    )
+    totals = {name: chain[f"{name}_case"] for name in (*SAMPLED_QUANTITIES, "adhesive_friction")}
+    further = {
+        **dict.fromkeys(OUTSIDE_BAND, math.nan),
+        FRICTION_OUTSIDE_BAND: chain["outside_band_case"],
+        STATUS: chain.status_case,
+        STATUS_WORD: chain.status_case_word,
+    }
+    numbers = xr.Dataset(totals | further)
     errors = {
-        name: sampled_error(chain[name].values, float(numbers[name]), drawn, {})
+        name: sampled_error(chain[name].values, float(numbers[name]), drawn.logarithms, {})
         for name in ESTIMATED
     }
     sigmas = {name: combined(error.errors) for name, error in errors.items()}
     answered = answer_of_waves(numbers, case, load, sigmas)
-    return _with_parts(answered, answered, errors, sources, of_road=True)
+    return _with_parts(answered, answered, errors, of_road=True)
 
 
 def _with_parts(
-    total: xr.Dataset,
-    of_run: xr.Dataset,
-    sampled: Mapping[str, SampledError],
-    sources: Sequence[Source],
-    *,
-    of_road: bool,
+    total: xr.Dataset, of_run: xr.Dataset, sampled: Mapping[str, SampledError], *, of_road: bool
 ) -> xr.Dataset:
-    """Return an answer with what `run` says, and with the parts of its interval."""
-    labels = {source.name: source.label for source in sources}
-    parts = {
-        name: _parts_of(total, name, sampled.get(name, SampledError([], {}, {})), labels, of_road)
-        for name in ESTIMATED
-    }
-    texts = list(dict.fromkeys(text for of_number in parts.values() for text in of_number))
-    data = {"part_label": xr.Variable("part", np.array(texts, dtype=object))}
+    """Return an answer with what `run` says, and with the parts of its interval.
+
+    Of each part the standard error, and that of its share in the variance; NaN where not known.
+    """
+    parts: dict[str, dict[str, tuple[float, float]]] = {}
+    for name in ESTIMATED:
+        square = float(total[f"answer_{name}_uncertainty"]) ** 2
+        of_samples = sampled.get(name, SampledError([], {}, {}))
+        rest = NOT_ALONE if len(of_samples.variance) > 1 else TOGETHER
+        parts[name] = {}
+        for source, variance in of_samples.variance.items():
+            label = rest if source == REST else SOURCES[source].label
+            error = of_samples.share_error.get(source, math.nan)
+            error = error / square if square > 0.0 else math.nan
+            parts[name][label] = math.sqrt(variance), error
+        if not of_road:
+            road = float(total[f"answer_{name}_sampling_error"])
+            parts[name][SOURCES[ROAD].label] = road, math.nan
+        factors = total[f"answer_{name}_factor_uncertainty"].values
+        errors = [total[f"answer_{name}_grid_error"].item(), *factors.tolist()]
+        labels = [f"factor: {label}" for label in total.factor_label.values]
+        for label, error in zip(["grid of the answer", *labels], errors, strict=True):
+            if math.isfinite(error):
+                parts[name][label] = error, math.nan
+    every = list(dict.fromkeys(label for of_number in parts.values() for label in of_number))
+    data = {"part_label": xr.Variable("part", np.array(every, dtype=object))}
     for name, of_number in parts.items():
-        values = [of_number.get(text, (math.nan, math.nan)) for text in texts]
+        values = [of_number.get(label, (math.nan, math.nan)) for label in every]
         for end, column in zip(("error", "share_error"), np.transpose(values), strict=True):
             data[f"answer_{name}_part_{end}"] = xr.Variable("part", column, {"units": "1"})
-        data[f"answer_{name}_{OF_RUN}"] = of_run[f"answer_{name}_half_width"].variable
-    if TOTAL in total:
-        data[f"{TOTAL}_{OF_RUN}"] = of_run[f"{TOTAL}_half_width"].variable
+    for name in (*(f"answer_{name}" for name in ESTIMATED), TOTAL):
+        if name in total:
+            data[f"{name}_{OF_RUN}"] = of_run[f"{name}_half_width"].variable
     return total.assign(data)
-
-
-def _parts_of(
-    total: xr.Dataset,
-    name: str,
-    sampled: SampledError,
-    labels: Mapping[str, str],
-    of_road: bool,
-) -> dict[str, tuple[float, float]]:
-    """Return the parts of the interval of a number by label: standard error, and of its share."""
-    square = float(total[f"answer_{name}_uncertainty"]) ** 2
-    parts = {}
-    for source, variance in sampled.variance.items():
-        text = labels.get(source, NOT_ALONE if len(sampled.variance) > 1 else TOGETHER)
-        share_error = sampled.share_error.get(source, math.nan)
-        share_error = share_error / square if square > 0.0 else math.nan
-        parts[text] = (math.sqrt(variance), share_error)
-    if not of_road:
-        road = float(total[f"answer_{name}_sampling_error"])
-        parts["stretch of surface measured"] = (road, math.nan)
-    if math.isfinite(grid := float(total[f"answer_{name}_grid_error"])):
-        parts["grid of the answer"] = (grid, math.nan)
-    factors = total[f"answer_{name}_factor_uncertainty"].values.tolist()
-    for label, factor in zip(total.factor_label.values, factors, strict=True):
-        if math.isfinite(factor):
-            parts[f"factor: {label}"] = (factor, math.nan)
-    return parts

@@ -5,12 +5,15 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from gripscale.case import Case
-from gripscale.core import InputError, checks
+from gripscale.core import Array, InputError, checks
+from gripscale.experiment.design import variable_attributes
 from gripscale.questions.uncertainty.sampled_inputs import Inputs
 from gripscale.questions.uncertainty.sources import (
     SOURCES,
@@ -165,3 +168,36 @@ def draws(
                 why_not = str(error)
             coordinates |= dict(zip(source.coordinates, drawn, strict=True))
         yield SampledInputs(None if why_not else inputs, coordinates, why_not)
+
+
+@dataclass(frozen=True)
+class SampleSet:
+    """Samples of a case with the sources they were drawn from."""
+
+    chosen: Chosen
+    samples: Sequence[SampledInputs]
+
+    @cached_property
+    def coordinates(self) -> dict[str, xr.Variable]:
+        """What was drawn, over `sample`."""
+        return {
+            name: xr.Variable(
+                "sample",
+                [each.coordinates[name] for each in self.samples],
+                variable_attributes(number.long_name, number.unit) | {"source": source.name},
+            )
+            for source in self.chosen.sources
+            for name, number in source.coordinates.items()
+        }
+
+    @cached_property
+    def logarithms(self) -> dict[str, Array]:
+        """Logarithms of what each source drew, shape (samples, coordinates)."""
+        logarithms = {}
+        for source in self.chosen.sources:
+            columns = []
+            for name, number in source.coordinates.items():
+                values = self.coordinates[name].values
+                columns.append(values if number.logarithm else np.log(values))
+            logarithms[source.name] = np.stack(columns, axis=-1)
+        return logarithms

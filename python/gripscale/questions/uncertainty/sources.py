@@ -126,21 +126,21 @@ class BlockDraw:
         return changed, self.blocks.log_ratios(drawn).tolist()
 
 
-_BOTH = ("chain", "direct")
-
+# Models by the word of a case for one or both of them.
+BOTH = {"chain": ("chain",), "direct": ("direct",), "both": ("chain", "direct")}
 # In the order of the functions below, in which they are drawn: noisy profiles are cleaned and cut
 # into blocks, the waves are fitted last.
 SOURCES: dict[str, Source] = {}
 
 
 def _source(
-    label: str, models: tuple[str, ...] = _BOTH, /, **coordinates: Coordinate
+    label: str, models: str = "both", /, **coordinates: Coordinate
 ) -> Callable[[Prepare], Prepare]:
     """Enter what prepares a source in `SOURCES`, by its name without the underscore."""
 
     def entered(prepare: Prepare) -> Prepare:
         name = prepare.__name__.removeprefix("_")
-        SOURCES[name] = Source(name, label, models, coordinates, prepare)
+        SOURCES[name] = Source(name, label, BOTH[models], coordinates, prepare)
         return prepare
 
     return entered
@@ -278,7 +278,7 @@ GRID_PLACE = "grid_place"  # coordinate of the source `grid`
 
 @_source(
     "grid of the direct contact",
-    ("direct",),
+    "direct",
     grid_place=Coordinate("error of the grid over its estimate, from -1 to 1"),
 )
 def _grid(case: Case, options: SourceOptions) -> Draw:
@@ -379,7 +379,7 @@ LOAD_TIME_FACTOR = 2.0
 
 @_source(
     "load time of a wave",
-    ("chain",),
+    "chain",
     load_time_factor=Coordinate("load time over that of the case", "1", False),
 )
 def _load_time(case: Case, options: SourceOptions) -> Draw:
@@ -413,7 +413,7 @@ CHOSEN = ("s_wavelength", "s_amplitude", "first_wavelength", "first_amplitude")
 
 @_source(
     "choice of sine waves",
-    ("chain",),
+    "chain",
     waves=Coordinate("number of sine waves", "1", False),
     first_wavelength=Coordinate("wavelength of the largest wave", "m", False),
 )
