@@ -113,6 +113,64 @@ class Rows:
         chosen = self.sweep == sweep
         return self.x[chosen], self.y[:, chosen]
 
+    def step(
+        self,
+        shifts: Array,
+        free: NDArray[np.intp],
+        trust: Array,
+        weights: tuple[float | None, ...],
+    ) -> GaussNewtonStep:
+        """Return the step of the free shifts; the splines are eliminated."""
+        s, v = np.split(shifts, 2)
+        functions, slopes, penalty = splines(self.x + s[self.sweep])
+        # Neighbours are expected to have nearly the same log_b.
+        apart = np.diff(np.eye(self.sweeps), axis=0) / _LIFT
+        expected = np.zeros((2 * self.sweeps, 2 * self.sweeps))
+        expected[self.sweeps :, self.sweeps :] = apart.T @ apart
+        normal = _SOFT * np.eye(len(free)) + expected[np.ix_(free, free)]
+        right = -(expected @ shifts)[free]
+        residuals, curves, each = [], [], np.arange(len(self.x))
+        for y, lift, count, weight in zip(self.y, self.lifts, trust, weights, strict=True):
+            y = y + lift * v[self.sweep]
+            curve = smooth(functions, penalty, y, count, weight)
+            residual = y - functions @ curve.coefficients
+            # Change of F_k - v with log_a and log_b of each sweep, shape (rows, 2 sweeps).
+            by_shift = np.zeros((len(self.x), 2 * self.sweeps))
+            by_shift[each, self.sweep] = slopes @ curve.coefficients
+            by_shift[each, self.sweep + self.sweeps] = -lift
+            by_shift = by_shift[:, free]
+            cross = functions.T @ (count[:, None] * by_shift)
+            solved = np.linalg.solve(curve.matrix, cross)
+            normal += by_shift.T @ (count[:, None] * by_shift) - cross.T @ solved
+            right += by_shift.T @ (count * residual) - solved.T @ (functions.T @ (count * residual))
+            residuals.append(residual)
+            curves.append(curve)
+        inverse = np.asarray(np.linalg.pinv(normal, hermitian=True, rcond=1e-14), dtype=np.float64)
+        freedoms = np.array([curve.freedoms for curve in curves]) + len(free) / len(curves)
+        used = tuple(curve.weight for curve in curves)
+        return GaussNewtonStep(inverse @ right, inverse, np.array(residuals), freedoms, used)
+
+    def scatter(self, last: GaussNewtonStep, trust: Array) -> tuple[Array, Array]:
+        """Return the scatter about each row and how far it is trusted, both like the residuals."""
+        member = np.equal.outer(np.arange(self.sweeps), self.sweep).astype(float)
+        near = np.abs(np.subtract.outer(np.arange(self.sweeps), np.arange(self.sweeps))) <= 1
+        independent = np.maximum(1.0 - last.freedoms / len(self.x), 0.1)
+        square = (trust * last.residual**2) @ member.T @ near / (trust @ member.T @ near)
+        scatter = np.sqrt(square / independent[:, None])[:, self.sweep]
+        scatter = np.maximum(scatter, _LEAST_SCATTER)
+        return scatter, 1.0 / np.maximum(np.abs(last.residual) / (_FAR * scatter), 1.0)
+
+
+@dataclass(frozen=True)
+class GaussNewtonStep:
+    """Changes of the free shifts with their covariance, and the residuals before them."""
+
+    change: Array
+    covariance: Array
+    residual: Array
+    freedoms: Array  # of each spline, and a share of the shifts, shape (moduli,)
+    weights: tuple[float, ...]  # of the penalty of each spline over the scatter
+
 
 def sweep_rows(sweeps: Sweeps, moduli: str) -> Rows:
     """Return the rows of `sweeps`, for the choice of `moduli` among `SHIFTED_MODULI`."""
@@ -169,14 +227,14 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
     scatter = np.ones_like(rows.y)
     weights: tuple[float | None, ...] = (None,) * len(rows.y)
     for iteration in range(_MOST_ITERATIONS):
-        last = _gauss_newton_step(rows, shifts, free, trust / scatter**2, weights)
-        largest = float(np.abs(last.step).max(initial=0.0))
-        shifts[free] += last.step * min(1.0, _LARGEST_STEP / max(largest, 1e-300))
+        last = rows.step(shifts, free, trust / scatter**2, weights)
+        largest = float(np.abs(last.change).max(initial=0.0))
+        shifts[free] += last.change * min(1.0, _LARGEST_STEP / max(largest, 1e-300))
         # no neighbours farther apart than where they hardly overlap
         steps = np.clip(-np.diff(shifts[: rows.sweeps]), low, high)
         total = np.append(np.cumsum(steps[::-1])[::-1], 0.0)
         shifts[: rows.sweeps] = total - total[held]
-        scatter, trust = _scatter(rows, last, trust)
+        scatter, trust = rows.scatter(last, trust)
         if iteration >= _FREE_PENALTY:
             weights = last.weights
             if largest < _CONVERGED:
@@ -196,63 +254,3 @@ def align(rows: Rows, log_a: Array, log_b: Array, lifted: bool) -> Joint:
         beyond = others[(others <= colder) if colder < held else (others > colder)]
         covariance[np.ix_(beyond, beyond)] += _BOUND_ERROR**2
     return Joint(log_a, shifts[rows.sweeps :], covariance, np.median(scatter, axis=1))
-
-
-@dataclass(frozen=True)
-class _Step:
-    """Changes of the free shifts with their covariance, and the residuals before them."""
-
-    step: Array
-    covariance: Array
-    residual: Array
-    freedoms: Array  # of each spline, and a share of the shifts, shape (moduli,)
-    weights: tuple[float, ...]  # of the penalty of each spline over the scatter
-
-
-def _gauss_newton_step(
-    rows: Rows,
-    shifts: Array,
-    free: NDArray[np.intp],
-    trust: Array,
-    weights: tuple[float | None, ...],
-) -> _Step:
-    """Return the step of the free shifts; the splines are eliminated."""
-    s, v = np.split(shifts, 2)
-    functions, slopes, penalty = splines(rows.x + s[rows.sweep])
-    # Neighbours are expected to have nearly the same log_b.
-    apart = np.diff(np.eye(rows.sweeps), axis=0) / _LIFT
-    expected = np.zeros((2 * rows.sweeps, 2 * rows.sweeps))
-    expected[rows.sweeps :, rows.sweeps :] = apart.T @ apart
-    normal = _SOFT * np.eye(len(free)) + expected[np.ix_(free, free)]
-    right = -(expected @ shifts)[free]
-    residuals, curves, each = [], [], np.arange(len(rows.x))
-    for at, lift in enumerate(rows.lifts):
-        y, count = rows.y[at] + lift * v[rows.sweep], trust[at]
-        curve = smooth(functions, penalty, y, count, weights[at])
-        residual = y - functions @ curve.coefficients
-        # Change of F_k - v with log_a and log_b of each sweep, shape (rows, 2 sweeps).
-        by_shift = np.zeros((len(rows.x), 2 * rows.sweeps))
-        by_shift[each, rows.sweep] = slopes @ curve.coefficients
-        by_shift[each, rows.sweep + rows.sweeps] = -lift
-        by_shift = by_shift[:, free]
-        cross = functions.T @ (count[:, None] * by_shift)
-        solved = np.linalg.solve(curve.matrix, cross)
-        normal += by_shift.T @ (count[:, None] * by_shift) - cross.T @ solved
-        right += by_shift.T @ (count * residual) - solved.T @ (functions.T @ (count * residual))
-        residuals.append(residual)
-        curves.append(curve)
-    inverse = np.asarray(np.linalg.pinv(normal, hermitian=True, rcond=1e-14), dtype=np.float64)
-    freedoms = np.array([curve.freedoms for curve in curves]) + len(free) / len(curves)
-    weight = tuple(curve.weight for curve in curves)
-    return _Step(inverse @ right, inverse, np.array(residuals), freedoms, weight)
-
-
-def _scatter(rows: Rows, last: _Step, trust: Array) -> tuple[Array, Array]:
-    """Return the scatter about each row and how far the row is trusted, both like the residuals."""
-    member = np.equal.outer(np.arange(rows.sweeps), rows.sweep).astype(float)
-    near = np.abs(np.subtract.outer(np.arange(rows.sweeps), np.arange(rows.sweeps))) <= 1
-    independent = np.maximum(1.0 - last.freedoms / len(rows.x), 0.1)
-    square = (trust * last.residual**2) @ member.T @ near / (trust @ member.T @ near)
-    scatter = np.sqrt(square / independent[:, None])[:, rows.sweep]
-    scatter = np.maximum(scatter, _LEAST_SCATTER)
-    return scatter, 1.0 / np.maximum(np.abs(last.residual) / (_FAR * scatter), 1.0)

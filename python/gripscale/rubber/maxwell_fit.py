@@ -90,6 +90,17 @@ class Curve:
         """Return the chosen rows."""
         return Curve(self.omega[chosen], self.storage[chosen], self.loss[chosen])
 
+    def end_slope(self, end: int) -> float:
+        """Return the slope of ln E'' over the first (0) or last (-1) decade, at most 1 in size."""
+        position = np.log(self.omega)
+        away = np.abs(position - position[end])
+        near = away <= math.log(10.0)
+        near[np.argsort(away, kind="stable")[:_FEWEST_FOR_SLOPE]] = True
+        run = position[near] - position[near].mean()
+        square = float(run @ run)
+        slope = float(run @ np.log(self.loss)[near]) / square if square > 0.0 else 0.0
+        return min(max(slope, -1.0), 1.0)
+
 
 @dataclass(frozen=True)
 class Prior:
@@ -154,9 +165,9 @@ def fit_equations(curve: Curve, times: Array, prior: Prior) -> Equations:
     floor, unit = _LEAST_EQUILIBRIUM * float(curve.storage.min()), float(curve.storage.min())
     # m(w) at w = 1/tau: E' in the band, beyond it with the slope of E''
     measured, position = np.log(curve.omega), -np.log(times)
-    low, high = (_end_slope(measured, np.log(curve.loss), end) for end in (0, -1))
     below, above = np.minimum(position - measured[0], 0.0), np.maximum(position - measured[-1], 0.0)
-    expected = np.interp(position, measured, curve.storage) * np.exp(low * below + high * above)
+    beyond = np.exp(curve.end_slope(0) * below + curve.end_slope(-1) * above)
+    expected = np.interp(position, measured, curve.storage) * beyond
     scale = np.minimum(expected, prior.largest_modulus)
     nothing = np.zeros((len(curve.omega), 1))
     phase = np.outer(curve.omega, times)
@@ -186,17 +197,6 @@ def fit_equations(curve: Curve, times: Array, prior: Prior) -> Equations:
         ]
     )
     return Equations(matrix, right, floor, unit, scale, times)
-
-
-def _end_slope(position: Array, value: Array, end: int) -> float:
-    """Return the slope over the first (0) or last (-1) decade, at most 1 in size, as of E''."""
-    away = np.abs(position - position[end])
-    near = away <= math.log(10.0)
-    near[np.argsort(away, kind="stable")[:_FEWEST_FOR_SLOPE]] = True
-    run = position[near] - position[near].mean()
-    square = float(run @ run)
-    slope = float(run @ value[near]) / square if square > 0.0 else 0.0
-    return min(max(slope, -1.0), 1.0)
 
 
 _PER_DECADE = (0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)
@@ -278,9 +278,10 @@ def screen_outliers(curve: Curve, times: Array, prior: Prior, threshold: float) 
         fitted = [spectrum.storage(curve.omega), spectrum.loss(curve.omega)]
         relative = measured - np.log(np.maximum(fitted, checks.LEAST))
         raw = [_deviation(position, values, kept) for values in measured]
+        smoothed = [_deviation(position, values, kept) for values in relative]
         scores = [
-            np.minimum(np.abs(a) / _scatter(a[kept]), np.abs(b) / _scatter(b[kept]))
-            for a, b in zip(raw, (_deviation(position, v, kept) for v in relative), strict=True)
+            np.minimum(*(np.abs(part) / max(_spread(part[kept]), LEAST_SCATTER) for part in both))
+            for both in zip(raw, smoothed, strict=True)
         ]
         new = np.maximum(*scores) <= threshold
         if len(kept) < _FEWEST_ROWS or new.sum() < _FEWEST_ROWS or (new == kept).all():
@@ -310,7 +311,3 @@ def _deviation(position: Array, value: Array, kept: Mask) -> Array:
 
 def _spread(deviation: Array) -> float:
     return float(1.4826 * np.median(np.abs(deviation)))
-
-
-def _scatter(deviation: Array) -> float:
-    return max(_spread(deviation), LEAST_SCATTER)

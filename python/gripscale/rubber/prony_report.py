@@ -312,13 +312,13 @@ def report_prony(
     rubber: Rubber,
 ) -> PronyFit:
     """Return the report on `rubber`, fitted to the `rows` of `master` that the screening kept."""
-    left_out, scatter = ~screening.kept, screening.believed_scatter
-    modulus = rubber.complex_modulus(rows.omega)
-    errors = modulus.real / rows.storage - 1.0, modulus.imag / rows.loss - 1.0
-    loss_factor_error = modulus.imag / modulus.real / (rows.loss / rows.storage) - 1.0
     assert rubber.admissible is not None
-    best = rubber.admissible.complex_moduli(rows.omega)[0]
-    of_best = best.real / rows.storage - 1.0, best.imag / rows.loss - 1.0
+    scatter, modulus = screening.believed_scatter, rubber.complex_modulus(rows.omega)
+    errors, of_best = (
+        (each.real / rows.storage - 1.0, each.imag / rows.loss - 1.0)
+        for each in (modulus, rubber.admissible.complex_moduli(rows.omega)[0])
+    )
+    loss_factor_error = modulus.imag / modulus.real / (rows.loss / rows.storage) - 1.0
     inconsistencies = local_misfits(rows, of_best, scatter)
     ends: list[Misfit | None] = []  # of the first and the last rows, None within the scatter
     for part in (slice(None, END_ROWS), slice(-END_ROWS, None)):
@@ -330,7 +330,7 @@ def report_prony(
     return PronyFit(
         terms=len(rubber.moduli),
         candidates=candidates,
-        outlier_frequency=master.frequency[left_out],
+        outlier_frequency=master.frequency[~screening.kept],
         rms_storage=root_mean_square(errors[0]),
         rms_loss=root_mean_square(errors[1]),
         rms_loss_factor=root_mean_square(loss_factor_error),

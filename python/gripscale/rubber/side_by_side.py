@@ -36,6 +36,26 @@ class _Column:
     others: list[str]  # the cells above it without title and mark, such as its unit; a line each
     mark: str  # a line that states the temperature or the frequency, or empty
 
+    @classmethod
+    def of(cls, titles: list[list[str]], at: int) -> _Column:
+        """Return what lines of cells above the rows say of the column `at`."""
+        mark, texts = "", []
+        for cells in titles:
+            plain = all(not cell or is_number(cell) for cell in cells[1:])
+            match, text = _MARK.search(cells[at]), cells[at]
+            if plain and is_number(text):
+                unit = _UNIT.search(cells[0])
+                mark, text = f"T = {text} {unit[1] if unit else ''}".strip(), ""
+            elif plain and any(cells[1:]):
+                text = text if quantity(text) == "frequency" else ""
+            elif match is not None:
+                kind = "Frequency" if match["unit"].endswith("Hz") else "T"
+                mark = f"{kind} = {match['number']} {match['unit'].strip()}"
+                text = _MARK.sub("", text, count=1).strip()
+            texts.append(text)
+        name = next((text for text in texts if quantity(text) is not None), "")
+        return cls(name, ["" if text == name else text for text in texts], mark)
+
 
 def split_blocks(lines: list[Line]) -> list[list[Line]]:
     """Return the lines of each block of tables side by side; the `lines` of any other file."""
@@ -50,7 +70,7 @@ def split_blocks(lines: list[Line]) -> list[list[Line]]:
         if separator in text and not is_comment(text)
     ]
     titles = [row for row in table if row[0] < lines[first][0]]
-    columns = [_column([cells for _, cells in titles], at) for at in range(count)]
+    columns = [_Column.of([cells for _, cells in titles], at) for at in range(count)]
     for at in range(1, count):  # one title over the columns of all temperatures
         column, before = columns[at], columns[at - 1]
         if not column.name and column.mark and quantity(before.name) in MODULI:
@@ -81,26 +101,6 @@ def _first_row(lines: list[Line]) -> tuple[int, str] | None:
     return None
 
 
-def _column(titles: list[list[str]], at: int) -> _Column:
-    """Return what lines of cells above the rows say of the column `at`."""
-    mark, texts = "", []
-    for cells in titles:
-        plain = all(not cell or is_number(cell) for cell in cells[1:])
-        match, text = _MARK.search(cells[at]), cells[at]
-        if plain and is_number(text):
-            unit = _UNIT.search(cells[0])
-            mark, text = f"T = {text} {unit[1] if unit else ''}".strip(), ""
-        elif plain and any(cells[1:]):
-            text = text if quantity(text) == "frequency" else ""
-        elif match is not None:
-            kind = "Frequency" if match["unit"].endswith("Hz") else "T"
-            mark = f"{kind} = {match['number']} {match['unit'].strip()}"
-            text = _MARK.sub("", text, count=1).strip()
-        texts.append(text)
-    name = next((text for text in texts if quantity(text) is not None), "")
-    return _Column(name, ["" if text == name else text for text in texts], mark)
-
-
 def _blocks(columns: list[_Column]) -> dict[str, list[int]]:
     """Return the columns of each mark; none unless moduli come again, each with its mark."""
     quantities = [quantity(column.name) for column in columns]
@@ -109,8 +109,7 @@ def _blocks(columns: list[_Column]) -> dict[str, list[int]]:
     repeated = [counts[name] for name in MODULI if counts[name]]
     if len(set(marks)) < 2 or max(repeated, default=0) < 2:
         return {}
-    once = set(repeated) == {len(marks)}
-    """Whether each mark stands once, somewhere over its block."""
+    once = set(repeated) == {len(marks)}  # each mark stands once, somewhere over its block
     blocks: dict[str, list[int]] = {mark: [] for mark in marks}
     seen: Counter[str | None] = Counter()
     current = marks[0]

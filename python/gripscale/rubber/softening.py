@@ -28,10 +28,11 @@ It is taken from strain sweeps, of which instruments print the single amplitude 
 from __future__ import annotations
 
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -62,14 +63,13 @@ class SofteningFactors:
     outside: Mask
 
 
-@runtime_checkable
-class SofteningLaw(Protocol):
+class SofteningLaw(Checked, ABC):
     """Factors of both moduli against the strain; a frozen dataclass of plain numbers."""
 
-    @property
-    def kind(self) -> str:
-        """Word for it in case files and results."""
+    kind: ClassVar[str]
+    """Word for it in case files and results."""
 
+    @abstractmethod
     def factors(self, strain: ArrayLike, temperature: float | None = None) -> SofteningFactors:
         """Return f and g at uniaxial strain amplitudes `strain` [-] and a temperature [K].
 
@@ -78,6 +78,7 @@ class SofteningLaw(Protocol):
 
     def to_dict(self) -> dict[str, Any]:
         """Return kind and parameters as plain values."""
+        return {"kind": self.kind, **self.__dict__}
 
 
 @dataclass(frozen=True)
@@ -137,7 +138,7 @@ def _multiplied(rubber: Rubber, multiplier: Array) -> Rubber:
     )
 
 
-class Kraus(Checked):
+class Kraus(SofteningLaw):
     """Kraus' law of the Payne effect, in the strain of the sweep it was fitted to.
 
     Raises `InputError` if a value is out of its range.
@@ -166,10 +167,6 @@ class Kraus(Checked):
         storage, loss = (soft / hard for soft, hard in zip(softer, measured, strict=True))
         return SofteningFactors(storage, loss, np.zeros(amplitude.shape, dtype=bool))
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return kind and parameters."""
-        return {"kind": self.kind, **self.__dict__}
-
     def _moduli(self, strain: Array) -> tuple[Array, Array]:
         """Return G'/G'_0 and G''/G''_m [-]."""
         power = (strain / self.critical_strain) ** self.exponent
@@ -197,7 +194,7 @@ def rows_of_sweeps(name: str, values: Any) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(checks.positive_vector(name, row).tolist()) for row in rows)
 
 
-class SofteningTable(Checked):
+class SofteningTable(SofteningLaw):
     """Moduli of strain sweeps, interpolated in the logarithms of strain and modulus.
 
     Beyond the largest strain the last moduli are held and flagged; between two temperatures the
@@ -256,38 +253,25 @@ class SofteningTable(Checked):
         Raises `InputError` if sweeps at several temperatures are asked without one.
         """
         amplitude = in_deformation(strain, self.deformation)
-        shares, beyond = self._shares(temperature)
-        used = [(float(share), at) for at, share in enumerate(shares) if share > 0.0]
-        storage, loss = (
-            np.asarray(sum(share * self._ratio(sweeps[at], at, amplitude) for share, at in used))
-            for sweeps in (self.storage, self.loss)
-        )
-        largest = max(self.strain[at][-1] for _, at in used)
-        return SofteningFactors(storage, loss, (amplitude > largest) | beyond)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return kind and numbers."""
-        return {"kind": self.kind, **self.__dict__}
-
-    def _ratio(self, modulus: Sequence[float], sweep: int, strain: Array) -> Array:
-        """Return a modulus of a sweep over that at `measured_at`."""
-        strains, logs = np.log(self.strain[sweep]), np.log(modulus)
-        reference = np.interp(np.log(self.measured_at), strains, logs)
-        at = np.log(np.maximum(strain, self.measured_at))
-        return np.asarray(np.exp(np.interp(at, strains, logs) - reference))
-
-    def _shares(self, temperature: float | None) -> tuple[Array, bool]:
-        """Return the weight of each sweep, and whether the temperature lies beyond them."""
-        count = len(self.strain)
-        if self.temperature is None or (count == 1 and temperature is None):
-            return np.ones(1), False
-        if temperature is None:
+        weights, beyond = np.ones(1), False  # of the sweeps
+        if self.temperature is not None and temperature is not None:
+            kelvin = np.array(self.temperature)
+            weights = np.array([np.interp(temperature, kelvin, row) for row in np.eye(kelvin.size)])
+            beyond = not kelvin[0] <= temperature <= kelvin[-1]
+        elif len(self.strain) > 1:
             raise InputError(
                 "temperature must be given for softening measured at several temperatures"
             )
-        kelvin = np.array(self.temperature)
-        beyond = not kelvin[0] <= temperature <= kelvin[-1]
-        return np.array([np.interp(temperature, kelvin, row) for row in np.eye(count)]), beyond
+        at = np.log(np.maximum(amplitude, self.measured_at))
+        factors, largest = np.zeros((2, *amplitude.shape)), 0.0
+        for sweep in np.flatnonzero(weights).tolist():
+            strains, largest = self.strain[sweep], max(largest, self.strain[sweep][-1])
+            for which, modulus in enumerate((self.storage, self.loss)):
+                logs = np.log(strains), np.log(modulus[sweep])
+                measured = np.interp(np.log(self.measured_at), *logs)
+                factors[which] += weights[sweep] * np.exp(np.interp(at, *logs) - measured)
+        outside = (amplitude > largest) | beyond
+        return SofteningFactors(factors[0, ...], factors[1, ...], outside)
 
 
 AMPLITUDES = {"single": 1.0, "peak-to-peak": 0.5}
@@ -354,23 +338,16 @@ def read_strain_sweep(
 
     Parameters
     ----------
-    path : str or Path
-        The file.
+    path, name, source, **options
+        As in `read_master_curve`; the options have `strain_unit`, too.
     modulus : {"E", "G"}, optional
         Whether the file holds Young's moduli, which come with strain of length, or shear moduli,
         with shear strain; needed unless its titles say so.
     amplitude : {"single", "peak-to-peak"}, optional
         What the strain column holds, unless its title says so (peak-to-peak, double, DSA; single,
         SSA). The peak-to-peak amplitude is halved.
-    temperature : float, optional
-        Temperature [K], if no column states it.
-    frequency : float, optional
-        Frequency [Hz], if no column states it.
-    name, source : str, optional
-        Carried along; the file's stem by default, and nothing.
-    **options
-        `columns`, `sheet`, `header`, `strain_unit`, `modulus_unit`, `temperature_unit` and
-        `frequency_unit`, as fields of `gripscale.rubber.FileLayout`.
+    temperature, frequency : float, optional
+        Temperature [K] and frequency [Hz], if no column states them.
     """
     file, layout = file_path(path), FileLayout(modulus=modulus, **options)
     blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)
@@ -440,10 +417,9 @@ def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) ->
     return SofteningTable(strain, storage, loss, measured_at, deformation, temperatures)
 
 
-SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable)}
+SOFTENING_LAWS: dict[str, type[SofteningLaw]] = {law.kind: law for law in (Kraus, SofteningTable)}
 
 
 def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
     """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
-    law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
-    return law
+    return checks.of_kind(SOFTENING_LAWS, "softening", values)

@@ -170,15 +170,8 @@ def report_superposition(
         apart = difference(cold, warm) if width >= 0.0 else np.empty((3, 0))
         rms = np.sqrt((apart**2).mean(axis=1)) if apart.size else np.full(3, np.nan)
         overlaps.append(Overlap(*temperatures, width, apart.shape[1], *map(float, rms)))
-    warnings = list(superposition_warnings(overlaps, shift))
-    if joint and isinstance(shift, ShiftTable) and (shift.vertical != 0.0).any():
-        warnings.append(
-            "a_T and b_T were found together: where E' and E'' are nearly one power law, as on a "
-            "rubbery plateau, one stands for the other, and both may be worse than their "
-            "standard errors"
-        )
-    report = sweeps.temperatures, tuple(overlaps), bool(joint), joint, tuple(warnings)
-    return Superposition(*report)
+    findings = tuple(superposition_warnings(overlaps, shift, fitted=bool(joint)))
+    return Superposition(sweeps.temperatures, tuple(overlaps), bool(joint), joint, findings)
 
 
 def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Array:
@@ -190,7 +183,9 @@ def temperatures_in(shift: Shift, temperatures: Array, tolerance: float) -> Arra
     return np.where(np.abs(nearest - temperatures) <= tolerance, nearest, temperatures)
 
 
-def superposition_warnings(overlaps: Sequence[Overlap], shift: Shift) -> Iterator[str]:
+def superposition_warnings(
+    overlaps: Sequence[Overlap], shift: Shift, *, fitted: bool
+) -> Iterator[str]:
     """Yield what is doubtful about how sweeps meet, a sentence each."""
     little = [str(pair) for pair in overlaps if pair.decades < _LITTLE]
     if little:
@@ -209,11 +204,19 @@ def superposition_warnings(overlaps: Sequence[Overlap], shift: Shift) -> Iterato
                 "°C: vertical shifts, another strain amplitude or a second relaxation are the "
                 "usual causes"
             )
-    if isinstance(shift, ShiftTable) and np.nanmax(shift.horizontal_error, initial=0.0) > _LARGE:
+    if not isinstance(shift, ShiftTable):
+        return
+    if np.nanmax(shift.horizontal_error, initial=0.0) > _LARGE:
         at = int(np.nanargmax(shift.horizontal_error))
         yield (
             f"the standard error of log10 a_T reaches {shift.horizontal_error[at]:.2f}, at "
             f"{celsius(shift.temperature[at], '.1f')}"
+        )
+    if fitted and (shift.vertical != 0.0).any():
+        yield (
+            "a_T and b_T were found together: where E' and E'' are nearly one power law, as on a "
+            "rubbery plateau, one stands for the other, and both may be worse than their "
+            "standard errors"
         )
 
 

@@ -304,8 +304,8 @@ def read_sweeps(
     path : str, Path or sequence of them
         The file, or several, such as one for each temperature, which then may stand in its name
         with its unit: sweep_-20C.csv. Excel: .xlsx.
-    modulus : {"E", "G"}, optional
-        Whether the file holds Young's or shear moduli; needed unless its titles say so.
+    modulus, name, source, **options
+        As in `read_master_curve`.
     frequency : float, optional
         Frequency of all rows [Hz], as of a temperature ramp, where the file does not state it.
     temperature : float, optional
@@ -315,11 +315,6 @@ def read_sweeps(
     temperature_step : float, optional
         For ramps, temperature sweeps at one or several frequencies: moduli are interpolated at
         multiples of this step [K] of degrees Celsius (see `gripscale.rubber.sweeps_from_ramps`).
-    name, source : str, optional
-        Carried along; the file's stem by default, and nothing.
-    **options
-        `columns`, `sheet`, `header`, `frequency_unit`, `modulus_unit`, `temperature_unit` and
-        `titles_first`, as fields of `gripscale.rubber.FileLayout`.
     """
     paths = file_paths(path)
     layout = FileLayout(modulus=modulus, frequency=frequency, **options)

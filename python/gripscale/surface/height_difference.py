@@ -32,7 +32,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import Array, Checked, InputError, Mask, Quantity, checked, checks
+from gripscale.core import Array, Checked, InputError, Quantity, checked, checks
 from gripscale.surface.low_pass import STEEPEST, followed_lines
 from gripscale.surface.profile import HeightMap, Profile, of_one_step
 
@@ -50,29 +50,21 @@ _FEWEST_PAIRS = 16  # pairs a lag must have to be kept
 class HeightDifference(Checked, eq=False):
     """Mean squared height difference against lag.
 
-    Raises `InputError` if the lengths differ, lags do not increase from above zero, or a value is
-    negative.
-
-    Parameters
-    ----------
-    lag : array_like, shape (lags,)
-        Lag [m], positive, strictly increasing.
-    value : array_like, shape (lags,)
-        C_z [m^2], not negative.
-    pairs : array_like of int, shape (lags,), optional
-        Number of pairs averaged; zeros if not known.
-    lower, upper : array_like, shape (lags,), optional
-        Band of 95 % nominal confidence [m^2]; NaN if not known.
-    resolution_limit : float, optional
-        Shortest wavelength [m] that the measurement behind the curve resolves, if known.
+    Arrays have the shape (lags,). Raises `InputError` if their lengths differ, lags do not increase
+    from above zero, or a value is negative.
     """
 
     lag: Array = checked(checks.increasing_vector, unit="m")
+    """Lag [m], positive, strictly increasing."""
     value: Array = checked(checks.not_negative_vector, unit="m^2")
+    """C_z [m^2], not negative."""
     pairs: NDArray[np.int64] = checked(lambda _, value: np.array(value, np.int64), default=None)
+    """Number of pairs averaged; zeros if not known."""
     lower: Array = checked(checks.vector, unit="m^2", missing=True, default=None)
     upper: Array = checked(checks.vector, unit="m^2", missing=True, default=None)
+    """Band of 95 % nominal confidence [m^2]; NaN if not known."""
     resolution_limit: float | None = checked(checks.positive, unit="m", default=None)
+    """Shortest wavelength [m] that the measurement behind the curve resolves, if known."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -164,32 +156,22 @@ def height_difference(
         lags_per_decade=lags_per_decade,
         steepest=steepest,
     )
-    total, pairs = sums.squares.sum(axis=0), sums.pairs.sum(axis=0)
-    value = total / pairs
-    spread = _jackknife_spread(total - sums.squares, pairs - sums.pairs, sums.pairs > 0)
-    return HeightDifference(
-        sums.lag,
-        value,
-        pairs.astype(np.int64),
-        value * np.exp(-spread),
-        value * np.exp(spread),
-        sums.resolution_limit,
-    )
-
-
-def _jackknife_spread(sums: Array, pairs: Array, used: Mask) -> Array:
-    """Return the half width of the band in log C_z from the sums without each block."""
     from scipy.special import stdtrit  # of scipy.stats, which takes half a second to import
 
-    usable = used & (pairs > 0) & (sums > 0.0)
+    total, pairs = sums.squares.sum(axis=0), sums.pairs.sum(axis=0)
+    squares, others = total - sums.squares, pairs - sums.pairs  # without each block
+    usable = (sums.pairs > 0) & (others > 0) & (squares > 0.0)
     n = usable.sum(axis=0)
-    logs = np.log(np.where(usable, sums, 1.0) / np.where(usable, pairs, 1.0))
+    logs = np.log(np.where(usable, squares, 1.0) / np.where(usable, others, 1.0))
     mean = logs.sum(axis=0, where=usable) / np.maximum(n, 1)
     scatter = np.square(logs - mean).sum(axis=0, where=usable)
     deviation = np.sqrt((n - 1) / np.maximum(n, 1) * scatter)
-    quantile = stdtrit(np.maximum(n - 1, 1), 0.5 + _BAND_LEVEL / 2.0)
-    spread = quantile * deviation
-    return np.where((n >= 2) & (spread < _WIDEST_BAND), spread, np.nan)
+    # half width of the band in log C_z
+    spread = stdtrit(np.maximum(n - 1, 1), 0.5 + _BAND_LEVEL / 2.0) * deviation
+    spread = np.where((n >= 2) & (spread < _WIDEST_BAND), spread, np.nan)
+    value = total / pairs
+    band = value * np.exp(-spread), value * np.exp(spread)
+    return HeightDifference(sums.lag, value, pairs.astype(np.int64), *band, sums.resolution_limit)
 
 
 @dataclass(frozen=True, eq=False)

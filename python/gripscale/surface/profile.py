@@ -10,7 +10,7 @@ slope times that part. Points were left out where k_i increases by more than one
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -25,20 +25,16 @@ from gripscale.core.units import readable
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+# Largest distance of a point from the even grid that fits best, in steps. A distance rounded to a
+# tenth of a step is just within. Uniform departures up to it add 2 d^2/3 to the squared distance of
+# neighbours, 0.2 % of it.
 GRID_TOLERANCE = 0.05
-"""Largest distance of a point from the even grid that fits best, in steps.
-
-A distance rounded to a tenth of a step is just within. Uniform departures up to it add 2 d^2/3 to
-the squared distance of neighbours, 0.2 % of it.
-"""
 
 # Largest last decimal place of printed distances, in steps, that still separates neighbours.
 _COARSEST_PRINT = 0.5
+# Length, in the shortest step, up to which a step counts as single. Printed steps differ by the
+# last decimal, at most half as much again; double steps are longer.
 _SINGLE = 1.6
-"""Length, in the shortest step, up to which a step counts as single.
-
-Printed steps differ by the last decimal, at most half as much again; double steps are longer.
-"""
 
 # Steps in a gap beyond which floating point cannot tell the grid number of its points.
 _LARGEST_NUMBER = 1e12
@@ -140,36 +136,25 @@ class Profile(Checked, Pictured, eq=False):
 
         >>> gs.Profile(np.arange(100) * 1e-4, np.sin(np.arange(100))).length
         0.0099
-
-    Parameters
-    ----------
-    x : array_like, shape (points,)
-        Distance along the line [m], equidistant: no point farther than 0.05 steps from the even
-        grid that fits best. Points in falling order are reversed, and `notes` says so.
-    z : array_like, shape (points,)
-        Height [m], positive upwards; NaN where the height is missing.
-    name : str, optional
-        Name of the profile in tables and figures.
-    source : str, optional
-        Where it comes from, such as a file name and a line number.
-    reliable : float, optional
-        Shortest wavelength [m] the instrument measures reliably, if known.
-    notes : tuple of str, optional
-        Changes made by reading, such as rows added where some were left out.
-    doubts : tuple of Finding, optional
-        Why the file may mean other heights, such as a title that says depth.
-    lay : {"along", "across"}, optional
-        Whether it lies along the sliding direction, or across it to show ridges.
     """
 
     x: Array = checked(checks.vector, unit="m")
+    """Distance along the line [m], shape (points,), equidistant: no point farther than 0.05 steps
+    from the even grid that fits best. Points in falling order are reversed, and `notes` says so."""
     z: Array = checked(checks.vector, unit="m", missing=True)
+    """Height [m], shape (points,), positive upwards; NaN where the height is missing."""
     name: str = checked(checks.text, default="")
+    """Name of the profile in tables and figures."""
     source: str = checked(checks.text, default="")
+    """Where it comes from, such as a file name and a line number."""
     reliable: float | None = checked(checks.positive, unit="m", default=None)
+    """Shortest wavelength [m] the instrument measures reliably, if known."""
     notes: tuple[str, ...] = checked(_tuple_of, kind=str, default=())
+    """Changes made by reading, such as rows added where some were left out."""
     doubts: tuple[Finding, ...] = checked(_tuple_of, kind=Finding, default=())
+    """Why the file may mean other heights, such as a title that says depth."""
     lay: str = checked(checks.one_of, choices=LAYS, default="along")
+    """Whether it lies along the sliding direction, or "across" it to show ridges."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -241,10 +226,7 @@ class Profile(Checked, Pictured, eq=False):
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
         """Yield name, points, heights and source."""
-        yield "name", self.name or "unnamed"
-        step, length = readable(self.step, "m"), readable(self.length, "m")
-        yield "x", f"{len(self)} points, step {step}, length {length}"
-        yield from _shown_heights(self)
+        yield from _shown_rows(self, [("x", len(self), self.step, self.length)])
 
 
 def _axis(name: str, value: ArrayLike) -> Array:
@@ -287,33 +269,20 @@ class HeightMap(Checked, Pictured, eq=False):
 
         >>> gs.HeightMap(height_map.x, height_map.y, 2.0 * height_map.z).step
         (0.0002, 0.0002)
-
-    Parameters
-    ----------
-    x : array_like, shape (nx,)
-        Distance along the way of sliding [m], strictly increasing, equidistant: no point farther
-        than 0.05 steps from the even grid that fits best.
-    y : array_like, shape (ny,)
-        Distance across it [m], likewise; its step may differ from that of x.
-    z : array_like, shape (nx, ny)
-        Height [m], positive upwards; NaN where the height is missing.
-    name : str, optional
-        Name of the map in tables and figures.
-    source : str, optional
-        Where it comes from, such as a file name.
-    reliable : float, optional
-        Shortest wavelength [m] the instrument measures reliably, if known.
-    doubts : tuple of Finding, optional
-        Why the file may mean other heights, such as a title that says depth.
     """
 
     x: Array = checked(_axis)
+    """Distance along the way of sliding [m], shape (nx,), strictly increasing, equidistant: no
+    point farther than 0.05 steps from the even grid that fits best."""
     y: Array = checked(_axis)
+    """Distance across it [m], shape (ny,), likewise; its step may differ from that of x."""
     z: Array = checked(height_table)
+    """Height [m], shape (nx, ny), positive upwards; NaN where the height is missing."""
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     reliable: float | None = checked(checks.positive, unit="m", default=None)
     doubts: tuple[Finding, ...] = checked(_tuple_of, kind=Finding, default=())
+    """As those of a `Profile`."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -379,15 +348,17 @@ class HeightMap(Checked, Pictured, eq=False):
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
         """Yield name, points, heights and source."""
-        yield "name", self.name or "unnamed"
-        sizes = zip(("x", "y"), self.z.shape, self.step, self.length, strict=True)
-        for axis, count, step, length in sizes:
-            words = readable(step, "m"), readable(length, "m")
-            yield axis, f"{count} points, step {words[0]}, length {words[1]}"
-        yield from _shown_heights(self)
+        axes = zip(("x", "y"), self.z.shape, self.step, self.length, strict=True)
+        yield from _shown_rows(self, axes)
 
 
-def _shown_heights(surface: Profile | HeightMap) -> Iterator[tuple[str, str]]:
+def _shown_rows(
+    surface: Profile | HeightMap, axes: Iterable[tuple[str, int, float, float]]
+) -> Iterator[tuple[str, str]]:
+    yield "name", surface.name or "unnamed"
+    for axis, count, step, length in axes:
+        words = f"step {readable(step, 'm')}, length {readable(length, 'm')}"
+        yield axis, f"{count} points, {words}"
     spread = readable(float(np.nanstd(surface.z)), "m")
     yield "z", f"{shown_value(surface.z, 'm')}, rms {spread}, {surface.missing} missing"
     if surface.reliable is not None:

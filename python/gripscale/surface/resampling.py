@@ -122,35 +122,28 @@ def printed_grid(
     grid = profile.even_grid(distances, table.resolution(column))
     if grid is not None and grid.left_out <= _MOST_LEFT_OUT * grid.size:
         return grid
+    where, steps, at = str(table.path), np.diff(distances), profile.uneven_step(distances)
+    first, second = (f"{distances[i]:.9g}" for i in (at, at + 1))
+    if grid is None and lines is not None:
+        where, first = f"{where}, line {lines[at + 1]}", f"{first} (line {lines[at]})"
     if grid is not None:
-        refusal = FileError(
-            f"{table.path}: expected a distance in column {column + 1} at half the points of an "
-            f"even grid or more; got {grid.number.size} of {grid.size} in steps of {grid.step:.6g}"
+        problem = (
+            f"a distance in column {column + 1} at half the points of an even grid or more; got "
+            f"{grid.number.size} of {grid.size} in steps of {grid.step:.6g}"
             f"{'' if lines else ': scattered points are to be put on a grid first'}"
         )
+    elif lines is not None and steps[at] == 0.0:
+        again = int((steps == 0.0).sum())
+        rows = "this row" if again == 1 else f"the {again} rows that repeat the one above"
+        problem = f"each distance in column {column + 1} once; got {first} again: take out {rows}"
     else:
-        refusal = _uneven(table, column, distances, lines)
+        problem = (
+            f"distances in column {column + 1} that increase in equal steps; got {first} then "
+            f"{second}, where {np.median(steps):.6g} is usual"
+        )
+    refusal = FileError(f"{where}: expected {problem}")
     refusal.see = "" if lines is None else "docs/inputs.md#a-measured-profile"
     raise refusal
-
-
-def _uneven(table: TextTable, column: int, distances: Array, lines: list[int] | None) -> FileError:
-    at = profile.uneven_step(distances)
-    first, second = (f"{distances[i]:.9g}" for i in (at, at + 1))
-    where = f"{table.path}"
-    if lines is not None:
-        where, first = f"{table.path}, line {lines[at + 1]}", f"{first} (line {lines[at]})"
-        again = int((np.diff(distances) == 0.0).sum())
-        if distances[at] == distances[at + 1]:
-            rows = "this row" if again == 1 else f"the {again} rows that repeat the one above"
-            return FileError(
-                f"{where}: expected each distance in column {column + 1} once; got {first} "
-                f"again: take out {rows}"
-            )
-    return FileError(
-        f"{where}: expected distances in column {column + 1} that increase in equal steps; "
-        f"got {first} then {second}, where {np.median(np.diff(distances)):.6g} is usual"
-    )
 
 
 def without_line(rows: Array) -> Array:

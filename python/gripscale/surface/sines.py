@@ -43,31 +43,22 @@ class SineStack(Checked, eq=False):
 
         >>> gs.SineStack(["8 mm", "2 mm"], ["0.5 mm", "0.1 mm"]).s_wavelength
         4.0
-
-    Parameters
-    ----------
-    wavelength : array_like, shape (waves,)
-        Wavelengths [m], positive, strictly decreasing.
-    amplitude : array_like, shape (waves,)
-        Amplitudes [m], positive: half the height from valley to peak.
-    s_wavelength, s_amplitude : float, optional
-        Magnification factors between neighbouring waves. If not given they are the geometric mean
-        of the ratios, or None where the ratios differ by more than 1 % or there is one wave.
-    residual : float, optional
-        Rms difference from the curve the waves were fitted to, in decades of C_z.
-    lag_range : (float, float), optional
-        Smallest and largest lag the waves were fitted to [m].
-    cut_off : float, optional
-        Shortest wavelength of the roughness the waves represent [m], if it is not the last wave.
     """
 
     wavelength: Array = checked(checks.positive_vector, unit="m")
+    """Wavelengths [m], shape (waves,), positive, strictly decreasing."""
     amplitude: Array = checked(checks.positive_vector, unit="m")
+    """Amplitudes [m], shape (waves,), positive: half the height from valley to peak."""
     s_wavelength: float | None = checked(checks.positive, default=None)
     s_amplitude: float | None = checked(checks.positive, default=None)
+    """Magnification factors between neighbouring waves. If not given they are the geometric mean of
+    the ratios, or None where the ratios differ by more than 1 % or there is one wave."""
     residual: float | None = checked(checks.not_negative, default=None)
+    """Rms difference from the curve the waves were fitted to, in decades of C_z."""
     lag_range: tuple[float, float] | None = None
+    """Smallest and largest lag the waves were fitted to [m]."""
     cut_off: float | None = checked(checks.positive, unit="m", default=None)
+    """Shortest wavelength of the roughness the waves represent [m], if it is not the last wave."""
 
     def __post_init__(self) -> None:
         super().__post_init__()

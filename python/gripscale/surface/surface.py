@@ -231,14 +231,11 @@ class Surface(Described):
         if self.rule is None:
             return replace(find_cut_off(self.measured.slopes, end), rule="the last wave")
         cut_off = find_cut_off(self.measured.slopes, self.rule)
+        if np.isclose(cut_off.wavelength, end, rtol=1e-6):
+            return cut_off
         # with s_wavelength given, whole waves end above the cut-off that was asked for
-        return (
-            cut_off
-            if np.isclose(cut_off.wavelength, end, rtol=1e-6)
-            else replace(
-                find_cut_off(self.measured.slopes, end), rule=f"whole waves down to {cut_off.rule}"
-            )
-        )
+        rule = f"whole waves down to {cut_off.rule}"
+        return replace(find_cut_off(self.measured.slopes, end), rule=rule)
 
     def only(self, parts: Collection[SurfacePart]) -> Surface:
         """Return a surface with these parts only, without their origin."""

@@ -20,7 +20,7 @@ Units are stated by the file or by the caller, never guessed.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -32,13 +32,7 @@ from gripscale.core.units import in_mm, quantity_in_si, spelled
 from gripscale.io.cells import Line
 from gripscale.io.text_table import TextTable, column_in, read_lines, table_in
 from gripscale.surface.header import Header, read_header
-from gripscale.surface.profile import (
-    FEWEST_POINTS,
-    TURNED_ROUND,
-    HeightMap,
-    Profile,
-    even_grid,
-)
+from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, HeightMap, Profile, even_grid
 from gripscale.surface.resampling import printed_grid
 
 _NINES = [10.0**digits - 1.0 for digits in range(3, 10)]
@@ -145,12 +139,14 @@ def read_text_profile(
     column, header = column_in(path, lines, kinds=("length",)), read_header(lines)
     if column is not None:
         steps = _stated_steps(path, None if step is None else (step, step), header)
-        if steps is not None:
-            unit = _column_unit(column, 0, "z_unit", z_unit, header.z_unit)
-            return _equal_steps(column, steps[0], unit)
-        before = "expected two columns, distance and height; got one column of numbers: give "
-        after = ', the distance between its points, such as "0.1 mm"'
-        raise unstated(f"{path}: {before}", "step", after, kind=FileError)
+        if steps is None:
+            before = "expected two columns, distance and height; got one column of numbers: give "
+            after = ', the distance between its points, such as "0.1 mm"'
+            raise unstated(f"{path}: {before}", "step", after, kind=FileError)
+        unit = _column_unit(column, 0, "z_unit", z_unit, header.z_unit)
+        printed, notes = _heights(column, 0, unit)
+        x, z = steps[0] * np.arange(printed.size), quantity_in_si(printed, unit, "length")
+        return _profile(path, np.asarray(x, float), z, notes, depth_doubts(column, 0))
     if step is not None:
         raise InputError(f"step must be left out; {path} states where its points are")
     table, columns = _read_table(
@@ -180,22 +176,21 @@ def read_text_profile(
         )
     x = quantity_in_si(grid.points(x), x_unit, "length")
     z = quantity_in_si(grid.spread(z), z_unit, "length")
-    doubts = () if is_captif(lines) else depth_doubts(table, z_column)
+    # the "Depth" of CAPTIF counts upwards: the steel plates on which its profilometer stands are
+    # above the road in its files (https://github.com/captif-nz/captif-slp)
+    captif = any("*****DATA*****" in text for _, text in lines[:20])
+    return _profile(path, x, z, notes, () if captif else depth_doubts(table, z_column))
+
+
+def _profile(
+    path: Path, x: Array, z: Array, notes: list[str], doubts: tuple[Finding, ...]
+) -> Profile:
     with about_file(path):
         return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
 
 
 # What a title says of heights that may be counted downwards.
 _DEPTH = re.compile(r"depth|tiefe|profondeur|profundidad|profondit", re.IGNORECASE)
-
-
-def is_captif(lines: Sequence[Line]) -> bool:
-    """Return whether a file is of the profilometer of CAPTIF, whose "Depth" counts upwards.
-
-    The steel plates on which it stands are above the road in its files
-    (https://github.com/captif-nz/captif-slp).
-    """
-    return any("*****DATA*****" in text for _, text in lines[:20])
 
 
 def depth_doubts(table: TextTable, column: int) -> tuple[Finding, ...]:
@@ -249,16 +244,6 @@ def _stated_steps(
         " and ".join(in_mm(s) for s in dict.fromkeys(pair)) for pair in (steps, header.step)
     )
     raise InputError(f"step is {by_caller}, but {path} says {by_file}; give one of them")
-
-
-def _equal_steps(column: TextTable, step: float, z_unit: str) -> Profile:
-    path = column.path
-    printed, notes = _heights(column, 0, z_unit)
-    z = quantity_in_si(printed, z_unit, "length")
-    with about_file(path):
-        x = np.asarray(step * np.arange(z.size), float)
-        doubts = depth_doubts(column, 0)
-        return Profile(x, z, path.stem, str(path), notes=tuple(notes), doubts=doubts)
 
 
 def read_text_map(

@@ -116,9 +116,9 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
         slopes = np.concatenate([np.diff(line.z) / line.step for line in levels])
         values |= _height_numbers(np.concatenate([line.z for line in levels]))
         values["rms_slope"] = _mean(slopes**2) ** 0.5
-    depths = np.concatenate([segment_depths(line) for line in lines])
+    depths, shares = np.concatenate([_depths_and_shares(line) for line in lines], axis=1)
     values |= {"mean_profile_depth": _mean(depths), "depth_segments": depths.size}
-    values["g_factor"] = _mean(np.concatenate([_shares_above_middle(line) for line in lines]))
+    values["g_factor"] = _mean(shares)
     note = ""
     if not depths.size:
         if max(line.length for line in lines) < _SEGMENT:
@@ -153,38 +153,31 @@ def _dataset(values: Mapping[str, float], note: str) -> xr.Dataset:
     return xr.Dataset(data).assign({DEPTH_NOTE: note})
 
 
-def segment_depths(profile: Profile) -> Array:
-    """Return the mean segment depths [m] of the whole segments; none with steps above 1 mm."""
-    halves = np.array_split(_segments(profile), 2, axis=1)
-    return np.asarray(np.mean([half.max(axis=1) for half in halves], axis=0))
+def _depths_and_shares(profile: Profile) -> Array:
+    """Return segment depth [m] and g-factor [-] of each whole segment; none with steps above 1 mm.
 
-
-def _shares_above_middle(profile: Profile) -> Array:
-    """Return the g-factor of each whole segment [-]."""
-    segments = _segments(profile, smooth=False)
-    middle = 0.5 * (segments.max(axis=1) + segments.min(axis=1))
-    return np.asarray((segments > middle[:, None]).mean(axis=1))
-
-
-def _segments(profile: Profile, *, smooth: bool = True) -> Array:
-    """Return the whole segments of a profile about their lines [m], (segments, samples).
-
-    None with steps above 1 mm. Without `smooth` short waves stay.
+    Of shape (2, segments).
     """
     step = max(profile.step, _SAMPLE)
     if step > _COARSEST or len(profile) * profile.step < _SEGMENT:
-        return np.zeros((0, 2))
+        return np.zeros((2, 0))
     sample = np.floor(np.arange(len(profile)) * (profile.step / step) + 1e-6).astype(int)
     samples = int(_SEGMENT / step + 1e-6)
     whole = (sample[-1] + 1) // samples
     counts = np.bincount(sample)
     steady, _ = mark_steep_steps(profile)
-    heights = np.bincount(sample, fill_gaps(steady.z)) / counts
-    if smooth:
-        heights = _without_short_waves(heights, step / _SHORTEST_WAVE)
+    rough = np.bincount(sample, fill_gaps(steady.z)) / counts
+    smooth = _without_short_waves(rough, step / _SHORTEST_WAVE)
     missing = np.bincount(sample, np.isnan(steady.z)) / counts
-    segments, gaps = (part[: whole * samples].reshape(whole, -1) for part in (heights, missing))
-    return np.asarray(without_line(segments)[gaps.mean(axis=1) <= _MOST_MISSING])
+    smooth, rough, gaps = (
+        part[: whole * samples].reshape(whole, -1) for part in (smooth, rough, missing)
+    )
+    counted = gaps.mean(axis=1) <= _MOST_MISSING
+    smooth, rough = (without_line(segments)[counted] for segments in (smooth, rough))
+    halves = np.array_split(smooth, 2, axis=1)
+    depths = np.mean([half.max(axis=1) for half in halves], axis=0)
+    middle = 0.5 * (rough.max(axis=1) + rough.min(axis=1))
+    return np.array([depths, (rough > middle[:, None]).mean(axis=1)])
 
 
 # Estimated texture depth, which a patch of sand would show, over the mean profile depth (ISO
