@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.questions.compare.comparison import _windows_left
+from gripscale.questions.compare.comparison import windows_left
 from gripscale.questions.compare.ladder import MOST_WINDOWS, chosen
 from tests.questions.compare.test_corrections import SUBJECT
 
@@ -39,7 +39,7 @@ def left(solved: Make, together: Make) -> Callable[..., bool]:
         comparison: Any = SimpleNamespace(
             samples=samples, setups=[SimpleNamespace(windows=wanted)], data=xr.Dataset(widths)
         )
-        return _windows_left(comparison, 0.1)
+        return windows_left(comparison, 0.1)
 
     return ask
 

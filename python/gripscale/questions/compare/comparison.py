@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,7 @@ from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import Array, Described, InputError, checks, labelled, provenance
-from gripscale.experiment.design import Design, Point, solve_design, surface_numbers
+from gripscale.experiment.design import Design, Point, surface_numbers
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import Bench, OnTask, Progress
 from gripscale.experiment.task import Store, Task
@@ -29,7 +29,7 @@ from gripscale.questions.answer.estimate import Factor
 from gripscale.questions.answer.intervals import half_width
 from gripscale.questions.answer.waves import estimate_of_waves
 from gripscale.questions.calibration import measured_comparison as friction
-from gripscale.questions.compare.ladder import ComparedModel, ComparisonSetup, chosen
+from gripscale.questions.compare.ladder import ComparedModel, ComparisonSetup
 from gripscale.questions.vary.axis import Axis
 from gripscale.questions.vary.study import Study, coordinates
 from gripscale.rubber.extrapolation import require_measured
@@ -124,20 +124,13 @@ FEWEST_WINDOWS = 3  # windows whose scatter is believed
 OnStage = Callable[[SolvedLadder], None]
 
 
-def solved_ladder(
-    case: Case,
-    vary: Mapping[str, Any] | None,
-    bench: Bench,
-    *,
-    seeds: int,
-    tolerance: float,
-    models: Sequence[str],
-    measured: MeasuredFriction | None,
-    factors: Sequence[Factor],
-    accuracy: float,
-    on_stage: OnStage | None,
-) -> SolvedLadder:
-    """Return the models of a case with their samples; arguments and errors as of `compare`."""
+def comparison_setups(
+    case: Case, vary: Mapping[str, Any] | None, seeds: int, tolerance: float
+) -> tuple[dict[str, ComparisonSetup], Axis | None, Sequence[MeasuredRubber]]:
+    """Return what is compared by labels of tasks, over which axis, and the rubbers with doubts.
+
+    Arguments and errors are those of `compare`.
+    """
     tasks = {"": Task(case.rubber, case.surface, case.load, case.chain)}
     rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
     axis: Axis | None = None
@@ -146,14 +139,14 @@ def solved_ladder(
         axis = _axis(study)
         tasks = {point.label: point.task for point in study.points}
         rubbers = study.measured_rubbers
-    setups = []
+    setups = {}
     water = None if case.conditions is None else case.conditions.water  # which the chain leaves out
-    for task in tasks.values():
+    for label, task in tasks.items():
         chain = checks.instance("model", task.model, Chain)
         conditions = chain.conditions
         if water is not None:
             conditions = replace(conditions or Conditions(), water=water)
-        setup = ComparisonSetup(
+        setup = setups[label] = ComparisonSetup(
             task.rubber,
             task.surface,
             task.load,
@@ -168,38 +161,10 @@ def solved_ladder(
         if case.chain.extrapolate == "refuse":
             wavelength = setup.surface.sines.wavelength
             require_measured(setup.rubber_before, wavelength, setup.load.speed)
-        setups.append(setup)
-
-    wanted = chosen(models)
-    answering = [m for m in wanted if m.name == estimates.DIRECT] if axis is None else []
-    asked, *stages = [answering, wanted] if answering and answering != wanted else [wanted]
-    while True:
-        design, solved = _design(setups, list(tasks), asked, axis)
-        if not solved and stages:
-            asked = stages.pop(0)
-            continue
-        if not solved:
-            raise InputError(
-                f"no model of {', '.join(models)} applies to this case; windows and maps "
-                "need measured profiles, klueppel_heinrich the parameters of [compare]"
-            )
-        numbers = partial(reduce.sample_numbers, conditions=setups[0].conditions)
-        samples = solve_design(design, bench, numbers)
-        ladder = SolvedLadder(
-            case, setups, solved, samples, axis, measured or case.friction, factors, rubbers
-        )
-        if on_stage is not None:
-            on_stage(ladder)
-        if stages:
-            asked = stages.pop(0)
-        elif _windows_left(ladder, accuracy):
-            setups = [replace(setup, windows=setup.windows + 1) for setup in setups]
-        else:
-            return ladder
-        bench = _telling_new(bench)
+    return setups, axis, rubbers
 
 
-def _telling_new(bench: Bench) -> Bench:
+def telling_new(bench: Bench) -> Bench:
     """Return the bench that tells of the tasks only that it solves, not of those in its store."""
     on_task = bench.on_task
 
@@ -223,19 +188,16 @@ def _axis(study: Study) -> Axis:
     return axis
 
 
-def _design(
-    setups: Sequence[ComparisonSetup],
-    labels: Sequence[str],
-    models: Sequence[ComparedModel],
-    axis: Axis | None,
+def ladder_design(
+    setups: Mapping[str, ComparisonSetup], models: Sequence[ComparedModel], axis: Axis | None
 ) -> tuple[Design, list[ComparedModel]]:
     """Return the samples of models over setups as a design, and the models that have any."""
-    draws = {member: [member.draws(setup) for setup in setups] for member in models}
+    draws = {member: [member.draws(setup) for setup in setups.values()] for member in models}
     draws = {member: specs for member, specs in draws.items() if any(specs)}
     most = max((len(specs) for by_load in draws.values() for specs in by_load), default=0)
     subjects = np.full((len(draws), most), "", dtype=object)
     points = []
-    for load, (label, setup) in enumerate(zip(labels, setups, strict=True)):
+    for load, (label, setup) in enumerate(setups.items()):
         for at, (member, by_load) in enumerate(draws.items()):
             for number, spec in enumerate(by_load[load]):
                 subjects[at, number] = spec.subject
@@ -254,7 +216,7 @@ def _design(
     return Design(outer | sizes, points[::-1], coords), list(draws)
 
 
-def _windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
+def windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     """Return whether more windows would narrow the estimate, and there are more.
 
     Enough are three that converged, with a factor known to a third of the accuracy wanted, or of
@@ -330,7 +292,7 @@ def at_measured(
         for name, parts in designs.items()
     }
     if estimates.DIRECT in predicted:
-        predicted["answer"] = friction.answers_at(measured, ladder.case, _telling_new(bench))
+        predicted["answer"] = friction.answers_at(measured, ladder.case, telling_new(bench))
     law = None if setup.conditions is None else setup.conditions.shear_stress
     data = friction.residuals(measured, predicted, law)
     return data.assign_attrs(ladder.case.attributes, measured_source=measured.source)

@@ -8,13 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gripscale.case import Case
+from gripscale.core import InputError
 from gripscale.core.finding import Finding, from_json, ranked, to_json
+from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import (
     FRICTION_DOUBTS,
     MeasuredFriction,
@@ -24,13 +27,22 @@ from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Table, significant
 from gripscale.model import INPUT_DOUBTS, input_doubts_of
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
-from gripscale.questions.answer.estimate import Factor
+from gripscale.questions.answer.estimate import DIRECT, Factor
 from gripscale.questions.answer.findings import answer_notices, measured_at_load
+from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
 from gripscale.questions.compare.charts import comparison_figures
 from gripscale.questions.compare.charts_of_ladder import varied
-from gripscale.questions.compare.comparison import OnStage, SolvedLadder, solved_ladder
+from gripscale.questions.compare.comparison import (
+    OnStage,
+    SolvedLadder,
+    comparison_setups,
+    ladder_design,
+    telling_new,
+    windows_left,
+)
+from gripscale.questions.compare.ladder import chosen
 from gripscale.questions.cut_off.curve import continuation_doubts
 from gripscale.questions.result import Result
 from gripscale.questions.words import SYMBOLS, believed, is_estimated
@@ -165,19 +177,37 @@ def compare(
     if vary is None and (curve := continued_curve(case, case.load, folder)) is not None:
         doubtful = list(continuation_doubts(curve))
         factors = [*continuation_factors(case, curve), *factors]
+    setups, axis, rubbers = comparison_setups(case, vary, seeds, tolerance)
+    wanted = chosen(models)
+    answering = [m for m in wanted if m.name == DIRECT] if vary is None else []
+    asked, *stages = [answering, wanted] if answering and answering != wanted else [wanted]
     with bench_in(folder, workers, client, on_task) as bench:
-        ladder = solved_ladder(
-            case,
-            vary,
-            bench,
-            seeds=seeds,
-            tolerance=tolerance,
-            models=models,
-            measured=measured,
-            factors=factors,
-            accuracy=accuracy,
-            on_stage=on_stage,
-        )
+        while True:
+            design, members = ladder_design(setups, asked, axis)
+            if not members and not stages:
+                raise InputError(
+                    f"no model of {', '.join(models)} applies to this case; windows and maps "
+                    "need measured profiles, klueppel_heinrich the parameters of [compare]"
+                )
+            if members:
+                each = list(setups.values())
+                numbers = partial(sample_numbers, conditions=each[0].conditions)
+                samples = solve_design(design, bench, numbers)
+                ladder = SolvedLadder(
+                    case, each, members, samples, axis, measured or case.friction, factors, rubbers
+                )
+                if on_stage is not None:
+                    on_stage(ladder)
+                bench = telling_new(bench)
+            if stages:
+                asked = stages.pop(0)
+            elif windows_left(ladder, accuracy):
+                setups = {
+                    label: replace(setup, windows=setup.windows + 1)
+                    for label, setup in setups.items()
+                }
+            else:
+                break
     data = ladder.data
     if doubts := friction_doubts(ladder.measured, case.load.speed):
         data = data.assign_attrs({FRICTION_DOUBTS: to_json(doubts)})

@@ -38,15 +38,12 @@ def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
     for name, (label, colour, title) in _CURVES.items():
         area = name == AREA
         low, high = (data[f"{name}_{end}"].values for end in ("lower", "upper"))
-        band = "" if area else "90 % band of the continuation"
+        words = "" if area else "90 % band of the continuation"
+        band = chart.ShadedBand(lengths, low, high, colour, words)
         panel = chart.Panel(
             axis,
             chart.PlotAxis(label, log=area, low=None if area else 0.0),
-            [
-                chart.ShadedBand(lengths, low, high, colour, band),
-                *_curve(data, name, colour),
-                *rules,
-            ],
+            [band, *_curve(data, name, colour), *rules],
             name=f"cut-off-{'area' if area else 'friction'}",
             caption=f"{title} against the cut-off: measured roughness solid, continued dotted, "
             "with its 90 % band. Upright lines are rules of cut-off.",
