@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from gripscale.questions import shares
+from gripscale.questions.uncertainty.page import share_table
 
 
 def evenly(samples: int, seed: int, count: int) -> np.ndarray:
@@ -101,3 +103,25 @@ def test_failed_samples_do_not_count():
 def test_too_few_samples_tell_nothing(samples):
     x = evenly(max(samples, 1), 7, 3)[:samples]
     assert shares(np.exp(x[:, 0]), {f"x{k}": x[:, [k]] for k in range(3)}) is None
+
+
+def test_the_table_compares_neighbours_by_the_error_of_their_difference():
+    """Shares of 0.5 and 0.4 with a difference of 0.1 +/- 0.2; the others are known to 0.001."""
+    apart = np.full((4, 4), 0.001)
+    apart[1, 2] = apart[2, 1] = 0.2
+    numbers = {
+        "share": ("source", [0.1, 0.4, 0.5, 0.0]),
+        "share_error": ("source", [0.01] * 4),
+        "share_difference_error": (("source", "other_source"), apart),
+        "end": (("source", "end"), np.ones((4, 2))),
+        "unexplained": ((), 0.0),
+    }
+    names = ("friction", "contact_fraction")
+    part = xr.Dataset({f"{name}_{key}": value for name in names for key, value in numbers.items()})
+    part = part.assign(friction=("sample", np.ones(30))).assign_coords(label=("source", [*"abcd"]))
+    table = share_table(part, "chain")
+    assert table.columns[0].values[:4] == ["c", "b", "a", "d"]
+    assert table.notes == [
+        "The order is not significant with 30 samples: c and b.",
+        "No significant effect with 30 samples: d.",
+    ]

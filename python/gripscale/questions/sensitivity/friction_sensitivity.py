@@ -116,32 +116,29 @@ class FrictionSensitivity(DirectContact):
         conditions = conditions_of(self)
         kelvin = conditions.temperature_of(rubber)
 
-        def solved(load: Load, warmer: float = 0.0) -> float:
-            other = conditions
-            if kelvin is not None and warmer:
-                other = replace(conditions, temperature=kelvin + warmer)
-            answer = DirectContact.predict(self.with_conditions(other), rubber, surface, load)
+        def log_friction(name: str, by: float) -> float:
+            model: DirectContact = self
+            changed = load
+            if name == "temperature":
+                assert kelvin is not None  # without it there is no difference
+                model = self.with_conditions(replace(conditions, temperature=kelvin + by))
+            else:
+                changed = replace(load, **{name: getattr(load, name) * math.exp(by)})
+            answer = DirectContact.predict(model, rubber, surface, changed)
             return math.log(float(answer["total_friction_from_dissipation"]))
 
-        def scaled(name: str, by: float) -> Load:
-            return replace(load, **{name: getattr(load, name) * math.exp(by)})
-
-        derivatives = {}
-        for name in ("speed", "pressure"):
-            low, high = (solved(scaled(name, by)) for by in (-LOG_STEP, LOG_STEP))
-            derivatives[f"ln_{name}"] = (high - low) / (2.0 * LOG_STEP)
+        steps = {"speed": LOG_STEP, "pressure": LOG_STEP}
         if kelvin is not None and rubber.shift is not None:
-            low, high = (solved(load, by) for by in (-KELVIN_STEP, KELVIN_STEP))
-            derivatives["temperature"] = (high - low) / (2.0 * KELVIN_STEP)
-        text = "d ln friction by {}, with the rubber's answer to it"
-        return {
-            f"d_ln_friction_d_{name}{FEEDBACK}": xr.Variable(
-                (),
-                value,
-                variable_attributes(text.format(name), "1/K" if name == "temperature" else "1"),
+            steps["temperature"] = KELVIN_STEP
+        derivatives = {}
+        for name, step in steps.items():
+            low, high = (log_friction(name, by) for by in (-step, step))
+            end, unit = (name, "1/K") if name == "temperature" else (f"ln_{name}", "1")
+            text = f"d ln friction by {end}, with the rubber's answer to it"
+            derivatives[f"d_ln_friction_d_{end}{FEEDBACK}"] = xr.Variable(
+                (), (high - low) / (2.0 * step), variable_attributes(text, unit)
             )
-            for name, value in derivatives.items()
-        }
+        return derivatives
 
 
 def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:

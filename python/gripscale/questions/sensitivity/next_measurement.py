@@ -1,4 +1,4 @@
-"""What to measure next: how much of the interval of the answer each measurement would take.
+"""What the errors of the inputs carry to the results, and which measurement would take how much.
 
 The interval is that of the answer with the errors of its inputs by first order. A measurement
 leaves a share of the standard error of one source: another of the same kind 1/sqrt(2), one that
@@ -20,6 +20,7 @@ from gripscale.questions.answer.estimate import ASSUMED_FINITE_STRAIN, LINES_TO_
 from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.questions.sensitivity.friction_sensitivity import CARRIED, LOSS, STORAGE
 from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES
+from gripscale.questions.uncertainty.page import not_stated
 from gripscale.questions.uncertainty.sampled_answer import ROAD
 from gripscale.questions.words import SYMBOLS
 
@@ -39,6 +40,21 @@ MEASUREMENTS = {
     "pressure": ("nominal pressure, twice", AGAIN),
     LINES_TO_SURFACE: ("a map in place of lines; it shows a direction, too", 0.0),
 }
+
+
+def carried_table(data: xr.Dataset) -> Table:
+    """Return what is not known of the inputs, and what it carries to the results, most first."""
+    errors = {name: data[CARRIED.format(name)].values for name in CARRIED_QUANTITIES}
+    ranked = np.argsort(-np.nan_to_num(errors["friction"]), kind="stable")
+    ranked = ranked[np.isfinite(errors["friction"][ranked])]
+    columns = [Column("source", [*data.label.values[ranked].tolist(), "together"], "not known")]
+    for name, error in errors.items():
+        values = [*error[ranked].tolist(), float(np.sqrt(np.sum(error[ranked] ** 2)))]
+        columns.append(Column(f"{name}_error", values, f"± of {SYMBOLS[name]}", format=percent))
+    notes = ["Standard errors, to first order; `gripscale uncertainty` samples them."]
+    if missing := not_stated(data):
+        notes.append(f"Not included, as the case states no standard error: {', '.join(missing)}.")
+    return Table("carried", columns, "Effect of the errors of the inputs", notes, keys=1)
 
 
 def next_measurements(data: xr.Dataset) -> Table | None:

@@ -37,14 +37,17 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
     derivatives_of_answer,
     with_rules_of_thumb,
 )
-from gripscale.questions.sensitivity.next_measurement import frequencies_of, next_measurements
+from gripscale.questions.sensitivity.next_measurement import (
+    carried_table,
+    frequencies_of,
+    next_measurements,
+)
 from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES, first_order
-from gripscale.questions.uncertainty.page import as_elements, not_stated
+from gripscale.questions.uncertainty.page import as_elements
 from gripscale.questions.uncertainty.sampling import stated_options
 from gripscale.questions.vary.axis import axes_of, points
 from gripscale.questions.vary.inputs import reading_notes
 from gripscale.questions.vary.study import Study, coordinates
-from gripscale.questions.words import SYMBOLS
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section, Text
 from gripscale.report.failures import Failure, explained, failures_in, first_of
@@ -54,6 +57,8 @@ if TYPE_CHECKING:
 
 # What may be varied: derivatives are taken at each value.
 DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
+# The two moduli: heading of a column, name of the derivative, and symbol.
+_MODULI = (("loss", LOSS, "E″"), ("storage", STORAGE, "E′"))
 # Ends of the names of derivatives by one number, with their headings and units.
 SCALARS = {
     "ln_pressure": ("pressure", "1"),
@@ -125,7 +130,7 @@ class Sensitivity(Result):
             yield Table("feedback", columns, title, keys=1)
         yield self.decades_table()
         if CARRIED.format("friction") in self.data:
-            yield _carried_table(self.data)
+            yield carried_table(self.data)
             if (table := next_measurements(self.data)) is not None:
                 yield table
         if "rule" not in self.data.dims:
@@ -144,15 +149,8 @@ class Sensitivity(Result):
 
     def table(self) -> Table:
         """Return the derivatives by each input, the moduli summed over frequency."""
-        moduli = [
-            Column(
-                key,
-                [float(point[name].sum()) for _, point in points(self.data)],
-                symbol,
-                format=signed,
-            )
-            for key, name, symbol in (("loss", LOSS, "E″"), ("storage", STORAGE, "E′"))
-        ]
+        sums = {name: self.data[name].sum("frequency").values.ravel() for _, name, _ in _MODULI}
+        moduli = [Column(key, sums[name], symbol, format=signed) for key, name, symbol in _MODULI]
         columns = [self._points_column(), *moduli, *self._scalar_columns("")]
         notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
         if self.data.attrs["iterated"] and not self._has_feedback:
@@ -170,7 +168,7 @@ class Sensitivity(Result):
         for i in chosen:
             text, point = listed[i]
             unit = text if len(listed) > 1 else ""
-            for name, symbol in ((LOSS, "E″"), (STORAGE, "E′")):
+            for _, name, symbol in _MODULI:
                 values = [float(point[name].values[decade == row].sum()) for row in rows]
                 columns.append(Column(f"{name}_{i}", values, symbol, unit, format=signed))
         notes = []
@@ -189,30 +187,24 @@ class Sensitivity(Result):
 
     def page_content(self) -> Page:
         lead, *below = self.lines
-        panels = charts.sensitivity_panels(self.data) if STORAGE in self.data else []
+        solved = STORAGE in self.data
+        panels = charts.sensitivity_panels(self.data) if solved else []
         cards = []
-        for name, symbol in ((LOSS, "E″"), (STORAGE, "E′")):
-            if name in self.data:
-                value = least_to_most(self.data[name].sum("frequency"), digits(2))
-                detail = "of friction, at all frequencies"
-                cards.append(Card(f"1 % more {symbol}", on_page(f"{value} %"), detail))
-        effects = as_elements([*below, *self.parts()])
+        for _, name, symbol in _MODULI if solved else ():
+            value = least_to_most(self.data[name].sum("frequency"), digits(2))
+            detail = "of friction, at all frequencies"
+            cards.append(Card(f"1 % more {symbol}", on_page(f"{value} %"), detail))
         traces = charts.height_traces(self.data, self.inputs)
         heights = [panel for name, trace in traces for panel in height_panels(trace, name)]
+        failures = [Finding(Severity.ERROR, explained(failure)) for failure in self.failures]
+        elements = [*draw.panels_on_page(panels), *as_elements([*below, *self.parts()])]
         return Page.of(
             f"What decides the friction of {case_title(self.data.attrs)}",
             lead,
-            [
-                *(Finding(Severity.ERROR, explained(failure)) for failure in self.failures),
-                *self.findings,
-            ],
+            [*failures, *self.findings],
             cards,
             [
-                Section(
-                    "effects",
-                    "What the friction depends on",
-                    [Text(_CURVES), *draw.panels_on_page(panels), *effects],
-                ),
+                Section("effects", "What the friction depends on", [Text(_CURVES), *elements]),
                 Section("heights", "Which heights count", draw.panels_on_page(heights)),
                 rerun_section(self.data.attrs),
             ],
@@ -233,21 +225,6 @@ class Sensitivity(Result):
                 values = [float(point[variable]) for _, point in points(self.data)]
                 size, unit_text = (0.01, "%/K") if unit == "1/K" else (1.0, "")
                 yield Column(f"{name}{end}", values, heading, unit_text, size, format=signed)
-
-
-def _carried_table(data: xr.Dataset) -> Table:
-    """Return what is not known of the inputs, and what it carries to the results, most first."""
-    errors = {name: data[CARRIED.format(name)].values for name in CARRIED_QUANTITIES}
-    ranked = np.argsort(-np.nan_to_num(errors["friction"]), kind="stable")
-    ranked = ranked[np.isfinite(errors["friction"][ranked])]
-    columns = [Column("source", [*data.label.values[ranked].tolist(), "together"], "not known")]
-    for name, error in errors.items():
-        values = [*error[ranked].tolist(), float(np.sqrt(np.sum(error[ranked] ** 2)))]
-        columns.append(Column(f"{name}_error", values, f"± of {SYMBOLS[name]}", format=percent))
-    notes = ["Standard errors, to first order; `gripscale uncertainty` samples them."]
-    if missing := not_stated(data):
-        notes.append(f"Not included, as the case states no standard error: {', '.join(missing)}.")
-    return Table("carried", columns, "Effect of the errors of the inputs", notes, keys=1)
 
 
 @overload

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -156,21 +156,19 @@ def tornado_figure(data: xr.Dataset) -> Figure:
     Bars go from 5 to 95 % of what a source does alone. Beside them is its share of the variance;
     grey is an effect that is not significant with so many samples.
     """
+    data = data.isel(source=np.argsort(data.friction_share.values, kind="stable"))
     shares, errors = data.friction_share.values, data.friction_share_error.values
-    ranked = np.argsort(shares, kind="stable")
     middle = float(np.exp(np.nanmean(np.log(data.friction.values))))
     bars: list[Mark] = []
     dots: list[Mark] = []
-    for row, k in enumerate(ranked):
-        seen = shares[k] > SIGNIFICANCE * errors[k]
-        for end, colour in zip(data.friction_end.values[k], (BLUE, ORANGE), strict=True):
+    for row, (share, error) in enumerate(zip(shares, errors, strict=True)):
+        seen = share > SIGNIFICANCE * error
+        for end, colour in zip(data.friction_end.values[row], (BLUE, ORANGE), strict=True):
             low, high = sorted((middle, end))
-            shade = colour if seen else GREY
-            bars.append(Bars(low, high, row - 0.3, row + 0.3, shade))
-        ends: dict[str, Any] = {"low": [shares[k] - errors[k]], "high": [shares[k] + errors[k]]}
-        dots.append(Series([shares[k]], [row], INK if seen else GREY, dash="", marker="o",
-                           size=4.0, level_bars=True, **ends))  # fmt: skip
-    rows = PlotAxis(ticks={float(i): str(data.label.values[k]) for i, k in enumerate(ranked)})
+            bars.append(Bars(low, high, row - 0.3, row + 0.3, colour if seen else GREY))
+        dots.append(Series([share], [row], INK if seen else GREY, dash="", marker="o", size=4.0,
+                           low=[share - error], high=[share + error], level_bars=True))  # fmt: skip
+    rows = PlotAxis(ticks={float(row): str(label) for row, label in enumerate(data.label.values)})
     title = f"{data.model.item()}: what each does alone"
     panels = [
         Panel(
@@ -187,7 +185,7 @@ def tornado_figure(data: xr.Dataset) -> Figure:
     ]
     words = {"to 5 %": BLUE, "to 95 %": ORANGE, "not significant": GREY}
     keys = [Bars(0, 0, 0, 0, colour, label) for label, colour in words.items()]
-    height = 1.3 + 0.34 * len(ranked)
+    height = 1.3 + 0.34 * len(shares)
     return Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}).on_paper()
 
 

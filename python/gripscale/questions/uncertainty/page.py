@@ -17,7 +17,13 @@ from gripscale.io.table import Column, Table, percent
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.estimate import DIRECT, TOTAL
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
-from gripscale.questions.answer.reliance import has_answer, headline, is_measured
+from gripscale.questions.answer.reliance import (
+    AnswerNumber,
+    has_answer,
+    headline,
+    is_measured,
+    is_moving,
+)
 from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN, ROAD
@@ -59,11 +65,10 @@ def model_places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 def loads_of(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield what each load is called, with its part; without a name if there is one load."""
     axis = axis_of(data)
+    for at in range(data.sizes[axis]) if axis else ():
+        yield f"{axis} {name_of(data, axis, at)}", data.isel({axis: at})
     if not axis:
         yield "", data
-        return
-    for at in range(data.sizes[axis]):
-        yield f"{axis} {name_of(data, axis, at)}", data.isel({axis: at})
 
 
 def answer_table(data: xr.Dataset, axis: str) -> Table:
@@ -94,22 +99,15 @@ def interval_sentence(data: xr.Dataset) -> str:
     text = f"interval: with the errors of the inputs, from {count} samples"
     if missing := not_stated(data):
         text += f", but for {', '.join(missing)}"
-    ranges = [] if axis_of(data) else list(filter(None, _ranges_of_run(data)))
+    ranges = []
+    for name, symbol in HEADS.items() if not axis_of(data) else ():
+        best = TOTAL if name == "friction" and TOTAL in data else f"answer_{name}"
+        ends = interval_ends(data[best], data[f"{best}_{OF_RUN}"])
+        if interval := AnswerNumber(math.nan, *map(float, ends)).interval:
+            ranges.append(f"{symbol} {interval}")
     if not ranges:
         return f"{text}; `gripscale run` states sampling of the surface, grid and factors only"
     return f"{text}; `gripscale run`, without them: {', '.join(ranges)}"
-
-
-def _ranges_of_run(data: xr.Dataset) -> Iterator[str]:
-    """Yield the intervals without errors of the inputs, with their symbols."""
-    ends: dict[str, xr.DataArray] = {}
-    for name in (*HEADS, "total_friction"):
-        if (of_run := f"answer_{name}_{OF_RUN}") in data:
-            low, high = interval_ends(data[f"answer_{name}"], data[of_run])
-            ends |= {f"answer_{name}_low": low, f"answer_{name}_high": high}
-    for name, symbol in HEADS.items():
-        if interval := headline(data.assign(ends), name).interval:
-            yield f"{symbol} {interval}"
 
 
 def not_stated(data: xr.Dataset) -> list[str]:
@@ -127,12 +125,13 @@ def part_tables(data: xr.Dataset) -> Iterator[Table]:
 
 def part_table(part: xr.Dataset, title: str) -> Table:
     """Return the parts of the interval of an answer: standard errors and shares of variance."""
-    moving = float(part.nominal_speed) > 0.0
-    names = [name for name in HEADS if moving or name != "friction"]
+    names = list(HEADS) if is_moving(part) else ["contact_fraction"]
     ranked = np.argsort(-part[f"answer_{names[0]}_part_error"].values, kind="stable")
-    columns = [Column("part", part.part_label.values[ranked].tolist(), "not known")]
+    part = part.isel(part=ranked)
+    labels = part.part_label.values.tolist()
+    columns = [Column("part", labels, "not known")]
     for name in names:
-        sigma = part[f"answer_{name}_part_error"].values[ranked]
+        sigma = part[f"answer_{name}_part_error"].values
         share = sigma**2 / float(part[f"answer_{name}_uncertainty"]) ** 2
         of_sum = name == "friction" and TOTAL in part
         group = f"{HEADS[name]} of hysteresis" if of_sum else HEADS[name]
@@ -141,23 +140,19 @@ def part_table(part: xr.Dataset, title: str) -> Table:
             Column(f"{name}_share", share, "share", group=group, format="{:.0%}".format),
         ]
         tangent = first_order_of(part, name)
-        if tangent.keys() & set(columns[0].values):
+        if tangent.keys() & set(labels):
             column, text = f"{name}_first_order", ("± by", "derivatives")
-            values = [tangent.get(label, math.nan) for label in columns[0].values]
+            values = [tangent.get(label, math.nan) for label in labels]
             columns.append(Column(column, values, *text, group=group, format=percent))
-    error = part[f"answer_{names[0]}_part_share_error"].values[ranked]
     notes = ["±: standard error of the logarithm; share: its square over that of the interval."]
-    if NOT_ALONE in part.part_label.values:
+    if NOT_ALONE in labels:
         notes.append(
             f"{NOT_ALONE[0].upper()}{NOT_ALONE[1:]}: steps, interactions, and what a stretch of "
             "surface does beyond its correlation."
         )
-    unseen = [
-        str(label)
-        for label, value, scatter in zip(columns[0].values, columns[2].values, error, strict=True)
-        if np.isfinite(scatter) and value < SIGNIFICANCE * scatter
-    ]
-    if unseen:
+    # NaN where no samples know the error of a share
+    error = part[f"answer_{names[0]}_part_share_error"].values
+    if unseen := [labels[k] for k in np.flatnonzero(columns[2].values < SIGNIFICANCE * error)]:
         count = part.sizes["sample"]
         notes.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
     return Table("parts", columns, title, [*notes, *_not_linear(part)])
@@ -177,16 +172,14 @@ def _not_linear(part: xr.Dataset) -> Iterator[str]:
 
     Not the road, whose stretches are no small change.
     """
-    if not (tangent := first_order_of(part, "friction")):
-        return
-    errors = part.answer_friction_part_error.values.tolist()
-    sampled = dict(zip(part.part_label.values.tolist(), errors, strict=True))
+    tangent = first_order_of(part, "friction")
+    tangent.pop(SOURCES[ROAD].label, None)
     least = math.sqrt(_LEAST_SHARE) * float(part.answer_friction_uncertainty)
+    errors = part.answer_friction_part_error.values.tolist()
     apart = [
         f"{label} ({percent(tangent[label])}, {percent(error)})"
-        for label, error in sampled.items()
+        for label, error in zip(part.part_label.values.tolist(), errors, strict=True)
         if label in tangent
-        and label != SOURCES[ROAD].label
         and max(error, tangent[label]) > max(least, _APART * min(error, tangent[label]))
     ]
     if apart:
@@ -247,70 +240,69 @@ def share_table(part: xr.Dataset, title: str) -> Table:
     From and to: 5 and 95 % of what it does alone. Notes name the shares in friction that are not
     significant, and those that do not differ.
     """
-    shares, labels = part.friction_share.values, part.label.values
-    ranked = [int(k) for k in np.argsort(-shares, kind="stable")]
-    columns = [Column("source", [*labels[ranked], NOT_ALONE])]
-    whole = "{:.0%}".format
+    ranked = np.argsort(-part.friction_share.values, kind="stable")
+    part = part.isel(source=ranked, other_source=ranked)
+    labels, whole = part.label.values.tolist(), "{:.0%}".format
+    columns = [Column("source", [*labels, NOT_ALONE])]
     for name, symbol in HEADS.items():
-        ends = [*part[f"{name}_end"].values[ranked], [np.nan, np.nan]]
-        share = [*part[f"{name}_share"].values[ranked], float(part[f"{name}_unexplained"])]
-        share = [max(value, 0.0) for value in share]
-        error = [*part[f"{name}_share_error"].values[ranked], np.nan]
+        ends = np.array([*part[f"{name}_end"].values, [np.nan, np.nan]])
+        share = [*part[f"{name}_share"].values, float(part[f"{name}_unexplained"])]
+        error = [*part[f"{name}_share_error"].values, np.nan]
         columns += [
-            Column(f"{name}_end", np.array(ends), "from to", group=symbol),
-            Column(f"{name}_share", share, "share of variance", group=symbol, format=whole),
+            Column(f"{name}_end", ends, "from to", group=symbol),
+            Column(f"{name}_share", np.maximum(share, 0.0), "share of variance", group=symbol,
+                   format=whole),
             Column(f"{name}_share_error", error, "±", group=symbol, format=whole),
-        ]
-    apart = part.friction_share_difference_error.values
-    seen = [k for k in ranked if shares[k] > SIGNIFICANCE * part.friction_share_error.values[k]]
+        ]  # fmt: skip
+    shares = part.friction_share.values
+    seen = shares > SIGNIFICANCE * part.friction_share_error.values
+    apart = SIGNIFICANCE * part.friction_share_difference_error.values
     close = [
         f"{labels[a]} and {labels[b]}"
-        for a, b in pairwise(seen)
-        if shares[a] - shares[b] < SIGNIFICANCE * apart[a, b]
+        for a, b in pairwise(np.flatnonzero(seen))
+        if shares[a] - shares[b] < apart[a, b]
     ]
-    unseen = [str(labels[k]) for k in ranked if k not in seen]
     count, notes = int(np.isfinite(part.friction).sum()), []
     if close:
         notes.append(f"The order is not significant with {count} samples: {'; '.join(close)}.")
-    if unseen:
-        notes.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
+    if not seen.all():
+        unseen = ", ".join(labels[k] for k in np.flatnonzero(~seen))
+        notes.append(f"No significant effect with {count} samples: {unseen}.")
     return Table("shares", columns, f"What matters most ({title})", notes)
 
 
 def grid_sentences(data: xr.Dataset) -> Iterator[str]:
     """Yield the estimated errors of the grids of the direct contact, if it was sampled."""
-    drawn = "grid" in data.source.values
+    drawn = "drawn" if "grid" in data.source.values else "not"
     for name in data.model.values:
-        model = data.sel(model=name)
-        errors = {head: model[f"{key}_grid_error"].values for key, head in HEADS.items()}
+        errors = {head: data[f"{key}_grid_error"].sel(model=name) for key, head in HEADS.items()}
         texts = [
-            f"{100.0 * np.nanmedian(error):.2g} % in {head}"
+            f"{100.0 * float(error.median()):.2g} % in {head}"
             for head, error in errors.items()
-            if np.isfinite(error).any()
+            if error.notnull().any()
         ]
         if texts:
             yield (
                 f"{name}: the estimated error of the grid of a sample is {' and '.join(texts)} "
-                f"(median), {'drawn' if drawn else 'not'} in its quantiles; the grid of the answer "
-                "is finer. --tolerance makes it smaller."
+                f"(median), {drawn} in its quantiles; the grid of the answer is finer. --tolerance "
+                "makes it smaller."
             )
 
 
 def sampling_failure(data: xr.Dataset) -> Failure | None:
     """Return how many samples have no answer, and why most of them; None if all have one."""
-    bad = Counter(failures_in(data, "status"))
-    sentences, words = [], []
+    bad, of_case = Counter(failures_in(data, "status")), failures_in(data, "status_case")[:1]
+    sentences, failures = [], of_case
     if bad:
         most, count = bad.most_common(1)[0]
-        words.append(most.word)
-        sentences.append(
+        failures = [most, *of_case]
+        sentences = [
             f"{bad.total()} of {data.status.size} samples have no answer and count in no quantile; "
             f"{count} of them: {most}"
-        )
-    for failure in failures_in(data, "status_case")[:1]:
-        words.append(failure.word)
-        sentences.append(f"the case itself has no answer: {failure}")
-    return Failure("; ".join(sentences), next(filter(None, words), "")) if sentences else None
+        ]
+    sentences += [f"the case itself has no answer: {failure}" for failure in of_case]
+    word = next((failure.word for failure in failures if failure.word), "")
+    return Failure("; ".join(sentences), word) if sentences else None
 
 
 def too_many_failed(data: xr.Dataset) -> bool:
@@ -334,15 +326,12 @@ def uncertainty_lines(
     if axis := axis_of(data):
         return [f"The uncertainty of this case was sampled over {axis}: see uncertainty.txt."]
     lines = []
-    answered = [f"{head} = {headline(data, name)}" for name, head in _widened(data)]
-    if answered:
+    if answered := [f"{head} = {headline(data, name)}" for name, head in _widened(data)]:
         count = _samples(data.isel(model=0))
         lines.append(f"With the errors of the inputs, {count}: {', '.join(answered)}")
-    for name in data.model.values:
-        part = data.sel(model=name)
-        numbers = [f"{head} = {', '.join(values)}" for head, values in _quantiles(part)]
-        head = f"Uncertainty, {name}, 5, 50 and 95 % of {_samples(part)}"
-        lines.append(f"{head}: {'; '.join(numbers)}")
+    for name, part in model_places(data):
+        numbers = "; ".join(f"{head} = {', '.join(values)}" for head, values in _quantiles(part))
+        lines.append(f"Uncertainty, {name}, 5, 50 and 95 % of {_samples(part)}: {numbers}")
     return lines
 
 
@@ -399,15 +388,9 @@ def uncertainty_page(data: xr.Dataset) -> Page:
     first, *others = map(image, uncertainty_pictures(data))
     axis, parts = axis_of(data), list(part_tables(data))
     head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]
-    held = interval_sentence(data)
-    samples: list[str | Table] = [
-        UNCERTAINTY,
-        quantile_table(data),
-        *grid_sentences(data),
-        *left_out_sentences(data),
-    ]
-    shares = [*as_elements(share_parts(data)), *others]
-    title = "What matters most"
+    held, title = interval_sentence(data), "What matters most"
+    samples: list[str | Table] = [UNCERTAINTY, quantile_table(data)]
+    samples += [*grid_sentences(data), *left_out_sentences(data)]
     answered = not axis and has_answer(data)
     return Page.of(
         f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",
@@ -422,7 +405,11 @@ def uncertainty_page(data: xr.Dataset) -> Page:
             ),
             Section("parts", title, parts if axis else []),
             Section("samples", "Samples of each model", as_elements(samples)),
-            Section("shares", "What matters most to the samples", shares),
+            Section(
+                "shares",
+                "What matters most to the samples",
+                [*as_elements(share_parts(data)), *others],
+            ),
             rerun_section(data.attrs),
         ],
         answer.basis_lines(data),

@@ -137,16 +137,15 @@ class ProfileBlocks:
         step = self.profiles[0].step
         joint = max(int(JOINT_WAVES * self.largest_wave / step), 1)
         angle = 0.5 * np.pi * (np.arange(joint) + 0.5) / joint
-        pieces = [self._piece(*window, joint) for window in places]
+        pieces = []
+        for number, first, end in places:
+            profile = self.profiles[number]
+            # with the joint behind the block, or before it at an end
+            begin = max(min(first, len(profile) - joint - (end - first)), 0)
+            pieces.append(profile.z[begin : begin + end - first + joint] - np.nanmean(profile.z))
         line = [pieces[0][:-joint]]
         for before, after in pairwise(pieces):
             met = np.cos(angle) * before[-joint:] + np.sin(angle) * after[:joint]
             line += [met, after[joint:-joint]]
         z = np.asarray(np.concatenate([*line, pieces[-1][-joint:]]), dtype=np.float64)
         return Profile(step * np.arange(z.size, dtype=np.float64), z, f"{len(places)} blocks")
-
-    def _piece(self, number: int, first: int, end: int, joint: int) -> Array:
-        """Return the heights of a block and of the joint behind it, or before it at an end [m]."""
-        profile = self.profiles[number]
-        begin = max(min(first, len(profile) - joint - (end - first)), 0)
-        return profile.z[begin : begin + end - first + joint] - np.nanmean(profile.z)

@@ -289,9 +289,9 @@ class Plan:
                     continue
                 for index, label, task in zip(by_load, self.loads, tasks, strict=True):
                     points.append(Point(index, f"{name}, {label}{subject}", task))
-        sizes = {axis.name: len(axis.values) for axis in self.axes}
-        coords = {"model": list(self.models), **coordinates(self.axes, case.units)}
-        sizes = {"model": len(self.models), **sizes, "sample": len(samples)}
+        coords: dict[str, Any] = {"model": list(self.models)}
+        coords |= coordinates(self.axes, case.units)
+        sizes = {name: len(values) for name, values in coords.items()} | {"sample": len(samples)}
         return Design(sizes, points, coords, refused)
 
 

@@ -61,19 +61,14 @@ class SeriesScatter:
         limit = largest_modulus(float(curve.storage.max()), bulk_modulus)
         scatter = fit.rms_storage, fit.rms_loss
         for _ in range(_PASSES):
-            band = cls(
-                open_equations(curve, _believed(scatter), DECADES_BEYOND, limit), curve.omega
-            )
-            scatter = band._scatter(_believed(scatter))
+            unit = max(scatter[0], LEAST_SCATTER), max(scatter[1], LEAST_SCATTER)
+            equations = open_equations(curve, unit, DECADES_BEYOND, limit)
+            band = cls(equations, curve.omega)
+            # the fit has taken of the scatter, by its degrees of freedom
+            taken = min(np.count_nonzero(band.best) / (2 * len(curve.omega)), MOST_TAKEN)
+            rms = np.sqrt(np.mean(band._errors**2, axis=0)) / math.sqrt(1.0 - taken)
+            scatter = float(rms[0] * unit[0]), float(rms[1] * unit[1])
         return band
-
-    def _scatter(self, unit: tuple[float, float]) -> tuple[float, float]:
-        """Return the relative scatter of E' and E'' about the best series, in whose `unit` it is.
-
-        What the fit has taken of it is given back by its degrees of freedom.
-        """
-        rms = np.sqrt(np.mean(self._errors**2, axis=0)) / math.sqrt(1.0 - self._taken)
-        return float(rms[0] * unit[0]), float(rms[1] * unit[1])
 
     @cached_property
     def best(self) -> Array:
@@ -86,12 +81,6 @@ class SeriesScatter:
         rows = 2 * len(self.omega)
         error = (self.problem.right - self.problem.matrix @ self.best)[:rows]
         return error.reshape(2, -1).T
-
-    @property
-    def _taken(self) -> float:
-        """Share of the degrees of freedom that the best series has taken."""
-        taken = np.count_nonzero(self.best) / (2 * len(self.omega))
-        return float(min(taken, MOST_TAKEN))
 
     @cached_property
     def _residuals(self) -> Array:
@@ -128,10 +117,6 @@ class SeriesScatter:
         noise = random.standard_normal(len(self._beyond)) * self._beyond
         errors = np.concatenate([self._residuals[order].T.ravel(), noise, [0.0]])
         return self.problem.spectrum(non_negative(self.problem.matrix, self.problem.right + errors))
-
-
-def _believed(scatter: tuple[float, float]) -> tuple[float, float]:
-    return max(scatter[0], LEAST_SCATTER), max(scatter[1], LEAST_SCATTER)
 
 
 def with_series(rubber: Rubber, spectrum: Spectrum) -> Rubber:
