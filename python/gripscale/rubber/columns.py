@@ -220,8 +220,7 @@ class FileLayout(Checked):
             not isinstance(columns, Sequence)
             or isinstance(columns, str)
             or not all(isinstance(column, str | int) for column in columns)
-            or len(columns) != len(THREE)
-            or len(set(columns)) != len(THREE)
+            or not len(columns) == len(set(columns)) == len(THREE)
         ):
             raise InputError(
                 "columns must be three different names or numbers from 1 for frequency, storage "

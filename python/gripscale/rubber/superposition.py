@@ -75,8 +75,22 @@ def start(rows: Rows, lifted: bool) -> tuple[Array, Array]:
     if away.size:
         noise = np.maximum(1.4826 * np.median(away, axis=1), _LEAST_NOISE)
     lifts = rows.lifts if lifted else np.zeros_like(rows.lifts)
-    pairs = [_distance(cold, warm, noise, lifts) for cold, warm in pairwise(sweeps)]
-    total = np.cumsum([*pairs, (0.0, 0.0)][::-1], axis=0)[::-1]
+    weight, steps = lifts / noise**2, []
+    for cold, warm in pairwise(sweeps):
+        least = _LEAST_SHARE * min(np.ptp(cold[0]), np.ptp(warm[0]))
+        shifts = np.arange(-_BACK, max(warm[0][-1] - cold[0][0] - least, 0.0) + _STEP, _STEP)
+        best, least_cost = (0.0, 0.0), math.inf
+        for shift in shifts[shifts > warm[0][0] - cold[0][-1]]:
+            apart = difference((cold[0] + shift, cold[1]), warm)
+            if apart.shape[1] < 2:
+                continue
+            lift = -float(weight @ apart.mean(axis=1) / weight.sum()) if weight.any() else 0.0
+            rest = apart + lift * lifts[:, None]
+            cost = float(np.log((rest**2).mean(axis=1) + noise**2).sum())
+            if cost < least_cost:
+                best, least_cost = (float(shift), lift), cost
+        steps.append(best)
+    total = np.cumsum([*steps, (0.0, 0.0)][::-1], axis=0)[::-1]
     return total[:, 0], total[:, 1]
 
 
@@ -91,26 +105,6 @@ def difference(cold: _Points, warm: _Points) -> Array:
             for colder, warmer in zip(cold[1], warm[1], strict=True)
         ]
     )
-
-
-def _distance(cold: _Points, warm: _Points, noise: Array, lifts: Array) -> tuple[float, float]:
-    """Return by how much the colder sweep is to be shifted against the warmer one."""
-    weight = lifts / noise**2
-    spans = np.ptp(cold[0]), np.ptp(warm[0])
-    furthest = cold[0][-1] - warm[0][0]
-    least = _LEAST_SHARE * min(spans)
-    shifts = np.arange(-_BACK, max(warm[0][-1] - cold[0][0] - least, 0.0) + _STEP, _STEP)
-    best, least_cost = (0.0, 0.0), math.inf
-    for shift in shifts[shifts > -furthest]:
-        apart = difference((cold[0] + shift, cold[1]), warm)
-        if apart.shape[1] < 2:
-            continue
-        lift = -float(weight @ apart.mean(axis=1) / weight.sum()) if weight.any() else 0.0
-        rest = apart + lift * lifts[:, None]
-        cost = float(np.log((rest**2).mean(axis=1) + noise**2).sum())
-        if cost < least_cost:
-            best, least_cost = (float(shift), lift), cost
-    return best
 
 
 _LITTLE = 0.5  # overlap below which a shift rests on a few rows [decades]

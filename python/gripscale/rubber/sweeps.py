@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import Array, Checked, Mask, Quantity, Vector, checked, checks
+from gripscale.core import Array, Checked, Quantity, Vector, checked, checks
 from gripscale.core.errors import FileError, GripscaleError, InputError, about_file
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si, si_value
 from gripscale.io.text_table import file_path, file_paths, is_excel
@@ -243,35 +243,28 @@ def sweeps_from_ramps(
     if step < _LEAST_STEP:
         raise InputError(f"step must be at least {_LEAST_STEP:g} K; got {step:g}")
     group = _groups(np.log(rows["frequency"]), _ONE_FREQUENCY)
-    parts = [_at_steps(rows, group == number, step) for number in range(int(group.max()) + 1)]
-    nominal = np.concatenate(parts, axis=1)
-    if not nominal.size:
+    parts = []
+    for of_one_frequency in range(int(group.max()) + 1):
+        chosen = np.flatnonzero(group == of_one_frequency)
+        chosen = chosen[np.argsort(rows["temperature"][chosen], kind="stable")]
+        kelvin, hertz, real, imaginary = (rows[name][chosen] for name in _ROW)
+        celsius = kelvin - ZERO_CELSIUS
+        first, last = np.ceil(celsius[0] / step - 1e-9), np.floor(celsius[-1] / step + 1e-9)
+        nominal = step * np.arange(first, last + 1.0)
+        away = np.abs(np.subtract.outer(nominal, celsius)).min(axis=1, initial=np.inf)
+        nominal = nominal[away <= _NEAR * step]
+        moduli = [np.exp(np.interp(nominal, celsius, np.log(part))) for part in (real, imaginary)]
+        mean = np.full(len(nominal), np.exp(np.log(hertz).mean()))
+        parts.append(np.array([nominal + ZERO_CELSIUS, mean, *moduli]))
+    at_steps = np.concatenate(parts, axis=1)
+    if not at_steps.size:
         low, high = rows["temperature"].min(), rows["temperature"].max()
         raise InputError(
             f"step [K] must put a nominal temperature between the {low:.2f} and {high:.2f} K "
             f"measured; got {step:g}"
         )
-    kelvin, hertz, real, imaginary = nominal
+    kelvin, hertz, real, imaginary = at_steps
     return Sweeps(kelvin, hertz, real, imaginary, 0.5 * step, name, source)
-
-
-def _at_steps(rows: dict[str, Array], chosen: Mask, step: float) -> Array:
-    """Return temperature, frequency, E' and E'' of one frequency at nominal temperatures."""
-    order = np.argsort(rows["temperature"][chosen], kind="stable")
-    kelvin, frequency, storage, loss = (rows[name][chosen][order] for name in _ROW)
-    celsius = kelvin - ZERO_CELSIUS
-    first, last = np.ceil(celsius[0] / step - 1e-9), np.floor(celsius[-1] / step + 1e-9)
-    nominal = step * np.arange(first, last + 1.0)
-    away = np.abs(np.subtract.outer(nominal, celsius)).min(axis=1, initial=np.inf)
-    nominal = nominal[away <= _NEAR * step]
-    return np.array(
-        [
-            nominal + ZERO_CELSIUS,
-            np.full(len(nominal), np.exp(np.log(frequency).mean())),
-            np.exp(np.interp(nominal, celsius, np.log(storage))),
-            np.exp(np.interp(nominal, celsius, np.log(loss))),
-        ]
-    )
 
 
 def read_sweeps(

@@ -137,14 +137,21 @@ def clean(
 def crop_profile(profile: Profile, limits: Limits) -> tuple[Profile, StepReport]:
     """Keep the points whose distance lies within `limits` [m], both included."""
     first, last = limit_pair("crop", limits)
-    keep = (profile.x >= first) & (profile.x <= last)
-    if keep.sum() < FEWEST_POINTS:
-        raise InputError(
-            f"crop must leave at least {FEWEST_POINTS} points; {in_mm(first)} to {in_mm(last)} "
-            f"leaves {keep.sum()} of a profile from {in_mm(profile.x[0])} to {in_mm(profile.x[-1])}"
-        )
+    keep = _kept(profile.x, first, last, "profile")
     cropped = replace(profile, x=profile.x[keep], z=profile.z[keep])
     return _report("crop", profile, cropped, f"kept {in_mm(first)} to {in_mm(last)}")
+
+
+def _kept(axis: Array, first: float, last: float, kind: str, along: str = "") -> slice:
+    """Return the part of an axis within limits [m]; raise `InputError` if it has few points."""
+    inside = np.flatnonzero((axis >= first) & (axis <= last))
+    if inside.size < FEWEST_POINTS:
+        raise InputError(
+            f"crop must leave at least {FEWEST_POINTS} points{along}; {in_mm(first)} to "
+            f"{in_mm(last)} leaves {inside.size} of a {kind} from {in_mm(axis[0])} to "
+            f"{in_mm(axis[-1])}"
+        )
+    return slice(int(inside[0]), int(inside[-1]) + 1)
 
 
 def mark_spikes(surface: _Heights, *, slope: float = 3.0) -> tuple[_Heights, StepReport]:
@@ -307,15 +314,8 @@ def crop_map(
         )
     parts, everything = [], (-math.inf, math.inf)
     for name, axis, pair in zip("xy", (surface.x, surface.y), limits, strict=True):
-        first, last = limit_pair(f"crop along {name}", everything if pair is None else pair)
-        inside = np.flatnonzero((axis >= first) & (axis <= last))
-        if inside.size < FEWEST_POINTS:
-            raise InputError(
-                f"crop must leave at least {FEWEST_POINTS} points along {name}; {in_mm(first)} to "
-                f"{in_mm(last)} leaves {inside.size} of a map from {in_mm(axis[0])} to "
-                f"{in_mm(axis[-1])}"
-            )
-        parts.append(slice(int(inside[0]), int(inside[-1]) + 1))
+        ends = limit_pair(f"crop along {name}", everything if pair is None else pair)
+        parts.append(_kept(axis, *ends, "map", f" along {name}"))
     return _part(surface, "crop", parts[0], parts[1])
 
 

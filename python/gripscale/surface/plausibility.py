@@ -59,13 +59,10 @@ def profile_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[
     """
     doubts = _doubts(profile, cleaned)
     of_doubts = tuple(doubt(text, topic=Topic.SURFACE) for text in doubts.texts)
-    if doubts.heights is None:
+    if doubts.heights is None or doubts.plates:
         return of_doubts
-    warnings = []
-    if not doubts.plates:
-        level = _levelled(doubts.heights)
-        warnings += [*_jump_warnings(level), *_flat_warnings(level)]
-    return (*of_doubts, *map(_warning, warnings))
+    level = _levelled(doubts.heights)
+    return (*of_doubts, *map(_warning, (*_jump_warnings(level), *_flat_warnings(level))))
 
 
 def _warning(text: str) -> Finding:

@@ -36,7 +36,7 @@ _MOST_POINTS_PER_BYTE = 1032
 
 @dataclass(frozen=True)
 class HeightField:
-    """_AnySurface [m] on a line (points, 1) or a map (points along x, points along y)."""
+    """Heights [m] on a line (points, 1) or a map (points along x, points along y)."""
 
     heights: Array
     x: Array
