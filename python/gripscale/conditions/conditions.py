@@ -62,46 +62,33 @@ def water_film(water: object) -> float:
     return checks.positive("water", film, unit="m")
 
 
-def _film_or_none(name: str, value: object) -> float | None:
-    return water_film(value) or None
-
-
 class Conditions(Checked):
     """Effects on the rubber as measured, the area term and water; each is off by default.
 
     Raises `InputError` if a value cannot be used.
-
-    Parameters
-    ----------
-    temperature : float, optional
-        Of the rubber before the contact [K]; by default that of its master curve.
-    softening : SofteningLaw, optional
-        How E' and E'' fall with the strain.
-    strain_norm : "slope" or "stretch"
-        The strain of a wave. "slope": half the rms slope in its contact, including the slopes of
-        the larger waves (the convention of B. N. J. Persson's theory, and that of the direct
-        contact). "stretch": the largest principal stretch minus one in the block of this wave.
-    heat : ThermalProperties, optional
-        Warm the rubber by its friction.
-    shear_stress : InterfacialShearStress, optional
-        Interfacial shear stress of the area term.
-    water : float, str or bool, optional
-        Water that contact can trap, on a map: "flooded" or True, or the thickness of a film [m].
-        Only the direct contact has it, and not together with softening or heat.
     """
 
     temperature: float | None = checked(checks.positive, unit="K", default=None)
+    """Of the rubber before the contact [K]; by default that of its master curve."""
     softening: SofteningLaw | None = checked(
         _effect, kind=SofteningLaw, expected="a law of gripscale.rubber.softening", default=None
     )
+    """How E' and E'' fall with the strain."""
     strain_norm: StrainNorm = checked(checks.one_of, choices=STRAIN_NORMS, default="slope")
+    """The strain of a wave. "slope": half the rms slope in its contact, including the slopes of the
+    larger waves (the convention of B. N. J. Persson's theory, and that of the direct contact).
+    "stretch": the largest principal stretch minus one in the block of this wave."""
     heat: ThermalProperties | None = checked(
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
+    """With it the rubber warms by its friction."""
     shear_stress: InterfacialShearStress | None = checked(
         _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
     )
-    water: float | None = checked(_film_or_none, default=None)
+    """Interfacial shear stress of the area term."""
+    water: float | None = checked(lambda _, value: water_film(value) or None, default=None)
+    """Water that contact can trap, on a map: "flooded" or True, or the thickness of a film [m].
+    Only the direct contact has it, and not together with softening or heat."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -240,14 +227,15 @@ class RubberByScale:
         frequency, number = np.broadcast_arrays(
             np.asarray(omega, dtype=float), np.asarray(wavenumber, dtype=float)
         )
-        shape = frequency.shape
-        frequency, number = frequency.reshape(-1), number.reshape(-1)
+        factors, parts = (self.a_t, self.stiffening, self.storage, self.loss), []
         # in blocks, because the factors of all relaxation times are in memory at once
-        parts = [
-            self._modulus(frequency[at : at + ROWS_AT_ONCE], number[at : at + ROWS_AT_ONCE])
-            for at in range(0, frequency.size, ROWS_AT_ONCE)
-        ]
-        return np.concatenate(parts).reshape(shape)
+        for at in range(0, frequency.size, ROWS_AT_ONCE):
+            rows = slice(at, at + ROWS_AT_ONCE)
+            here = number.reshape(-1)[rows]
+            shift, stiffening, storage, loss = (self._at(factor, here) for factor in factors)
+            modulus = self.rubber.complex_modulus(frequency.reshape(-1)[rows] * shift) * stiffening
+            parts.append(storage * modulus.real + 1j * loss * modulus.imag)
+        return np.concatenate(parts).reshape(frequency.shape)
 
     def shift(self, wavenumber: Array) -> Array:
         """Return a_T [-] at |q| [rad/m]; the mean, |q| = 0, has that of the longest scale."""
@@ -258,14 +246,6 @@ class RubberByScale:
         number = np.where(wavenumber > 0.0, wavenumber, self.wavenumber[0])
         at, logs = np.log(number), np.log(self.wavenumber)
         return np.asarray(np.exp(np.interp(at, logs, np.log(factor))))
-
-    def _modulus(self, omega: Array, wavenumber: Array) -> ComplexArray:
-        shift, stiffening, storage, loss = (
-            self._at(factor, wavenumber)
-            for factor in (self.a_t, self.stiffening, self.storage, self.loss)
-        )
-        modulus = self.rubber.complex_modulus(omega * shift) * stiffening
-        return np.asarray(storage * modulus.real + 1j * loss * modulus.imag)
 
 
 @dataclass(frozen=True)

@@ -280,7 +280,6 @@ def contact_by_cut_off(
 
     Cut-offs are an octave apart. Above the shortest wavelength that the lines resolve, the waves
     are measured; below, they are continued and the numbers have a `band`, but for a `refusal`.
-
     Raises `InputError` if an argument is out of its range, a finer measurement does not reach
     `down_to` or is rougher or smoother than the faces by more than a factor of three where both are
     measured; and as `solve_rough_contact` does.
@@ -416,7 +415,10 @@ def _continued(
     elif isinstance(source, HurstExponent):
         ratio = usual = 2.0 ** (1.0 - source.hurst)
     else:
-        withheld = _withheld(replace(solver, on_contact=None), steps, random)
+        quiet = replace(solver, on_contact=None)
+        withheld, above = (_octave_again(quiet, part, random) for part in (steps, steps[:-1]))
+        if withheld is not None and above is not None:
+            withheld = replace(withheld, slope_ratio_above=above.slope_ratio)
     if withheld is not None:
         if not withheld.foretells:
             return ContactByCutOff(tuple(steps), resolved, math.nan, withheld, overlap)
@@ -472,16 +474,6 @@ def _overlap(finer: FinerMeasurement, steps: Sequence[CutOffContact], last: floa
     return ratio
 
 
-def _withheld(
-    solver: _Solver, steps: Sequence[CutOffContact], random: np.random.Generator
-) -> Withheld | None:
-    """Return how the last two measured octaves are found from those above; None if not at all."""
-    last, above = (_octave_again(solver, part, random) for part in (steps, steps[:-1]))
-    if last is None:
-        return None
-    return replace(last, slope_ratio_above=math.nan if above is None else above.slope_ratio)
-
-
 def _octave_again(
     solver: _Solver, steps: Sequence[CutOffContact], random: np.random.Generator
 ) -> Withheld | None:
@@ -506,11 +498,9 @@ def _octave_again(
     area = same.mean("contact_fraction") / true.mean("contact_fraction")
     friction = log_friction(same)
     # friction rises with the slope: ratios on one side, until the true friction lies between two
-    side = (
-        _LOG_RATIOS[_LOG_RATIOS > 0.0] if friction < 0.0 else _LOG_RATIOS[_LOG_RATIOS < 0.0][::-1]
-    )
+    up, down = _LOG_RATIOS[_LOG_RATIOS > 0.0], _LOG_RATIOS[_LOG_RATIOS < 0.0][::-1]
     by_log = {0.0: friction}
-    for log in side.tolist():
+    for log in (up if friction < 0.0 else down).tolist():
         by_log[log] = log_friction(tried(log))
         if by_log[log] * friction <= 0.0:
             break

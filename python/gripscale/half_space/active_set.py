@@ -195,7 +195,11 @@ class PointsInContact:
     def displacement(self, pressure: AnyArray) -> AnyArray:
         """Return K p [m] over the whole grid, flattened."""
         self.products += 1
-        return self._applied(self._response.displacement, self._spread(pressure))
+        # a single array is reused by the next call
+        single = pressure.dtype == np.float32
+        full = self._single if single else np.zeros(self._single.size, dtype=pressure.dtype)
+        full[self._where] = pressure
+        return self._applied(self._response.displacement, full)
 
     def correction(self, right: Single, target: float, most: int) -> tuple[Single, float]:
         """Return p with |right - Q K_AA p| <= `target`, or the least after `most` products.
@@ -219,13 +223,6 @@ class PointsInContact:
         """Return Q K_AA p."""
         image = self.missing(self.displacement(pressure)[self._where])
         return image.astype(np.float32, copy=False)
-
-    def _spread(self, values: AnyArray) -> AnyArray:
-        """Return `values` at the points, else zero; a single array is reused by the next call."""
-        single = values.dtype == np.float32
-        full = self._single if single else np.zeros(self._single.size, dtype=values.dtype)
-        full[self._where] = values
-        return full
 
     def _applied(self, apply: Callable[[AnyArray], AnyArray], full: AnyArray) -> AnyArray:
         return apply(full.reshape(self._response.grid.shape)).reshape(-1)

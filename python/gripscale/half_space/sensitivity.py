@@ -156,8 +156,8 @@ class FrictionAdjoint:
         rubber = contact.body.of_layer(self.layer).rubber if scales is None else scales.rubber
 
         def young_modulus(terms: slice) -> ComplexArray:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", RubberWarning)  # the whole rubber has warned
+            # the whole rubber has warned
+            with warnings.catch_warnings(action="ignore", category=RubberWarning):
                 alone = Rubber(
                     rubber.equilibrium_modulus,
                     rubber.moduli[terms],
@@ -202,30 +202,27 @@ def half_space_of(
 
     Under conditions each scale keeps its strain and its own temperature rise.
     """
-    rubber, scales = contact.rubber, contact.by_scale
-    sliding = contact.speed if speed is None else speed
+    sliding, scales = contact.speed if speed is None else speed, contact.by_scale
+
+    def warmed(rubber: Rubber) -> Rubber:
+        kelvin = rubber.reference_temperature
+        return rubber.at(kelvin + warmer) if warmer and kelvin is not None else rubber
+
     if contact.layers is not None:
-        layers = [(_warmed(each, warmer), height) for each, height in contact.layers]
+        layers = [(warmed(rubber), height) for rubber, height in contact.layers]
         return HalfSpace(layers[0][0], sliding, layers=Layers(layers))
-    if warmer and rubber.reference_temperature is not None:
-        kelvin = rubber.reference_temperature + warmer
-        if contact.scales is None or contact.conditions is None:
-            rubber = rubber.at(kelvin)
-        else:
-            scales = state_by_scale(
-                replace(contact.conditions, temperature=kelvin),
-                rubber,
-                wavenumber=contact.scales.wavenumber,
-                warming=contact.scales.warming,
-                strain=contact.scales.strain,
-            ).rubber
+    rubber, before = contact.rubber, contact.rubber.reference_temperature
+    if contact.scales is None or contact.conditions is None:
+        rubber = warmed(rubber)
+    elif warmer and before is not None:
+        scales = state_by_scale(
+            replace(contact.conditions, temperature=before + warmer),
+            rubber,
+            wavenumber=contact.scales.wavenumber,
+            warming=contact.scales.warming,
+            strain=contact.scales.strain,
+        ).rubber
     return HalfSpace(rubber, sliding, by_scale=scales, thickness=contact.thickness)
-
-
-def _warmed(rubber: Rubber, by: float) -> Rubber:
-    """Return a rubber, warmer by some degrees [K] if it has a shift."""
-    kelvin = rubber.reference_temperature
-    return rubber if not by or kelvin is None or rubber.shift is None else rubber.at(kelvin + by)
 
 
 def modulus_changes(contact: RoughContact, layer: int = 0) -> tuple[ComplexArray, ComplexArray]:
@@ -345,29 +342,24 @@ class ContactFractionDifferences:
         largest = float(np.abs(change).max())
         if largest == 0.0:
             return 0.0
-        real = _on_grid(change, self.contact.grid)
-        step = AREA_STEP / largest
-        low, high = (
-            self._log_fraction(self.compliance * np.exp(-by * real), self.contact.nominal_pressure)
-            for by in (-step, step)
-        )
-        return (high - low) / (2.0 * step)
+        return self._difference(_on_grid(change, self.contact.grid), 0.0, AREA_STEP / largest)
 
     def by_log_pressure(self) -> float:
         """Return d ln(A_r/A_0) / d ln p_0 [-]."""
-        pressure = self.contact.nominal_pressure
-        low, high = (
-            self._log_fraction(self.compliance, pressure * math.exp(by))
-            for by in (-AREA_STEP, AREA_STEP)
-        )
-        return (high - low) / (2.0 * AREA_STEP)
+        return self._difference(0.0, 1.0, AREA_STEP)
 
-    def _log_fraction(self, compliance: ComplexArray, pressure: float) -> float:
-        response = Response.with_compliance(compliance, self.contact.grid, 1)
-        start = self.contact.pressure * (pressure / self.contact.pressure.mean())
-        solved = solve_grid(response, self.contact.height, start, MOST_ITERATIONS, START_TOLERANCE)
-        fraction = grid_contact_fraction(solved.active, solved.gap, response.loss_angle)
-        return math.log(fraction)
+    def _difference(self, stiffer: ComplexArray | float, pressed: float, step: float) -> float:
+        """Return d ln(A_r/A_0) along changes of ln M and ln p_0."""
+        contact, logs = self.contact, []
+        for by in (-step, step):
+            compliance = self.compliance * np.exp(-by * stiffer)
+            response = Response.with_compliance(compliance, contact.grid, 1)
+            pressure = contact.nominal_pressure * math.exp(by * pressed)
+            start = contact.pressure * (pressure / contact.pressure.mean())
+            solved = solve_grid(response, contact.height, start, MOST_ITERATIONS, START_TOLERANCE)
+            fraction = grid_contact_fraction(solved.active, solved.gap, response.loss_angle)
+            logs.append(math.log(fraction))
+        return (logs[1] - logs[0]) / (2.0 * step)
 
 
 def contact_sensitivity(
@@ -380,12 +372,11 @@ def contact_sensitivity(
 ) -> xr.Dataset:
     """Return the derivatives of the friction of a direct contact by all of its inputs.
 
-    One linear system is solved, whatever the number of inputs. The friction is that from the
-    energy lost. Under conditions the rubber of each scale keeps its strain and its temperature
-    rise: the effect of an input on them is left out (`settled` in the attributes).
-
-    Raises `InputError` if the contact is at rest, has no friction or not this layer, or is
-    something else; if the rubber has no shift to the reference temperature.
+    One linear system is solved, whatever the number of inputs. The friction is that from the energy
+    lost. Under conditions the rubber of each scale keeps its strain and its temperature rise: the
+    effect of an input on them is left out (`settled` in the attributes). Raises `InputError` if the
+    contact is at rest, has no friction or not this layer, or is something else; if the rubber has
+    no shift to the reference temperature.
 
     Parameters
     ----------

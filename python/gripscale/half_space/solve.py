@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 
@@ -84,13 +84,12 @@ def solve_rough_contact(
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
-    A `status` other than "converged" says why not to trust the numbers.
-
-    Raises `ExtrapolationError` if the rubber would be extrapolated and `extrapolate` is "refuse",
-    `ConvergenceError` if the time limit ends before any grid is solved, and `InputError` if an
-    argument is out of its range, the first full grid has more than `most_points`, a size is beyond
-    what single precision can hold, or the rubber at rest is a melt: the pressure is more than ten
-    times the equilibrium modulus.
+    A `status` other than "converged" says why not to trust the numbers. Raises `ExtrapolationError`
+    if the rubber would be extrapolated and `extrapolate` is "refuse", `ConvergenceError` if the
+    time limit ends before any grid is solved, and `InputError` if an argument is out of its range,
+    the first full grid has more than `most_points`, a size is beyond what single precision can
+    hold, or the rubber at rest is a melt: the pressure is more than ten times the equilibrium
+    modulus.
 
         >>> contact = gs.solve_rough_contact(rubber, road, pressure="3 bar", speed="1 km/h")
         >>> f"{contact.contact_fraction:.2f}"
@@ -292,13 +291,20 @@ def _known_contact(start: RoughContact, heights: PeriodicHeights) -> LevelContac
     return LevelContact(level, start.height, contact, start.grids[-1])
 
 
-def _last_levels(other: LevelContact, heights: PeriodicHeights, goal: float) -> list[Level]:
-    """Return the levels to solve from another contact: those a goal is judged by, or fewest."""
+def _planned(sequence: GridSequence, goal: float) -> list[Level]:
+    """Return the levels to solve: from a known contact those a goal is judged by, or fewest."""
+    heights, other = sequence.heights, sequence.other
+
+    def with_all_waves(every: Iterable[Level]) -> list[Level]:
+        return [level for level in every if level.cut_off == heights.smallest_wavelength]
+
+    if resolved := with_all_waves(sequence.start):
+        return resolved[-(1 if math.isinf(goal) else ERROR_GRIDS) :]
     every = levels(heights)
-    if not math.isinf(goal):
-        return every[-ERROR_GRIDS:]
-    whole = [level for level in every if level.cut_off == heights.smallest_wavelength]
-    return [level for level in whole if level.grid.points >= other.height.size] or every[-1:]
+    if other is None or not math.isinf(goal):
+        return every if other is None else every[-ERROR_GRIDS:]
+    fine = [level for level in with_all_waves(every) if level.grid.points >= other.height.size]
+    return fine or every[-1:]
 
 
 def _solve_sequence(
@@ -306,18 +312,8 @@ def _solve_sequence(
 ) -> GridSequenceResult:
     """Return the contact with one rubber, on grids refined until the errors meet `goal`."""
     body, heights, load = sequence.body, sequence.heights, sequence.pressure
-    # only the last levels of `start` with all waves: as many as the errors are estimated from
-    whole = [
-        contact.level
-        for contact in sequence.start.values()
-        if contact.level.cut_off == heights.smallest_wavelength
-    ]
-    plan = whole[-(1 if math.isinf(goal) else ERROR_GRIDS) :]
-    if not plan:
-        other = sequence.other
-        plan = levels(heights) if other is None else _last_levels(other, heights, goal)
+    plan, in_time = _planned(sequence, goal), True
     grids: list[GridRecord] = []
-    in_time = True
     while plan:
         level = plan.pop(0)
         try:

@@ -87,10 +87,9 @@ def windows(
 ) -> list[Profile | HeightMap]:
     """Return the surface cut into as many windows as fit, centred.
 
-    Windows with fewer than half their heights are left out.
-
-    Raises `InputError` if a window would have fewer than 16 points along an axis or be longer than
-    the surface, or if no window has half of its heights.
+    Windows with fewer than half their heights are left out. Raises `InputError` if a window would
+    have fewer than 16 points along an axis or be longer than the surface, or if no window has half
+    of its heights.
 
     Parameters
     ----------
@@ -160,20 +159,12 @@ def solve_windows(
 
 
 def surface_of_sines(stack: SineStack, length: Quantity, seed: int) -> Profile:
-    """Return a periodic line of superposed sine waves, each with a random phase.
+    """Return a periodic line of superposed sine waves, each with a random phase from a `seed`.
 
-    Raises `InputError` if an argument is out of its range, or there would be more than ten million
-    points.
-
-    Parameters
-    ----------
-    stack : SineStack
-        The waves. Each wavelength is changed to the nearest that divides `length`, and its
-        amplitude in proportion, so that slopes are kept.
-    length : float
-        Period [m], at least the largest wavelength.
-    seed : int
-        Seed of the random phases.
+    `length` is the period [m], at least the largest wavelength of the `stack`. Each wavelength is
+    changed to the nearest that divides it, and its amplitude in proportion, so that slopes are
+    kept. Raises `InputError` if an argument is out of its range, or there would be more than ten
+    million points.
     """
     checks.instance("stack", stack, SineStack)
     period = checks.positive("length", length, unit="m")
@@ -204,9 +195,8 @@ def random_phases(surface: _Measurement, seed: int) -> _Measurement:
     Missing heights are filled, ends joined and steep flanks filled as `solve_rough_contact` does.
     The height difference correlation of the filled surface is kept; positions of the roughness and
     the distribution of heights are not. Lines that bridge gaps are part of the spectrum: where
-    flanks are missing, the surface is rougher than the pairs of measured heights.
-
-    Raises `InputError` if `seed` is not a whole number that is not negative.
+    flanks are missing, the surface is rougher than the pairs of measured heights. Raises
+    `InputError` if `seed` is not a whole number that is not negative.
     """
     random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
     surface_axes(surface)

@@ -21,9 +21,10 @@ from pathlib import Path
 import numpy as np
 
 from gripscale.core import Array, FileError, InputError, about_file, checks
-from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
+from gripscale.core.units import ZERO_CELSIUS, quantity_in_si
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import file_path, read_table, read_text
+from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.shift import EDGE, GAS_CONSTANT, WLF, Arrhenius, ShiftTable
 
 _LEAST_ERROR = 0.01  # standard error of log10 a_T below which none is believed [decades]
@@ -230,13 +231,8 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
             f"{', '.join(table.names) or 'no names'}"
         )
     columns = {str(n): table.numbers(at, "a number", missing=True) for n, at in titles.items()}
-    unit = temperature_unit or table.columns[titles["temperature"]].unit
-    if unit is None or spelled(unit, "temperature") is None:
-        raise InputError(
-            f"{file}: temperature_unit must be given ({listed('temperature')}), because the "
-            f"header states {'none' if unit is None else repr(unit)}",
-            missing="temperature_unit",
-        )
+    layout = FileLayout(temperature_unit=temperature_unit)
+    unit = layout.unit(table, titles["temperature"], "temperature")
     kelvin = quantity_in_si(columns["temperature"], unit, "temperature")
     vertical = columns.get("log_b")
     if vertical is None and "b" in columns:

@@ -104,15 +104,9 @@ class SlopeByWavelength(Described):
     def down_to(self, wavelength: float, of: str = "surface") -> float:
         """Return the rms slope [-] of the waves not shorter than `wavelength` [m].
 
-        NaN for a surface whose spectrum the lines do not determine, and beyond a measurement whose
-        spectrum does not end as a power law.
-
-        Parameters
-        ----------
-        wavelength : float
-            Shorter than `resolution_limit`, the slope is continued as a power law.
-        of : str
-            "surface" for the rms length of the gradient, "profile" for the slope along lines.
+        `of` "surface" it is the rms length of the gradient, of "profile" the slope along lines.
+        Beyond `resolution_limit` it is continued as a power law. NaN for a surface whose spectrum
+        the lines do not determine, and beyond one that does not end as a power law.
         """
         length = checks.positive("wavelength", wavelength, unit="m")
         checks.one_of("of", of, DEFINITIONS)
@@ -155,10 +149,8 @@ class SlopeByWavelength(Described):
         """Return the power law by which the slope continues beyond the measurement.
 
         For the surface of profiles the exponent is that of their own spectrum, with the closed form
-        of `areal_spectrum`.
-
-        Raises `InputError` if the last resolved decade has fewer than four points, or does not fall
-        as the spectrum of a self-affine surface (H above zero).
+        of `areal_spectrum`. Raises `InputError` if the last resolved decade has fewer than four
+        points, or does not fall as the spectrum of a self-affine surface (H above zero).
         """
         from scipy.special import gamma
 

@@ -353,10 +353,8 @@ def fit_self_affine(
     The range of the power law is the widest range of lags below the plateau over which a straight
     line in log C_z departs by no more than `tolerance` rms. If none is as wide as `shortest_range`,
     the straightest range of that width is taken, and `residual` exceeds `tolerance`: the surface is
-    then not self-affine.
-
-    Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or does not rise before
-    it.
+    then not self-affine. Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or
+    does not rise before it.
 
         >>> f"{gs.fit_self_affine(gs.height_difference(road)).hurst:.2f}"
         '0.74'

@@ -54,18 +54,11 @@ def transmission(wavenumber: Array, cut_off: float | Array) -> Array:
 def upper_envelope(
     z: Array, steps: tuple[float, ...], steepest: float = STEEPEST, *, periodic: bool = True
 ) -> Array:
-    """Return the smallest heights [m] above `z` without slopes above `steepest`.
+    """Return the smallest heights [m] above `z` without slopes above `steepest` [-].
 
-    On maps distances run along the grid and its diagonals, up to 8 % longer than straight ones.
-
-    Parameters
-    ----------
-    z : ndarray, shape (points,) or (nx, ny)
-        Heights without gaps [m], one period if `periodic`.
-    steps : tuple of float
-        Distance of points along each axis [m].
-    steepest : float
-        Slope [-]; infinity returns the heights as they are.
+    `z` has no gaps [m], shape (points,) or (nx, ny), and is one period if `periodic`; `steps` are
+    the distances of points along each axis [m]. On maps distances run along the grid and its
+    diagonals, up to 8 % longer than straight ones. Infinity returns the heights as they are.
     """
     if math.isinf(steepest):
         return z
@@ -141,7 +134,6 @@ def one_period(
     Missing heights are filled, the line through the end points subtracted, and flanks above a slope
     of `steepest` [-] replaced by their `upper_envelope`; infinity keeps all. `low_pass` then cuts
     the line off at `smallest_wavelength` [m]; without one it keeps its steps and all its waves.
-
     Raises `InputError` if `steepest` is not above zero, or `smallest_wavelength` is not from two
     steps of the line to its length.
     """

@@ -11,6 +11,7 @@ import math
 import os
 import warnings
 from collections.abc import Collection
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -23,11 +24,7 @@ from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
 from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_lines, read_sheets, read_text
 from gripscale.surface.height_grids import is_esri_grid, is_sdf_text, read_height_grid
 from gripscale.surface.profile import HeightMap, Profile, line_label
-from gripscale.surface.text_files import (
-    length_unit,
-    read_text_map,
-    read_text_profile,
-)
+from gripscale.surface.text_files import length_unit, read_text_map, read_text_profile
 from gripscale.surface.triangles import read_stl
 
 # Deflate, the densest packing of all formats, packs at most 1032 bytes into one.
@@ -82,13 +79,11 @@ def read_instrument_file(
         x, y = (quantity_in_si(axis, x_unit, "length") for axis in (along, across))
         return HeightField(quantity_in_si(field, z_unit, "length"), x, y)
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         with using_extra("formats", f"{path}: its format", "SurfaceTopography", kind=FileError):
             from SurfaceTopography import open_topography
         try:
-            reader = open_topography(io.BytesIO(raw))
-            try:
+            with closing(open_topography(io.BytesIO(raw))) as reader:
                 topography = _topography(path, reader.channels, channel, step)
                 points = topography.nb_grid_pts
                 if math.prod(points) > _MOST_POINTS_PER_BYTE * len(raw):
@@ -102,8 +97,6 @@ def read_instrument_file(
                 positions = topography.positions()
                 unit = topography.unit
                 reliable = topography.short_reliability_cutoff()
-            finally:
-                reader.close()
         except (FileError, InputError):
             raise
         except Exception as error:  # each of its forty readers fails in its own way

@@ -107,9 +107,8 @@ class ProfileSpectrum(Checked, eq=False):
 class ArealSpectrum(Checked, eq=False):
     """Power spectrum of a surface, mean over directions; arrays have the shape (points,).
 
-    Between its points q^3 C(q) is linear in log q; outside them there are no waves.
-
-    Raises `InputError` if lengths differ or a value is out of range.
+    Between its points q^3 C(q) is linear in log q; outside them there are no waves. Raises
+    `InputError` if lengths differ or a value is out of range.
     """
 
     wavenumber: Array = checked(checks.increasing_vector, unit="rad/m")
@@ -191,9 +190,8 @@ def profile_spectrum(
 
     Windows overlap by a half; each is freed of its trend and weighted. The sum over the wavenumbers
     is mean(w^2 z^2)/mean(w^2): with taper "none" and one window the variance of the heights
-    exactly, with "hann" their variance about the trends, as the windows weigh it.
-
-    Raises `InputError` if the steps differ, the window does not fit or a word is unknown.
+    exactly, with "hann" their variance about the trends, as the windows weigh it. Raises
+    `InputError` if the steps differ, the window does not fit or a word is unknown.
 
     Parameters
     ----------
@@ -254,9 +252,8 @@ def map_spectrum(
     """Return the power spectrum of a height map, mean over directions.
 
     The mean of all plane waves within rings of absolute wavenumber, up to the ring that still fits
-    into the sampled wavenumbers; the corners beyond are left out.
-
-    Raises `InputError` if a value is out of range or no height is there.
+    into the sampled wavenumbers; the corners beyond are left out. Raises `InputError` if a value is
+    out of range or no height is there.
 
     Parameters
     ----------
@@ -325,9 +322,8 @@ def areal_spectrum(
 
     The Abel equation is solved for the C >= 0 at the averaged wavenumbers that fits C_1 there best,
     relative to its scatter. Beyond the last point C_1 is continued as the power law of its last
-    points: lines see those waves at smaller k, too, but they are no part of the result.
-
-    Raises `InputError` if `hurst` is not above 0 and up to 1, or there are fewer than four points.
+    points: lines see those waves at smaller k, too, but they are no part of the result. Raises
+    `InputError` if `hurst` is not above 0 and up to 1, or there are fewer than four points.
 
     Parameters
     ----------

@@ -290,25 +290,15 @@ class Surface(Described):
         cut_off: CutOffRule | None = None,
         top_height_fraction: float | None = None,
     ) -> Surface:
-        """Return the surface with other waves.
+        """Return the surface with other waves; raise `InputError` if there are none such.
 
-        Raises `InputError` if there are no such waves.
-
-        Parameters
-        ----------
-        factors
-            Magnification factors of wavelength and amplitude, from the same first wave down to
-            the same smallest wavelength or cut-off as far as whole waves go.
-        waves
-            Their number: fitted anew to a measured surface, the first ones of waves by hand.
-        smallest_wavelength
-            The last wave [m], in place of a cut-off: fitted anew, or cut off.
-        cut_off
-            Where the roughness ends that they stand for, in place of a smallest wavelength: a
-            length [m] or another rule of `find_cut_off`; of fitted waves only.
-        top_height_fraction
-            Fraction of the heights that counts, see `height_difference`; of a measured
-            surface only.
+        `factors` are the magnification factors of wavelength and amplitude, from the same first
+        wave down to the same smallest wavelength or cut-off as far as whole waves go. The number of
+        `waves` is fitted anew to a measured surface, and means the first ones of waves by hand.
+        `smallest_wavelength` is the last wave [m], in place of a cut-off: fitted anew, or cut off.
+        `cut_off` is where the roughness ends that they stand for, in its place: a length [m] or
+        another rule of `find_cut_off`; of fitted waves only. `top_height_fraction` is the fraction
+        of the heights that counts, see `height_difference`; of a measured surface only.
         """
         surface = self if top_height_fraction is None else self._of_upper(top_height_fraction)
         if factors is None and waves is None and smallest_wavelength is None and cut_off is None:

@@ -73,16 +73,8 @@ def self_affine_profile(
 def sine_profile(stack: SineStack, length: Quantity, step: Quantity, seed: int) -> Profile:
     """Return a profile of superposed sine waves, each with a random phase.
 
-    Raises `InputError` if an argument is out of range.
-
-    Parameters
-    ----------
-    stack : SineStack
-        The waves.
-    length, step : float
-        Length and step of the profile [m].
-    seed : int
-        Seed of the random phases.
+    `stack` are the waves, `length` and `step` those of the profile [m], `seed` is that of the
+    phases. Raises `InputError` if an argument is out of range.
     """
     checks.instance("stack", stack, SineStack)
     x = _points(length, step)

@@ -33,20 +33,9 @@ _PREFERRED = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
 def texture_levels(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
     """Return the third-octave texture levels of profiles, or of the lines of a map along x.
 
-    Parameters
-    ----------
-    surface : Profile, sequence of Profile, or HeightMap
-        Cleaned heights; missing ones are interpolated. Several profiles must have the same step.
-
-    Returns
-    -------
-    Dataset
-        `level` [dB re 1 um] over `wavelength` [m], the middles of the bands, longest first.
-
-    Raises
-    ------
-    InputError
-        If the profiles are too short for a band that they resolve.
+    The result has `level` [dB re 1 um] over `wavelength` [m], the middles of the bands, longest
+    first. `surface` are cleaned heights; missing ones are interpolated, and several profiles must
+    have the same step. Raises `InputError` if they are too short for a band that they resolve.
     """
     import xarray as xr  # slow to import: not for reading a surface
 

@@ -94,10 +94,8 @@ class FiniteStrainBlock(Checked):
         """Return contact and friction of `problem`.
 
         `start` is a first guess and may be of another rubber, wave or load. `workers` as for
-        `gripscale.solve_scale`.
-
-        Raises `InputError` if `start` is of another solver or was read from a file, or `workers`
-        is not a whole number from 1 to 1024.
+        `gripscale.solve_scale`. Raises `InputError` if `start` is of another solver or was read
+        from a file, or `workers` is not a whole number from 1 to 1024.
         """
         if problem.thickness is not None:
             depth = min(self.mesh.depth, problem.thickness / problem.profile.wavelength)
@@ -286,11 +284,10 @@ def solve_profile(
 
     As `gripscale.solve_scale`, on sampled heights in place of one sine. Missing heights are
     interpolated linearly, and a profile that is not periodic is made so by
-    `gripscale.half_space.one_period`, with flanks no steeper than 4.
-
-    Raises `InputError` if a value is not a number or out of its range, the smallest wave needs more
-    columns, or the pressure is more than ten times the modulus of the rubber: at rest the
-    equilibrium modulus, which a melt does not have, else that at the highest frequencies.
+    `gripscale.half_space.one_period`, with flanks no steeper than 4. Raises `InputError` if a value
+    is not a number or out of its range, the smallest wave needs more columns, or the pressure is
+    more than ten times the modulus of the rubber: at rest the equilibrium modulus, which a melt
+    does not have, else that at the highest frequencies.
 
         >>> period = gs.solve_profile(rubber, sampled, pressure="3 bar", speed=0.3, periodic=True)
         >>> period.status == "converged"

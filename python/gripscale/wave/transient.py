@@ -115,9 +115,8 @@ def solve_transient(
     """Press a rubber block on a rigid sine wave and slide it through a programme in time.
 
     The programme sets the speed of the rubber's *surface* over the wave (the lid follows the
-    block's mean shear), which makes a dwell one of constant mean shear.
-
-    Raises `InputError` if a value is not a number or out of its range, or there are no stages.
+    block's mean shear), which makes a dwell one of constant mean shear. Raises `InputError` if a
+    value is not a number or out of its range, or there are no stages.
 
         >>> stages = [gs.Stage("5 ms", 0.1, "3 bar")]
         >>> gs.solve_transient(rubber, wavelength="2 mm", amplitude=1e-4, stages=stages).converged
