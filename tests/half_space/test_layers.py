@@ -289,7 +289,7 @@ def test_layers_name_what_is_wrong(layers: object, words: str) -> None:
 
 def test_layers_cannot_be_changed() -> None:
     layers = gs.Layers([(CAP, 3e-3)])
-    with pytest.raises(AttributeError, match="cannot be changed"):
+    with pytest.raises(AttributeError, match="cannot assign to field"):
         layers.rubbers = []  # type: ignore[misc]
 
 

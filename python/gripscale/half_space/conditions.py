@@ -68,28 +68,11 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
         loss = np.where((octave == which) & (lost > 0.0), lost, 0.0)
         total = float(loss.sum())
         if total > _ROUND_OFF * float(lost.sum()):
-            density = np.abs(_forward_field(grid, np.sqrt(loss) * phase)) ** 2
+            density = np.abs(grid.forward_field(np.sqrt(loss) * phase)) ** 2
             mean = float((loss * 1.5 / np.maximum(number, longest)).sum() / total)
             middle = longest * 2.0 ** (which + 0.5)
             out.append(OctaveHeat(middle, total, density / density.mean(), LossDepth(mean)))
     return out
-
-
-def _forward_field(grid: Grid, half: ComplexArray) -> ComplexArray:
-    """Return the complex field of the waves with q_x > 0 from the half spectrum of a real field."""
-    whole = np.zeros(grid.shape, dtype=complex)
-    if len(grid.shape) == 1:
-        whole[: half.shape[0]] = half
-        return np.asarray(scipy.fft.ifft(whole))
-    forward = half * (grid.along > 0.0)
-    backward = half * (grid.along < 0.0)
-    columns = half.shape[1]
-    whole[:, :columns] = forward
-    opposite = np.roll(backward[::-1], 1, axis=0).conj()
-    last = grid.shape[1]
-    for column in range(columns):
-        whole[:, (last - column) % last] += opposite[:, column]
-    return np.asarray(scipy.fft.ifftn(whole))
 
 
 @dataclass(frozen=True)

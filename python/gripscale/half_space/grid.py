@@ -89,6 +89,22 @@ class Grid:
         spectrum = scipy.fft.rfftn(height) * np.where(self.own_opposite, 0.0, 1j * self.along)
         return np.asarray(scipy.fft.irfftn(spectrum, s=self.shape))
 
+    def forward_field(self, half: ComplexArray) -> ComplexArray:
+        """Return the complex field of the waves with q_x > 0 from the half spectrum of a real one.
+
+        Waves of the half spectrum that run the other way are those of their opposites.
+        """
+        whole = np.zeros(self.shape, dtype=complex)
+        if len(self.shape) == 1:
+            whole[: half.shape[0]] = half
+            return np.asarray(scipy.fft.ifft(whole))
+        columns, last = half.shape[1], self.shape[1]
+        whole[:, :columns] = half * (self.along > 0.0)
+        opposite = np.roll((half * (self.along < 0.0))[::-1], 1, axis=0).conj()
+        for column in range(columns):
+            whole[:, (last - column) % last] += opposite[:, column]
+        return np.asarray(scipy.fft.ifftn(whole))
+
     def _numbers(self, axis: int) -> Array:
         points, length = self.shape[axis], self.lengths[axis]
         last = axis == len(self.shape) - 1

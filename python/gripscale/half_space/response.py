@@ -279,17 +279,15 @@ _LEAST, _MOST = 1e-12, 1e15
 
 def half_space(rubber: Rubber | Layers, speed: float, thickness: float | None = None) -> HalfSpace:
     """Return rubber or layers at a speed [m/s], or raise `InputError`."""
-    if isinstance(rubber, Layers):
-        if thickness is not None:
-            raise InputError(
-                f"thickness must be None with Layers, which state their own; got {thickness!r}"
-            )
-        sliding = checks.not_negative("speed", speed, unit="m/s")
-        return HalfSpace(rubber.rubbers[0], sliding, layers=rubber)
-    if not isinstance(rubber, Rubber):
-        raise InputError(f"rubber must be a Rubber; got {type(rubber).__name__}")
+    layers = rubber if isinstance(rubber, Layers) else None
+    if layers is not None and thickness is not None:
+        raise InputError(
+            f"thickness must be None with Layers, which state their own; got {thickness!r}"
+        )
+    solid = layers.rubbers[0] if layers else checks.instance("rubber", rubber, Rubber)
     height = None if thickness is None else checks.positive("thickness", thickness, unit="m")
-    return HalfSpace(rubber, checks.not_negative("speed", speed, unit="m/s"), thickness=height)
+    sliding = checks.not_negative("speed", speed, unit="m/s")
+    return HalfSpace(solid, sliding, thickness=height, layers=layers)
 
 
 def check_magnitudes(body: HalfSpace, heights: PeriodicHeights, pressure: float) -> None:

@@ -91,13 +91,8 @@ def shares_by_slope(contact: RoughContact) -> xr.Dataset:
     the grid, so that a class of slopes has a share in it as in the load and in the contact area.
 
     The result has `friction_by_slope`, `load_by_slope` and `contact_by_slope` [-] over `slope`, the
-    lower end of the classes 0 to 0.25, to 0.5, to 1, to 2 and above. Each sums to 1; the friction
-    is NaN where there is none.
-
-    Parameters
-    ----------
-    contact : RoughContact
-        The contact; the slope is dh/dx along the sliding direction, up or down.
+    lower end of the classes of dh/dx along the sliding direction, up or down: 0 to 0.25, to 0.5, to
+    1, to 2 and above. Each sums to 1; the friction is NaN where there is none.
     """
     slope = contact.grid.slope(contact.height)
     index = np.digitize(np.abs(slope), SLOPES[1:], right=True).reshape(-1)

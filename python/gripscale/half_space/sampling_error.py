@@ -18,7 +18,6 @@ of one piece on another cancel in the sum only.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -46,20 +45,22 @@ def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
     The pieces are equal and at least as long as `piece` along each axis [m]. NaN for fewer than
     four; of friction also at rest, and where it is not positive.
     """
-    counts = _counts(contact, checks.positive("piece", piece, unit="m"))
-    load = _by_piece(contact.pressure, counts)
+    piece = checks.positive("piece", piece, unit="m")
+    load = _by_piece(contact.pressure, contact, piece)
     carrying = _carrying(load)
     if load.size < FEWEST_PIECES or carrying < FEWEST_CARRYING:
         return SamplingError(math.nan, math.nan, carrying)
-    touched = _by_piece(contact.active.astype(float), counts)
+    touched = _by_piece(contact.active.astype(float), contact, piece)
     friction = math.nan
     if contact.speed > 0.0:
-        friction = _relative_error(_by_piece(_losses(contact), counts), load)
+        friction = _relative_error(_by_piece(_losses(contact), contact, piece), load)
     return SamplingError(_relative_error(touched, load), friction, carrying)
 
 
-def _by_piece(field: Array, counts: Sequence[int]) -> Array:
-    for axis, count in enumerate(counts):
+def _by_piece(field: Array, contact: RoughContact, piece: float) -> Array:
+    """Return the sums of a field over the pieces of a contact, at least `piece` long [m]."""
+    for axis, side in enumerate(contact.grid.lengths):
+        count = max(1, int(side / piece * (1.0 + 1e-9)))
         ends = np.linspace(0, field.shape[axis], count, endpoint=False).astype(int)
         field = np.add.reduceat(field, ends, axis=axis)
     return field.reshape(-1)
@@ -78,8 +79,9 @@ def friction_residuals(contact: RoughContact, piece: float) -> Array:
     Two contacts of one surface have the same pieces: the differences of their residuals make the
     error of the ratio of the two frictions.
     """
-    counts = _counts(contact, checks.positive("piece", piece, unit="m"))
-    return _residuals(_by_piece(_losses(contact), counts), _by_piece(contact.pressure, counts))
+    piece = checks.positive("piece", piece, unit="m")
+    load = _by_piece(contact.pressure, contact, piece)
+    return _residuals(_by_piece(_losses(contact), contact, piece), load)
 
 
 def error_of_residuals(residuals: Array, carrying: float) -> float:
@@ -91,15 +93,11 @@ def error_of_residuals(residuals: Array, carrying: float) -> float:
 
 def pieces_that_carry(contact: RoughContact, piece: float) -> float:
     """Return the number m of pieces of a length [m] that carry the load."""
-    return _carrying(_by_piece(contact.pressure, _counts(contact, piece)))
+    return _carrying(_by_piece(contact.pressure, contact, piece))
 
 
 def _carrying(load: Array) -> float:
     return float(load.sum() ** 2 / (load @ load))
-
-
-def _counts(contact: RoughContact, piece: float) -> list[int]:
-    return [max(1, int(side / piece * (1.0 + 1e-9))) for side in contact.grid.lengths]
 
 
 def _residuals(values: Array, load: Array) -> Array:

@@ -2,8 +2,7 @@
 
 Rows count by their standard errors, but none as more certain than a hundredth of a decade. Where
 the formula misses the rows by more than their errors, the errors of its constants grow in
-proportion.
-Shift tables are CSV files, to be looked at, edited and given back:
+proportion. Shift tables are CSV files, to be looked at, edited and given back:
 
     # reference temperature (C): 20
     temperature (C),log10 a_T,standard error of log10 a_T,b_T,standard error of log10 b_T

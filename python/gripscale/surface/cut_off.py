@@ -201,21 +201,14 @@ class SlopeByWavelength(Described):
 def slope_by_wavelength(
     surface: Profile | Sequence[Profile] | HeightMap, *, steepest: float = STEEPEST
 ) -> SlopeByWavelength:
-    """Return the rms slope of a measured surface down to each wavelength.
+    """Return the rms slope of a measured surface, as cleaned, down to each wavelength.
 
     They reach down to four steps of the measurement, or to the shortest wavelength that the
-    instrument measures reliably if that is known and longer. Raises `InputError` if `surface` is
-    something else, or the steps of its profiles differ.
-
-    Parameters
-    ----------
-    surface : Profile, sequence of Profile or HeightMap
-        As cleaned. Several profiles must have the same step (within 0.1 %). Missing heights are
-        interpolated. Profiles are taken as lines on an isotropic surface; of a map the gradient is
-        measured, and its lines along x are the profiles.
-    steepest : float, optional
-        Flanks above this slope [-] are filled first, since rubber does not follow them; infinity
-        keeps them.
+    instrument measures reliably if that is known and longer. Profiles are taken as lines on an
+    isotropic surface; several must have the same step (within 0.1 %). Of a map the gradient is
+    measured, and its lines along x are the profiles. Missing heights are interpolated. Flanks above
+    a slope of `steepest` [-] are filled first, since rubber does not follow them; infinity keeps
+    them. Raises `InputError` if `surface` is something else, or the steps of its profiles differ.
     """
     if isinstance(surface, HeightMap):
         x_step, y_step = surface.step

@@ -16,7 +16,7 @@ from gripscale.core import Array, Finding, InputError, Severity, Topic, checks, 
 from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.profile import Profile
 from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineStack
-from gripscale.surface.supports import road_between, support_plates
+from gripscale.surface.supports import road_between, runs, support_plates
 
 _SPIKE_SLOPE = 3.0  # height change per step that is steep (ISO 13473-1:2019, section 7.5)
 
@@ -47,15 +47,9 @@ def profile_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[
 
     They concern many steep steps, plates and jumps, flat stretches, sentinels, and
     heights or lengths that suggest another unit. Sentinels, plates and units are doubts: the answer
-    may be that of another road. Raises `InputError` if `cleaned` is no part of `profile`.
-
-    Parameters
-    ----------
-    profile : Profile
-        The profile as measured.
-    cleaned : Profile, optional
-        The cleaned profile: only the heights it kept count, as they were measured, and none beside
-        a step of slope 3 or more.
+    may be that of another road. With the `cleaned` profile only the heights it kept count, as they
+    were measured, and none beside a step of slope 3 or more. Raises `InputError` if it is no part
+    of `profile`.
     """
     doubts = _doubts(profile, cleaned)
     of_doubts = tuple(doubt(text, topic=Topic.SURFACE) for text in doubts.texts)
@@ -163,8 +157,7 @@ def _jump_warnings(z: Array) -> Iterator[str]:
     departures = np.abs(changes - np.median(changes))
     # 1.4826 median absolute departures are a standard deviation that jumps themselves hardly move
     far = departures > _JUMP * float(1.4826 * np.median(departures))
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], far.astype(np.int8), [0]))))
-    jumps = int((edges[1::2] - edges[::2] >= way // 2).sum())
+    jumps = sum(last - first >= way // 2 for first, last in runs(far))
     if 0 < jumps <= _MOST_JUMPS:
         yield (
             f"heights jump in {jumps} place{'s' if jumps > 1 else ''}, by up to "

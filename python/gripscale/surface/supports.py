@@ -74,7 +74,7 @@ def support_plates(profile: Profile) -> tuple[Support, ...]:
     smooth = _runs_of(rough < _SMOOTH_SHARE * np.median(rough), 2)
     suspect = off | np.repeat(smooth, [at.size for at in pieces])
     supports = []
-    for first, last in _edges(suspect):
+    for first, last in runs(suspect):
         # missing heights on the sides of a stretch belong to it
         before = valid[first - 1] + 1 if first else 0
         after = valid[last] - 1 if last < valid.size else len(profile) - 1
@@ -102,7 +102,7 @@ def road_between(profile: Profile) -> tuple[float, float] | None:
     return (first, last) if last - first > 0.25 * profile.length else None
 
 
-def _edges(marked: Mask) -> list[tuple[int, int]]:
+def runs(marked: Mask) -> list[tuple[int, int]]:
     """Return where each run of marks begins and ends."""
     ends = np.flatnonzero(np.diff(np.concatenate(([0], marked.astype(np.int8), [0])))).tolist()
     return list(zip(ends[::2], ends[1::2], strict=True))
@@ -111,7 +111,7 @@ def _edges(marked: Mask) -> list[tuple[int, int]]:
 def _runs_of(marked: Mask, least: int) -> Mask:
     """Return the marks without runs of fewer than `least` in a row."""
     kept = np.zeros_like(marked)
-    for first, last in _edges(marked):
+    for first, last in runs(marked):
         kept[first:last] = last - first >= least
     return kept
 
@@ -119,7 +119,7 @@ def _runs_of(marked: Mask, least: int) -> Mask:
 def _stepped(marked: Mask, height: Array) -> Mask:
     """Return the marks of runs whose sides within the profile are steps."""
     kept, way = np.zeros_like(marked), _FEWEST_HEIGHTS // 2
-    for first, last in _edges(marked):
+    for first, last in runs(marked):
         level = np.median(height[first:last])
         inner = (height[first : first + way], height[last - way : last])
         outer = (height[max(first - way, 0) : first], height[last : last + way])

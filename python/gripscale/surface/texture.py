@@ -81,19 +81,14 @@ DEPTH_NOTE = "depth_note"  # why there is no mean profile depth, or empty
 
 
 def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
-    """Return the texture of a profile, of several together, or of a map.
+    """Return the texture of a profile, of several together, or of a map, of cleaned heights.
 
-    The result has scalars by the names of `TEXTURE_NUMBERS` in SI units, with attributes `units`,
+    The line of each profile, or the plane of the map, is subtracted; missing heights are NaN. The
+    result has scalars by the names of `TEXTURE_NUMBERS` in SI units, with attributes `units`,
     `symbol` and `long_name`. Profiles have none of the numbers with S alone in their symbol, a
     map has no `rms_slope`: NaN. The mean profile depth of a map is that of its lines along x. It is
     NaN without a whole segment of 100 mm; the text `depth_note` then says why. Raises `InputError`
     if `surface` is none of these.
-
-    Parameters
-    ----------
-    surface : Profile, sequence of Profile, or HeightMap
-        Cleaned heights, NaN where missing. The line of each profile, or the plane of the map, is
-        subtracted.
     """
     values = dict.fromkeys(TEXTURE_NUMBERS, np.nan)
     if isinstance(surface, HeightMap):

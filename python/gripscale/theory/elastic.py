@@ -50,11 +50,10 @@ Nomenclature: M = E/(1-nu^2) the plane strain modulus, complex at w; p mean pres
     p_full = k A |M(w)| / 2
     mu     = k^2 A^2 Im M(w) / (4 p)      for p >= p_full
 
-Source: one Fourier component of the half-plane, u_q = -2 p_q / (|q| M(q v)) (K. L. Johnson,
-Contact Mechanics, 1985, sec. 13.2, doi:10.1017/CBO9781139171731), with the elastic modulus
-replaced by the complex one as in B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840,
-doi:10.1063/1.1388626. The pressure then is p + k A |M| / 2 cos(k x + phase), which must not be
-negative.
+Source: one Fourier component of the half-plane, u_q = -2 p_q / (|q| M(q v)) (K. L. Johnson, Contact
+Mechanics, 1985, sec. 13.2, doi:10.1017/CBO9781139171731), with the elastic modulus replaced by the
+complex one as in B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626. The
+pressure then is p + k A |M| / 2 cos(k x + phase), which must not be negative.
 
 How an elastic slab bonded to a rigid base yields to a wavy pressure.
 

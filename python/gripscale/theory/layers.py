@@ -37,14 +37,32 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import Array, ComplexArray, Described, InputError, checks, readable
+from gripscale.core import Array, Checked, ComplexArray, InputError, checked, checks, readable
+from gripscale.core.arrays import Quantity
 from gripscale.rubber import Rubber
 
 _ROWS = 2**14  # waves at once: their matrices take about 10 MB
 _TERMS = 8  # of the series of sinh x - x below x = 1: the next is below 1e-16 of the sum
 
 
-class Layers(Described):
+def _pairs(name: str, value: Any) -> tuple[tuple[Rubber, float], ...]:
+    """Return rubbers with their thicknesses [m]; raise `InputError` for anything else."""
+    pairs = value if isinstance(value, list | tuple) else []
+    if not pairs or not all(isinstance(pair, list | tuple) and len(pair) == 2 for pair in pairs):
+        raise InputError(
+            f"{name} must be pairs of a Rubber and its thickness [m], the layer in contact first; "
+            f"got {checks.short_repr(value)}"
+        )
+    return tuple(
+        (
+            checks.instance(f"rubber of layer {number}", rubber, Rubber),
+            checks.positive(f"thickness of layer {number}", thickness, unit="m"),
+        )
+        for number, (rubber, thickness) in enumerate(pairs, start=1)
+    )
+
+
+class Layers(Checked):
     """Layers of rubber on a rigid base, bonded to one another.
 
     Raises `InputError` unless there is at least one layer, each a `Rubber` and a thickness above
@@ -52,52 +70,16 @@ class Layers(Described):
 
         >>> gs.Layers([(rubber, "4 mm"), (rubber, "6 mm")]).thicknesses
         [0.004, 0.006]
-
-    Parameters
-    ----------
-    layers : sequence of (Rubber, float)
-        Rubber and thickness [m] of each layer, that in contact first.
     """
 
-    __slots__ = ("_layers",)
-    _layers: tuple[tuple[Rubber, float], ...]
-
-    def __init__(self, layers: Sequence[tuple[Rubber, float]]) -> None:
-        pairs = list(layers) if isinstance(layers, list | tuple) else []
-        if not pairs or not all(
-            isinstance(pair, list | tuple) and len(pair) == 2 for pair in pairs
-        ):
-            raise InputError(
-                "layers must be pairs of a Rubber and its thickness [m], the layer in contact "
-                f"first; got {checks.short_repr(layers)}"
-            )
-        read = []
-        for number, (rubber, thickness) in enumerate(pairs, start=1):
-            if not isinstance(rubber, Rubber):
-                raise InputError(
-                    f"rubber of layer {number} must be a Rubber; got {type(rubber).__name__}"
-                )
-            name = f"thickness of layer {number}"
-            read.append((rubber, checks.positive(name, thickness, unit="m")))
-        object.__setattr__(self, "_layers", tuple(read))
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"Layers cannot be changed; got a new {name}: make other Layers")
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (list(self._layers),)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Layers) and self._layers == other._layers
-
-    def __hash__(self) -> int:
-        return hash(tuple(self.thicknesses))
+    layers: Sequence[tuple[Rubber, Quantity]] = checked(_pairs)
+    """Rubber and thickness [m] of each layer, that in contact first."""
 
     def __len__(self) -> int:
-        return len(self._layers)
+        return len(self.layers)
 
     def __iter__(self) -> Iterator[tuple[Rubber, float]]:
-        return iter(self._layers)
+        return iter(self.layers)
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
         """Yield thickness and rubber of each layer, that in contact first."""
@@ -107,12 +89,12 @@ class Layers(Described):
     @property
     def rubbers(self) -> list[Rubber]:
         """Rubber of each layer, that in contact first."""
-        return [rubber for rubber, _ in self._layers]
+        return [rubber for rubber, _ in self.layers]
 
     @property
     def thicknesses(self) -> list[float]:
         """Thickness of each layer [m], that in contact first."""
-        return [thickness for _, thickness in self._layers]
+        return [thickness for _, thickness in self.layers]
 
 
 def shear_and_compression(modulus: ComplexArray, bulk: float) -> tuple[ComplexArray, ComplexArray]:
