@@ -11,7 +11,7 @@ import lazy_loader
 from gripscale.core import faces
 
 faces.enter(faces.CASE_WRITER, "gripscale.case_file.save:write_case")
-faces.enter(faces.FIGURE_PNG, "gripscale.charts.paper:png")
+faces.enter(faces.FIGURE_PNG, "gripscale.charts.paper:figure_file")
 _lazy, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 

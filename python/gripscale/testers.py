@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 from gripscale.core import Finding, InputError, Severity, Topic, checks
 
@@ -31,8 +32,9 @@ class Tester:
     number: str = ""  # what it calls its number; empty where that is the friction
 
 
+TesterName = Literal["pendulum", "dynamic_friction_tester", "reference_tyre", "locked_wheel"]
 # Testers by the words of a case.
-TESTERS = {
+TESTERS: dict[str, Tester] = {
     # EN 13036-4: 22.2 N on an edge 76 mm wide and 2.4 mm long, over 126 mm
     "pendulum": Tester("pendulum, EN 13036-4", "slider 57 or 96", 1.2e5, 2.8, 0.126, "PTV"),
     # ASTM E1911: three sliders of 11.8 N and 150 kPa on a disc of 284 mm; its number at 20 km/h

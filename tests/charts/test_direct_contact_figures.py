@@ -13,7 +13,7 @@ from matplotlib.image import imread
 
 from gripscale.charts.chart import CrossLine, Panel, Series
 from gripscale.charts.draw import Sheet
-from gripscale.charts.paper import png
+from gripscale.charts.paper import figure_file
 from gripscale.charts.style import INK, RED
 from gripscale.half_space.location import with_traces
 from gripscale.questions.answer.charts import (
@@ -121,7 +121,7 @@ def test_the_summary_is_a_slide_that_can_be_read_at_half_its_size() -> None:
     assert {"0.158", "0.127 to 0.196 (90 %)", "0.0282", "not to be relied on"} <= texts.keys()
     assert (texts["0.158"].get_color(), texts["0.0282"].get_color()) == (INK, RED)
     assert close.get_aspect() == 1.0
-    pixels = imread(io.BytesIO(png(figure)))
+    pixels = imread(io.BytesIO(figure_file(figure)))
     assert (pixels[:3] == 1.0).all()
     assert (pixels[-3:] == 1.0).all()
     words = [text for axes in figure.axes for text in axes.texts]
@@ -134,7 +134,7 @@ def test_the_summary_is_a_slide_that_can_be_read_at_half_its_size() -> None:
 
 
 def frames(figure: Figure) -> list[tuple[float, float]]:
-    png(figure)
+    figure_file(figure)
     return [(axes.get_position().x0, axes.get_position().x1) for axes in figure.axes]
 
 
@@ -151,7 +151,7 @@ def drawn(sheet: Sheet) -> Figure:
 
 def test_what_heights_are_worth_is_named_and_no_label_is_cut() -> None:
     figure = height_figure(made_up_trace(), "road")
-    content = png(figure)
+    content = figure_file(figure)
     legend = figure.legends[0]
     assert legend.get_title().get_text() == "road"
     assert "change of $\\mu$ by the height" in [text.get_text() for text in legend.get_texts()]

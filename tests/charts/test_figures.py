@@ -17,7 +17,7 @@ from matplotlib.markers import TICKDOWN
 from gripscale.charts import save_figure
 from gripscale.charts.chart import Outline, Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
-from gripscale.charts.paper import png
+from gripscale.charts.paper import figure_file
 from gripscale.charts.style import short_number, stretches
 from gripscale.core.errors import FileError, InputError
 from gripscale.questions import (
@@ -447,7 +447,7 @@ def test_numbers_of_a_comparison_end_before_its_factors(monkeypatch: pytest.Monk
     names = {"model": ["chain", "sines"], "label": ("model", ["chain", "sines"])}
     data = xr.Dataset({"nominal_speed": 0.3, "group": ("model", ["measured"] * 2)}, names)
     figure = comparison_figure(data)
-    png(figure)
+    figure_file(figure)
     for axes in figure.axes:
         right = axes.get_window_extent().x1
         texts = {text.get_text(): text.get_window_extent() for text in axes.texts}

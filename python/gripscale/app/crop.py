@@ -31,13 +31,9 @@ class RawSurface:
         self._state = state
         self._drawn: list[Any] = []
         self.body = column(min_height=60)
-        state.param.watch(self._schedule, "text")
-        if pn.state.curdoc is not None:
-            pn.state.onload(self.update)
-
-    def _schedule(self, *_: Any) -> None:
         if pn.state.curdoc is not None:  # else there is no page that could show it
-            pn.state.execute(self.update)
+            state.param.watch(lambda _: pn.state.execute(self.update), "text")
+            pn.state.onload(self.update)
 
     async def update(self) -> None:
         """Read and draw the surface, if what it is read from has changed."""

@@ -56,6 +56,12 @@ def column(*parts: Any, **options: Any) -> pn.Column:
     return pn.Column(*parts, sizing_mode="stretch_width", **options)
 
 
+def folded_card(title: str, *parts: Any, **options: Any) -> pn.Card:
+    """Return a card that opens at a click."""
+    look: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": (6, 8)}
+    return pn.Card(*parts, title=title, collapsed=True, **look, **options)
+
+
 def panes(elements: Iterable[AppElement]) -> list[pn.viewable.Viewable]:
     """Return the panes that show `elements`, in order."""
     return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]

@@ -6,13 +6,21 @@ A field that is left empty removes its key from the case.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import Any, Literal, get_args, get_origin
 
 import panel as pn
 
 from gripscale.app.case import CaseState, field_text, field_value
-from gripscale.app.elements import CUT_TEXT, PageElements, column, in_worker, panes, work_button
+from gripscale.app.elements import (
+    CUT_TEXT,
+    PageElements,
+    column,
+    folded_card,
+    in_worker,
+    panes,
+    work_button,
+)
 from gripscale.case_file import CaseFile
 from gripscale.case_file.keys import NEEDED, NOTHING, TABLES, Key, KeySection, sections
 from gripscale.case_file.schema import KeyQuantity, table_of
@@ -32,25 +40,17 @@ WITHOUT_FIELD = {"surface.sines", "surface.files", "surface.map", "rubber.file"}
 def table_form(state: CaseState, name: str, first: Collection[str]) -> pn.Column:
     """Return the form of the table `name` of a case: the keys of `first`, the others to open."""
     section = next(section for section in sections() if section.name == name)
-    tables = {table for table, _, _ in TABLES if table.startswith(f"{name}.")} - WITHOUT_FIELD
+    laws = [table for table, _, _ in TABLES if table.startswith(f"{name}.")]
     fields = {
         key.name: field(state, section, key)
         for key in section.keys
-        if f"{name}.{key.name}" not in tables | WITHOUT_FIELD
+        if f"{name}.{key.name}" not in {*laws, *WITHOUT_FIELD}
     }
     parts: list[Any] = [_rows([fields.pop(key) for key in first])]
     if fields:
-        parts.append(
-            pn.Card(
-                _rows(list(fields.values())),
-                title="All other keys",
-                collapsed=True,
-                sizing_mode="stretch_width",
-                margin=(6, 8),
-            )
-        )
-    laws = [law_form(state, table) for table, _, _ in TABLES if table in tables]
-    return column(*parts, *laws)
+        parts.append(folded_card("All other keys", _rows([*fields.values()])))
+    parts += [law_form(state, law) for law in laws if law not in WITHOUT_FIELD]
+    return column(*parts)
 
 
 def law_form(state: CaseState, name: str) -> pn.Column:
@@ -105,15 +105,9 @@ def field(state: CaseState, section: KeySection, key: Key) -> Any:
     path = (*section.name.split("."), key.name)
     if key.quantity is not None:
         return quantity_field(state, path, key, key.quantity)
-    law = next(table for name, table, _ in TABLES if name == section.name)
-    table = table_of(law[section.kind] if isinstance(law, Mapping) else law)
-    annotation = table.model_fields[key.name].annotation
+    annotation = table_of(section.law).model_fields[key.name].annotation
     choices, is_text = list(literals(annotation)), annotation in (str, str | None)
-    look = {
-        "label": key.name.replace("_", " ") + (" *" if key.default == NEEDED else ""),
-        "description": f"{key.meaning} Takes {key.takes}.",
-        **LOOK,
-    }
+    look = {**_words(key), **LOOK}
     has_default = key.default not in (NEEDED, NOTHING)
     by_default = f"{BY_DEFAULT}: {key.default}" if has_default else BY_DEFAULT
     if key.default == NEEDED:
@@ -155,25 +149,19 @@ def quantity_field(
     What is typed as a number may be anything else the key takes, such as a quantity with its unit.
     """
     kind, pair = quantity
-    needed = " *" if key.default == NEEDED else ""
-    labels = [key.name.replace("_", " ") + needed, *(["to"] if pair else [])]
+    words = _words(key)
     numbers = [
         pn.widgets.TextInput(
             label=label,
             width=max(80, 40 + 7 * len(label)),  # the label, and the mark that explains it
             margin=(2, 4, 2, 8),
-            description=f"{key.meaning} Takes {key.takes}.",
+            description=words["description"],
             placeholder="" if key.default in (NEEDED, NOTHING) else key.default,
         )
-        for label in labels
+        for label in [words["label"], "to"][: 1 + pair]
     ]
-    unit = pn.widgets.Select(
-        label="unit",
-        options=list(UNITS[kind]),
-        value=example_unit(kind),
-        width=90,
-        margin=(2, 8, 2, 4),
-    )
+    look: dict[str, Any] = {"label": "unit", "width": 90, "margin": (2, 8, 2, 4)}
+    unit = pn.widgets.Select(options=list(UNITS[kind]), value=example_unit(kind), **look)
 
     def edit() -> None:
         texts = [str(number.value or "").strip() for number in numbers]
@@ -207,6 +195,12 @@ def quantity_field(
 
     _bind(state, [*numbers, unit], edit, follow)
     return pn.Row(*numbers, unit, margin=0)
+
+
+def _words(key: Key) -> dict[str, str]:
+    """Return label and description of the field of a key."""
+    label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
+    return {"label": label, "description": f"{key.meaning} Takes {key.takes}."}
 
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)

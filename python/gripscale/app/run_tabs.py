@@ -58,14 +58,7 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
     fields: dict[str, pn.widgets.TextInput | pn.widgets.Select] = {}
     bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
     status, answer, output = elements.column(), elements.column(), elements.code("")
-    folded_output = pn.Card(
-        output,
-        title="Command and output",
-        collapsed=True,
-        visible=False,
-        sizing_mode="stretch_width",
-        margin=(6, 8),
-    )
+    folded_output = elements.folded_card("Command and output", output, visible=False)
 
     def with_others(uploads: Mapping[str, bytes]) -> str:
         names = [state.visit.store(name, content) for name, content in uploads.items()]
@@ -221,10 +214,8 @@ def downloads(run: AppRun) -> pn.FlexBox:
         )
         for path in sorted([*run.folder.glob("*.html"), *run.folder.glob("*.nc")])
     ]
-    folder = pn.widgets.FileDownload(
-        callback=zipped, filename=f"{run.name}.zip", label="Save everything"
-    )
-    return pn.FlexBox(*files, folder)
+    whole = {"filename": f"{run.name}.zip", "label": "Save everything"}
+    return pn.FlexBox(*files, pn.widgets.FileDownload(callback=zipped, **whole))
 
 
 NONE_TO_COMPARE = "No run of Contact and friction has finished; the tab before has other answers."
@@ -315,10 +306,8 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
     speeds = [view.display_unit("speed").text(view.speed, 3) for _, view, _ in compared]
     changes = [", ".join(changed_keys(first, run.text)) for run, _, _ in compared]
     area, friction, with_term = zip(*totals, strict=True)
-    columns = [
-        Column("run", [view.name for _, view, _ in compared]),
-        Column("speed", speeds, words=False),
-    ]
+    names = [view.name for _, view, _ in compared]
+    columns = [Column("run", names), Column("speed", speeds, words=False)]
     answers = [direct for _, _, direct in compared]
     for name in reversed(SYMBOLS) if any(answer is not None for answer in answers) else ():
         estimates = [

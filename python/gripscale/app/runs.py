@@ -234,8 +234,7 @@ class AppRun:
 
     def last_line(self) -> str:
         """Return what the process printed last."""
-        lines = self.log().split("\n")
-        return next((line.strip() for line in reversed(lines) if line.strip()), "")
+        return self.log().rstrip().rpartition("\n")[2].strip()
 
     def progress(self) -> RunProgress:
         """Return how far it is."""

@@ -16,8 +16,8 @@ from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel
 
-from gripscale.case_file.keys import NEEDED, NOTHING, Key, table_keys
-from gripscale.case_file.schema import Reading, table_of, type_and_marks
+from gripscale.case_file.keys import NEEDED, NOTHING, table_keys
+from gripscale.case_file.schema import LIMITS, PLAIN, Reading, table_of, type_and_marks
 from gripscale.case_file.tables import CaseTables
 from gripscale.io.folders import write_text
 
@@ -25,23 +25,9 @@ SCHEMA_FILE = ".case.schema.json"
 # First line of a case file with its schema beside it.
 SCHEMA_LINE = f"#:schema ./{SCHEMA_FILE}\n"
 
-_TYPES: dict[Any, Any] = {
-    bool: "boolean",
-    int: "integer",
-    float: "number",
-    str: "string",
-    list: "array",
-}
-# What pydantic calls a limit, and what JSON Schema does.
-_LIMITS = {
-    "ge": "minimum",
-    "gt": "exclusiveMinimum",
-    "le": "maximum",
-    "lt": "exclusiveMaximum",
-    "multiple_of": "multipleOf",
-    "min_length": "minItems",
-    "max_length": "maxItems",
-}
+_TYPES = {kind: name for kind, (_, name) in PLAIN.items()} | {list: "array"}
+_LIMITS = {limit: name for limit, (_, name) in LIMITS.items()}
+_LIMITS |= {"min_length": "minItems", "max_length": "maxItems"}
 
 
 @cache
@@ -59,23 +45,19 @@ def write_schema(case: str, folder: Path) -> None:
 
 def _table(law: type) -> dict[str, Any]:
     """Return the schema of a table of a case, or of all tables."""
-    keys = {key.name: key for key in table_keys(law)}
-    fields = table_of(law).model_fields
+    fields, words = table_of(law).model_fields, {}
+    for key in table_keys(law):
+        default = "" if key.default in (NEEDED, NOTHING) else f"; by default {key.default}"
+        words[key.name] = {"description": f"{key.meaning} Takes {key.takes}{default}."}
     return {
         "type": "object",
         "properties": {
-            name: _value(field.annotation, *field.metadata) | {"description": _words(keys[name])}
+            name: _value(field.annotation, *field.metadata) | words[name]
             for name, field in fields.items()
         },
         "required": [name for name, field in fields.items() if field.is_required()],
         "additionalProperties": False,
     }
-
-
-def _words(key: Key) -> str:
-    """Return the meaning of a key, what it takes, and its default."""
-    default = "" if key.default in (NEEDED, NOTHING) else f"; by default {key.default}"
-    return f"{key.meaning} Takes {key.takes}{default}."
 
 
 def _value(annotation: Any, *metadata: Any) -> dict[str, Any]:

@@ -76,6 +76,7 @@ class KeySection:
 
     name: str
     kind: str
+    law: type
     about: str
     keys: list[Key]
 
@@ -89,7 +90,7 @@ class KeySection:
 def sections() -> list[KeySection]:
     """Return all tables of a case with their keys, in the order of the documentation."""
     return [
-        KeySection(name, kind, _about(law), list(table_keys(law, page)))
+        KeySection(name, kind, law, _about(law), list(table_keys(law, page)))
         for name, table, page in TABLES
         for kind, law in (table.items() if isinstance(table, Mapping) else [("", table)])
     ]
@@ -123,7 +124,8 @@ def table_keys(law: type, page: str = "") -> Iterator[Key]:
             case value:
                 default = json.dumps(value)
         meaning, chapter = meanings.get(name, ""), CHAPTERS.get(name, page)
-        yield Key(name, expected(item), default, meaning, chapter, quantity_of(item))
+        takes = expected(item.annotation, item.metadata)
+        yield Key(name, takes, default, meaning, chapter, quantity_of(item))
 
 
 def _about(law: type) -> str:

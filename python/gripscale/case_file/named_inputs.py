@@ -62,7 +62,7 @@ def read_surface(value: Any, file: CaseFile) -> Any:
         return case_surface(read_case_file(path))
     table = file.case.surface
     outside = set() if path.resolve() in map(file.resolve, table.measured_files) else {*OF_ONE_ROAD}
-    settings = table.model_dump(exclude_none=True, exclude=SOURCES_OF_SURFACE | outside)
+    settings = table.model_dump(exclude_unset=True, exclude=SOURCES_OF_SURFACE | outside)
     if table.sines is not None:
         settings["scales"] = len(table.sines)
     source = {"files": [str(path)]} if table.map is None else {"map": str(path)}

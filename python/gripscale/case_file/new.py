@@ -24,7 +24,6 @@ from gripscale.case_file.proposals import (
     assumption,
     conditions_proposal,
     holds_moduli,
-    named_rubber_proposal,
     open_rubber,
     open_surface,
     rubber_proposal,
@@ -106,7 +105,7 @@ def propose(
     files: Sequence[str | Path],
     directory: Path,
     *,
-    load: Mapping[str, str] | None = None,
+    load: Mapping[str, str | None] | None = None,
     temperature: str | None = None,
     step: str | list[str] | None = None,
     shift: Mapping[str, Any] | None = None,
@@ -143,7 +142,6 @@ def propose(
     paths = [Path(file) for file in files if str(file) not in named]
     surfaces, rubbers, shifts, skipped = _sorted(paths, step, layout, named)
     names = {file: path_between(directory, file) for file in (*surfaces, *rubbers, *shifts)}
-    rubber_options = {"temperature": kelvin, "shift": shift, "layout": layout}
     of_load = Proposal()
     for key, default in _LOAD.items():
         if load and load.get(key) is not None:
@@ -151,27 +149,24 @@ def propose(
         else:
             effect = TENS_OF_PERCENT if key == "footprint" else BY_A_FACTOR
             of_load.add(key, default, f"not stated; --{key} states another", effect)
-    tables = {
-        "surface": surface_proposal(surfaces, [names[file] for file in surfaces], step=step),
-        "rubber": named_rubber_proposal(named[0], shift)
-        if named
-        else _one_rubber(rubbers, [names[file] for file in rubbers], **rubber_options),
-        "load": of_load,
-    }
-    if shift is None:
-        tables["rubber"].findings += [
-            assumption(
-                BY_A_FACTOR,
-                f'{names[file]} holds shift factors and is not used: shift = "{names[file]}" in '
-                "[rubber] takes them",
-            )
-            for file in shifts
-        ]
-    if thickness is None:
-        tables["rubber"].findings.append(assumption(TENS_OF_PERCENT, _WITHOUT_END))
+    surface = surface_proposal(surfaces, [names[file] for file in surfaces], step=step)
+    if named:
+        rubber = Proposal()
+        rubber.add("name", named[0], "known by published parameters")
+        if shift is not None:
+            rubber.add("shift", dict(shift), "as stated")
     else:
-        tables["rubber"].add("thickness", thickness)
-    tables["conditions"] = conditions_proposal(tables["rubber"], rubbers, kelvin)
+        stated = {"temperature": kelvin, "shift": shift, "layout": layout}
+        rubber = _one_rubber(rubbers, [names[file] for file in rubbers], **stated)
+    for name in () if shift is not None else (names[file] for file in shifts):
+        unused = f'{name} holds shift factors and is not used: shift = "{name}" in [rubber] takes'
+        rubber.findings.append(assumption(BY_A_FACTOR, f"{unused} them"))
+    if thickness is None:
+        rubber.findings.append(assumption(TENS_OF_PERCENT, _WITHOUT_END))
+    else:
+        rubber.add("thickness", thickness)
+    conditions = conditions_proposal(rubber, rubbers, kelvin)
+    tables = {"surface": surface, "rubber": rubber, "load": of_load, "conditions": conditions}
     return tables, skipped
 
 

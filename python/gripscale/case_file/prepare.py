@@ -28,7 +28,7 @@ from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
-from gripscale.core import CaseKey, FileError, InputError, Words, about_file, about_keys
+from gripscale.core import FileError, InputError, about_file, about_keys, unstated
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.io.text_table import read_bytes
@@ -210,8 +210,7 @@ def prepare_rubber(
         )
     origin = source.source or ", ".join(map(str, paths))
     reading = layout | {"titles_first": titles_first, "source": origin}
-    sweeps: Sweeps | None
-    report: Superposition | None
+    sweeps, report = None, None
     if len(paths) > 1 or holds_sweeps(path, FileLayout(**layout)):
         sweeps, master, report = _superposed(paths, source, resolve, reading)
     else:
@@ -222,7 +221,6 @@ def prepare_rubber(
             )
         reference = source.reference_temperature
         master = read_master_curve(path, reference_temperature=reference, **reading)
-        sweeps, report = None, None
     with about_file(path, InputError):
         rubber, fit = fit_prony_report(master, **options)
     rubber = replace(rubber, strain_energy=source.strain_energy)
@@ -279,32 +277,20 @@ def _superposed(
     sweeps = read_sweeps(paths, tolerance=0.0, temperature_step=source.temperature_step, **reading)
     if sweeps.is_ramp and shift is None:
         low, high = (sweeps.temperature[at] - ZERO_CELSIUS for at in (0, -1))
-        raise InputError(
-            Words(
-                f"{path}: ",
-                CaseKey("shift"),
-                f" must be given, such as {_SHIFT}: a "
-                f"temperature ramp at one frequency ({sweeps.frequency[0]:.3g} Hz, {low:.0f} to "
-                f"{high:.0f} °C) makes no master curve without it, sweeps at several frequencies "
-                "do",
-            ),
-            missing="shift",
+        words = (
+            f" must be given, such as {_SHIFT}: a temperature ramp at one frequency "
+            f"({sweeps.frequency[0]:.3g} Hz, {low:.0f} to {high:.0f} °C) makes no master curve "
+            "without it, sweeps at several frequencies do"
         )
+        raise unstated(f"{path}: ", "shift", words)
     if not sweeps.is_ramp and source.temperature_step is None:
         with about_file(path, InputError):
             sweeps = replace(sweeps, tolerance=TEMPERATURE_TOLERANCE)
     single = len(sweeps) == 1
     reference = None if single and reading["titles_first"] else source.reference_temperature
     if reference is None and not single:
-        raise InputError(
-            Words(
-                f"{path}: ",
-                CaseKey("reference_temperature"),
-                f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures to be '
-                "shifted to",
-            ),
-            missing="reference_temperature",
-        )
+        words = f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures to be '
+        raise unstated(f"{path}: ", "reference_temperature", f"{words}shifted to")
     try:
         master, report = superpose_report(
             sweeps,
@@ -327,15 +313,8 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
         return rubber
     if rubber.reference_temperature is None:
         where = source.name or source.measured_files[0]
-        raise InputError(
-            Words(
-                f"{where}: ",
-                CaseKey("reference_temperature"),
-                ' must be given with shift, such as "20 C": the master curve does not state what '
-                "it holds for",
-            ),
-            missing="reference_temperature",
-        )
+        words = ' must be given with shift, such as "20 C": the master curve does not state what '
+        raise unstated(f"{where}: ", "reference_temperature", f"{words}it holds for")
     return replace(rubber, shift=shift)
 
 
@@ -354,15 +333,11 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
     """
     if table == ConditionsTable():
         return None
-    source = table.softening
-    softening: SofteningLaw | None
-    if isinstance(source, StrainSweeps):
-        options: dict[str, Any] = {"strain_unit": source.strain_unit}
-        options |= {"amplitude": source.amplitude, **source.layout()}
-        sweeps = [read_strain_sweep(resolve(name), **options) for name in source.files]
-        softening = softening_of_sweeps(sweeps, measured_at=source.measured_at)
-    else:
-        softening = source
+    softening: SofteningLaw | StrainSweeps | None = table.softening
+    if isinstance(softening, StrainSweeps):
+        options = softening.model_dump(exclude={"kind", "files", "measured_at"})
+        sweeps = [read_strain_sweep(resolve(name), **options) for name in softening.files]
+        softening = softening_of_sweeps(sweeps, measured_at=softening.measured_at)
     norm = table.strain_norm or "slope"
     return Conditions(
         table.temperature, softening, norm, table.heat, table.shear_stress, table.water

@@ -115,7 +115,7 @@ def surface_proposal(
     if step is not None:
         proposal.add("step", step)
     read = read_map if isinstance(surface, HeightMap) else read_profile
-    units: dict[str, str] = {}
+    units: dict[str, Any] = {}
     # units that the file does not state with which its heights are those of a texture, if any are
     for choice in product(LENGTHS, repeat=len(missing)) if missing else ():
         trial: dict[str, Any] = dict(zip(missing, choice, strict=True))
@@ -130,8 +130,17 @@ def surface_proposal(
         words = f"{paths[0].name} names no unit; with this one the heights are a texture"
         proposal.add(key, unit, words, OF_ANOTHER_CASE)
     if isinstance(surface, Profile):
-        options |= units
-        _add_crop(proposal, [read_profile(path, **options) for path in paths])
+        profiles = [read_profile(path, **options, **units) for path in paths]
+        ends = [part for profile in profiles if (part := road_between(profile)) is not None]
+        if ends:
+            first, last = max(part[0] for part in ends), min(part[1] for part in ends)
+            supports = [
+                f"{profile.name} {' and '.join(map(str, plates))}"
+                for profile in profiles
+                if (plates := support_plates(profile))
+            ]
+            words = f"between plates or supports: {'; '.join(supports)}"
+            proposal.add("crop", [in_mm(first), in_mm(last)], words, BY_A_FACTOR)
     proposal.add("scales", _SCALES, "sine waves of the chain")
     words = "roughness below what the measurement carries is left out; it may add friction"
     proposal.add("cut_off", _CUT_OFF, words, TENS_OF_PERCENT)
@@ -170,34 +179,20 @@ def open_surface(
     raise min(refusals, key=lambda error: (not error.missing, isinstance(error, InputError)))
 
 
-def _add_crop(proposal: Proposal, profiles: list[Profile]) -> None:
-    parts = [part for profile in profiles if (part := road_between(profile)) is not None]
-    if not parts:
-        return
-    first, last = max(part[0] for part in parts), min(part[1] for part in parts)
-    supports = [
-        f"{profile.name} {' and '.join(map(str, plates))}"
-        for profile in profiles
-        if (plates := support_plates(profile))
-    ]
-    words = f"between plates or supports: {'; '.join(supports)}"
-    proposal.add("crop", [in_mm(first), in_mm(last)], words, BY_A_FACTOR)
-
-
 def rubber_proposal(
     paths: list[Path],
     names: list[str],
     *,
     temperature: float | None = None,
     shift: Mapping[str, Any] | None = None,
-    layout: Mapping[str, Any] | None = None,
+    layout: Mapping[str, Any] = MappingProxyType({}),
 ) -> Proposal:
     """Return the table [rubber] for a master curve or sweeps, to be used at a temperature [K].
 
     `names` are those of the files in the case, and the `layout` what is stated of them. Raises
     `FileError` and `InputError` as reading does.
     """
-    proposal, settings = Proposal(), dict(layout or {})
+    proposal, settings = Proposal(), dict(layout)
     proposal.add("file", names[0] if len(names) == 1 else names)
     for key, value in settings.items():
         proposal.add(key, value, "as stated")
@@ -233,15 +228,6 @@ def rubber_proposal(
     else:
         words = "assumed: a DMA measurement does not give it"
         proposal.add("bulk_modulus", f"{BULK_MODULUS / 1e9:g} GPa", words)
-    return proposal
-
-
-def named_rubber_proposal(name: str, shift: Mapping[str, Any] | None = None) -> Proposal:
-    """Return the table [rubber] for a rubber known by name."""
-    proposal = Proposal()
-    proposal.add("name", name, "known by published parameters")
-    if shift is not None:
-        proposal.add("shift", dict(shift), "as stated")
     return proposal
 
 
@@ -327,31 +313,30 @@ def has_shift(paths: list[Path], proposal: Proposal) -> bool:
 ENOUGH_LINES = 400  # lines that tell what a file holds
 
 
-def holds_moduli(path: Path, layout: FileLayout | None = None) -> bool:
+def holds_moduli(path: Path, layout: FileLayout) -> bool:
     """Return whether a file is one of moduli, by its titles, its numbers or its first line.
 
-    A `layout` may state which columns hold them.
+    The `layout` may state which columns hold them. Without titles, three columns as of a master
+    curve are moduli.
     """
-    layout = layout or FileLayout()
     try:
         blocks = read_blocks(path, layout, temperature_unit="C", most=ENOUGH_LINES)
     except GripscaleError:
         return False
-    return any(_are_moduli(block.table, layout) for block in blocks)
-
-
-def _are_moduli(table: Any, layout: FileLayout) -> bool:
-    """Return whether a table has titles of moduli, or three columns as of a master curve."""
-    try:
-        if layout.suffices(table):
-            return True
-    except InputError:  # several titles mean one modulus, or columns are stated of another file
-        return layout.columns is None
-    if any(table.names) or len(table.columns) != 3:
-        return False
-    frequency, *moduli = (table.numbers(at, "a number", missing=True) for at in range(3))
-    rising = bool((np.diff(frequency) > 0.0).all()) and frequency[0] > 0.0
-    return rising and all(float(np.nanmin(column)) > 0.0 for column in moduli)
+    for table in (block.table for block in blocks):
+        try:
+            if layout.suffices(table):
+                return True
+        except InputError:  # several titles mean one modulus, or columns are stated of another file
+            if layout.columns is None:
+                return True
+            continue
+        if not any(table.names) and len(table.columns) == 3:
+            frequency, *moduli = (table.numbers(at, "a number", missing=True) for at in range(3))
+            rising = frequency[0] > 0.0 and bool((np.diff(frequency) > 0.0).all())
+            if rising and all(float(np.nanmin(column)) > 0.0 for column in moduli):
+                return True
+    return False
 
 
 def conditions_proposal(rubber: Proposal, paths: list[Path], temperature: float | None) -> Proposal:

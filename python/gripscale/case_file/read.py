@@ -17,6 +17,12 @@ from gripscale.core import Described, FileError, InputError, about_keys
 from gripscale.core.units import stated_units
 
 M = TypeVar("M", bound=BaseModel)
+# What is usually meant by a line that is no TOML.
+_MISTAKES = {
+    r"\\": "; a path is written with / or in 'single quotation marks'",
+    r"=\s*[-+]?[\d.]+,\d": "; the decimal sign is the point",
+    r"=\s*[-+]?[\d.]+\s*[^\s\d#]": '; a number with its unit stands in "quotation marks"',
+}
 
 
 @dataclass(frozen=True, repr=False)
@@ -57,9 +63,10 @@ def read_case_file(path: str | Path) -> CaseFile:
                 f"{path} is no case file (TOML); `gripscale new ROAD RUBBER` makes one of measured "
                 "files"
             ) from error
-        raise FileError(
-            f"case file {path} is not valid TOML: {error}{_hint(text, error)}"
-        ) from error
+        number = re.search(r"at line (\d+)", str(error))
+        line = text.splitlines()[int(number[1]) - 1] if number else ""
+        hint = next((words for form, words in _MISTAKES.items() if re.search(form, line)), "")
+        raise FileError(f"case file {path} is not valid TOML: {error}{hint}") from error
     except (ValueError, RecursionError) as error:  # numbers of 4300 digits, a thousand brackets
         raise FileError(f"case file {path} is beyond reading: {error}") from error
     if not tables:
@@ -86,16 +93,3 @@ def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:
         names = {name for name, _, _ in TABLES}
         with about_keys(next((name for name in longer_first if name in names), "")):
             raise refused from error
-
-
-def _hint(text: str, error: tomllib.TOMLDecodeError) -> str:
-    """Return what is usually meant by a line that is no TOML, with a semicolon before it."""
-    number = re.search(r"at line (\d+)", str(error))
-    line = text.splitlines()[int(number[1]) - 1] if number else ""
-    if "\\" in line:
-        return "; a path is written with / or in 'single quotation marks'"
-    if re.search(r"=\s*[-+]?[\d.]+,\d", line):
-        return "; the decimal sign is the point"
-    if re.search(r"=\s*[-+]?[\d.]+\s*[^\s\d#]", line):
-        return '; a number with its unit stands in "quotation marks"'
-    return ""

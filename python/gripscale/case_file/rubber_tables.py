@@ -138,12 +138,6 @@ class RubberSource(LayoutKeys):
         """Names of the files with its moduli."""
         return [self.file] if isinstance(self.file, str) else self.file or []
 
-    @property
-    def files(self) -> list[str]:
-        """Names of the files it was measured in."""
-        shift = [self.shift] if isinstance(self.shift, str) else []
-        return [*self.measured_files, *shift]
-
 
 class StrainSweeps(LayoutKeys):
     """Measured strain sweeps, with what their files do not state."""
@@ -197,8 +191,3 @@ class ConditionsTable(CaseTable):
         if self.strain_norm is not None and self.softening is None:
             raise ValueError("strain_norm belongs to softening, which is not asked for")
         return self
-
-    @property
-    def files(self) -> list[str]:
-        """Names of the files it was measured in."""
-        return list(self.softening.files) if isinstance(self.softening, StrainSweeps) else []

@@ -122,9 +122,9 @@ def _even_distances(x: Array) -> tuple[str, Array]:
 def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
     """Return the tables of a case by name, each with the keys that have a value."""
     load, options = case.load, case.options.get("uncertainty", UncertaintyOptions())
-    below: dict[str, Any] = {"down_to": case.below_measurement.down_to}
-    below["seed"] = case.below_measurement.seed
-    match case.below_measurement.roughness:
+    continued = case.below_measurement
+    below: dict[str, Any] = {"down_to": continued.down_to, "seed": continued.seed}
+    match continued.roughness:
         case HurstExponent(hurst=hurst):
             below["hurst"] = hurst
         case FinerMeasurement(surface=face):
@@ -138,9 +138,12 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         }
         measured["friction"] = inputs.add_table("friction", columns)
     tables: dict[str, dict[str, Any]] = {
-        "surface": _surface_keys(case, inputs),
-        "rubber": _rubber_keys(case.measured_rubber, inputs),
-        "load": {name: getattr(load, name) for name in ("pressure", "speed", "footprint")},
+        "surface": _surface_keys(case, inputs)
+        | {"kind": None if case.kind == "surface" else case.kind},
+        "rubber": _rubber_keys(case.measured_rubber, inputs)
+        | {"thickness": load.thickness, "extrapolate": case.chain.extrapolate},
+        "load": {name: getattr(load, name) for name in ("pressure", "speed", "footprint")}
+        | {"static": case.static, "load_time": load.load_time, "tester": case.tester or None},
         "solver": _solver_keys(case.chain),
         "chain": {"pressure_classes": case.chain.pressure_classes},
         "conditions": _conditions_keys(case.conditions, inputs),
@@ -149,11 +152,6 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         "compare": {} if case.klueppel_heinrich is None else law_keys(case.klueppel_heinrich),
         "uncertainty": asdict(options) | {"without": list(options.without)},
     }
-    tables["surface"]["kind"] = None if case.kind == "surface" else case.kind
-    tables["rubber"]["thickness"] = load.thickness
-    tables["rubber"]["extrapolate"] = case.chain.extrapolate
-    tables["load"] |= {"static": case.static, "load_time": load.load_time}
-    tables["load"]["tester"] = case.tester or None
     return {
         name: {key: value for key, value in keys.items() if value not in (None, [], {})}
         for name, keys in tables.items()
@@ -188,14 +186,13 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
         raise InputError("a case file cannot state profiles of unlike reliable wavelengths")
     keys |= {"reliable": reliable.pop(), "clean": bool(case.cleaning)}
     numbers = {**case.cleaning, **surface.counted, **surface.fit}
-    if surface.rule is not None:
-        match surface.rule:
-            case RmsSlope() as rule:
-                numbers["cut_off"] = asdict(rule)
-            case ContactSlope(contact_slope=slope):
-                numbers["cut_off"] = {"contact_slope": slope}
-            case _:
-                numbers["cut_off"] = surface.rule
+    match surface.rule:
+        case RmsSlope() as rule:
+            numbers["cut_off"] = asdict(rule)
+        case ContactSlope(contact_slope=slope):
+            numbers["cut_off"] = {"contact_slope": slope}
+        case rule:
+            numbers["cut_off"] = rule
     for name, value in numbers.items():
         if name not in SurfaceTable.model_fields:
             raise InputError(f"a case file cannot state {name} of the surface")
@@ -230,8 +227,6 @@ def _rubber_keys(measured: MeasuredRubber, inputs: _Inputs) -> dict[str, Any]:
     if rubber.reference_temperature is not None:
         keys["reference_temperature"] = kelvin_text(rubber.reference_temperature)
     match rubber.shift:
-        case None:
-            pass
         case ShiftTable() as table:
             factors = {
                 "temperature [K]": table.temperature,
@@ -243,7 +238,7 @@ def _rubber_keys(measured: MeasuredRubber, inputs: _Inputs) -> dict[str, Any]:
             kelvin = table.reference_temperature
             head = "" if kelvin is None else f"# reference temperature (K): {kelvin!r}"
             keys["shift"] = inputs.add_table(f"{name}_shift", factors, head)
-        case law:
+        case law if law is not None:
             keys["shift"] = law_keys(law)
     return keys
 
@@ -268,30 +263,28 @@ def _solver_keys(chain: Chain) -> dict[str, Any]:
 def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str, Any]:
     if conditions is None:
         return {}
-    keys: dict[str, Any] = {}
-    if conditions.temperature is not None:
-        keys["temperature"] = kelvin_text(conditions.temperature)
-    if conditions.softening is not None:
-        law = conditions.softening
-        if isinstance(law, SofteningTable):  # shear moduli are read as thirds of Young's
-            letter, divisor = ("G", 3.0) if law.deformation == "shear" else ("E", 1.0)
-            files = []
-            for at, strain in enumerate(law.strain):
-                columns: dict[str, ArrayLike] = {
-                    "strain [1]": strain,
-                    f"{letter}' [Pa]": np.array(law.storage[at]) / divisor,
-                    f"{letter}'' [Pa]": np.array(law.loss[at]) / divisor,
-                }
-                if law.temperature is not None:
-                    columns["temperature [K]"] = np.full(len(strain), law.temperature[at])
-                files.append(inputs.add_table("strain_sweep", columns))
-            sweeps = {"files": files, "measured_at": law.measured_at, "amplitude": "single"}
-            keys["softening"] = {"kind": "table", **sweeps}
-        else:
-            keys["softening"] = law_keys(law)
-        keys["strain_norm"] = conditions.strain_norm
-    for name in ("heat", "shear_stress"):
-        effect = getattr(conditions, name)
-        keys[name] = None if effect is None else law_keys(effect)
-    keys["water"] = conditions.to_dict()["water"]
-    return keys
+    effects = {name: getattr(conditions, name) for name in ("softening", "heat", "shear_stress")}
+    keys = {name: None if law is None else law_keys(law) for name, law in effects.items()}
+    law, kelvin = conditions.softening, conditions.temperature
+    if isinstance(law, SofteningTable):  # shear moduli are read as thirds of Young's
+        letter, divisor = ("G", 3.0) if law.deformation == "shear" else ("E", 1.0)
+        files = []
+        for at, strain in enumerate(law.strain):
+            columns: dict[str, ArrayLike] = {
+                "strain [1]": strain,
+                f"{letter}' [Pa]": np.array(law.storage[at]) / divisor,
+                f"{letter}'' [Pa]": np.array(law.loss[at]) / divisor,
+            }
+            if law.temperature is not None:
+                columns["temperature [K]"] = np.full(len(strain), law.temperature[at])
+            files.append(inputs.add_table("strain_sweep", columns))
+        sweeps = {"files": files, "measured_at": law.measured_at, "amplitude": "single"}
+        keys["softening"] = {"kind": "table", **sweeps}
+    return {
+        "temperature": None if kelvin is None else kelvin_text(kelvin),
+        "softening": keys["softening"],
+        "strain_norm": None if law is None else conditions.strain_norm,
+        "heat": keys["heat"],
+        "shear_stress": keys["shear_stress"],
+        "water": conditions.to_dict()["water"],
+    }

@@ -30,14 +30,20 @@ from gripscale.core.checks import short_repr
 from gripscale.core.units import UNITS, listed, parse_quantity, spelled, such_as
 from gripscale.rubber.columns import FileLayout
 
-_PLAIN = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
-# What pydantic calls a limit, and what it is called here.
-_LIMITS = {
-    "ge": "at least {:g}",
-    "gt": "above {:g}",
-    "le": "at most {:g}",
-    "lt": "below {:g}",
-    "multiple_of": "a multiple of {:g}",
+# Plain types in words, and in JSON Schema.
+PLAIN: dict[Any, tuple[str, str]] = {
+    bool: ("true or false", "boolean"),
+    int: ("a whole number", "integer"),
+    float: ("a number", "number"),
+    str: ("a text", "string"),
+}
+# What pydantic calls a limit, and what it is called here and in JSON Schema.
+LIMITS = {
+    "ge": ("at least {:g}", "minimum"),
+    "gt": ("above {:g}", "exclusiveMinimum"),
+    "le": ("at most {:g}", "maximum"),
+    "lt": ("below {:g}", "exclusiveMaximum"),
+    "multiple_of": ("a multiple of {:g}", "multipleOf"),
 }
 
 
@@ -59,11 +65,6 @@ class Reading:
     ) -> core_schema.CoreSchema:
         """Read the value before pydantic looks at it."""
         return core_schema.no_info_before_validator_function(self.read, handler(source))
-
-
-def expected(field: FieldInfo) -> str:
-    """Return what the value of `field` must be, such as "a whole number, at least 1"."""
-    return _of_type(field.annotation, field.metadata)
 
 
 class KeyQuantity(NamedTuple):
@@ -98,7 +99,8 @@ def type_and_marks(annotation: Any, metadata: Iterable[Any] = ()) -> tuple[Any, 
     return type_and_marks(parts[0], marks) if optional else (annotation, marks)
 
 
-def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
+def expected(annotation: Any, metadata: Iterable[Any] = ()) -> str:
+    """Return what a value of a type must be, such as "a whole number, at least 1"."""
     annotation, marks = type_and_marks(annotation, metadata)
     for mark in marks:
         if isinstance(mark, Reading):
@@ -106,7 +108,7 @@ def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
     limits = [
         words.format(value)
         for mark in marks
-        for name, words in _LIMITS.items()
+        for name, (words, _) in LIMITS.items()
         if (value := getattr(mark, name, None)) is not None
     ]
     origin, parts = get_origin(annotation), get_args(annotation)
@@ -114,34 +116,35 @@ def _of_type(annotation: Any, metadata: Iterable[Any] = ()) -> str:
         words = " or ".join(json.dumps(part) for part in parts)
     elif origin is list:
         least = max((getattr(mark, "min_length", 1) for mark in marks), default=1)
-        words = f"a list{f' of {least}' * (least > 1)}, each {_of_type(parts[0])}"
+        words = f"a list{f' of {least}' * (least > 1)}, each {expected(parts[0])}"
     elif parts:
-        words = " or ".join(_of_type(part) for part in parts if part is not type(None))
+        words = " or ".join(expected(part) for part in parts if part is not type(None))
     elif isinstance(annotation, type) and issubclass(annotation, BaseModel):
         words = f"a table with {', '.join(annotation.model_fields)}"
     else:
-        words = _PLAIN.get(annotation, "a value")
+        words = PLAIN.get(annotation, ("a value",))[0]
     return ", ".join([words, *limits])
 
 
-# What was expected instead of a value that pydantic refused with an error of this type.
-_EXPECTED = {
-    "bool_type": "true or false",
-    "finite_number": "a finite number",
-    "float_type": "a number",
-    "greater_than": "greater than {gt:g}",
-    "greater_than_equal": "at least {ge:g}",
-    "int_parsing_size": "a whole number of fewer digits",
-    "int_type": "a whole number",
-    "less_than": "less than {lt:g}",
-    "less_than_equal": "at most {le:g}",
-    "list_type": "a list",
-    "literal_error": "{expected}",
-    "model_type": "a table",
-    "multiple_of": "a multiple of {multiple_of:g}",
-    "string_type": "a string",
-    "too_long": "at most {max_length} items",
-    "too_short": "at least {min_length} items",
+# What is said of a value that pydantic refused with an error of this type.
+_REFUSALS = {
+    "bool_type": "expected true or false",
+    "finite_number": "expected a finite number",
+    "float_type": "expected a number",
+    "greater_than": "expected greater than {gt:g}",
+    "greater_than_equal": "expected at least {ge:g}",
+    "int_parsing_size": "expected a whole number of fewer digits",
+    "int_type": "expected a whole number",
+    "less_than": "expected less than {lt:g}",
+    "less_than_equal": "expected at most {le:g}",
+    "list_type": "expected a list",
+    "literal_error": "expected {expected}",
+    "model_type": "expected a table",
+    "multiple_of": "expected a multiple of {multiple_of:g}",
+    "string_type": "expected a string",
+    "too_long": "expected at most {max_length} items",
+    "too_short": "expected at least {min_length} items",
+    "value_error": "{error}",
 }
 
 
@@ -163,13 +166,10 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
         hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
         return f"unknown key {where}; {hint}"
     if kind == "missing":
-        return f"{where} is missing; expected {expected(owner.model_fields[key])}"
-    context = first.get("ctx", {})
-    if kind == "value_error":
-        reason = str(context["error"])
-    else:
-        words = _EXPECTED[kind].format(**context)
-        reason = f"expected {words.removesuffix('s') if words.endswith(' 1 items') else words}"
+        field = owner.model_fields[key]
+        return f"{where} is missing; expected {expected(field.annotation, field.metadata)}"
+    words = _REFUSALS[kind].format(**first.get("ctx", {}))
+    reason = words.removesuffix("s") if words.endswith(" 1 items") else words
     if isinstance(value, dict):
         return f"{where}: {reason}" if where else reason
     text = repr(value)

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource
+from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case_file.schema import (
     CaseTable,
     ColumnKey,
@@ -25,7 +25,7 @@ from gripscale.core.units import in_mm, parse_quantity, such_as
 from gripscale.model import MOST_CLASSES, Load
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface.surface import SurfaceKind
-from gripscale.testers import TESTERS
+from gripscale.testers import TESTERS, TesterName
 from gripscale.uncertainty_options import (
     FEWEST_SAMPLES,
     MOST_SAMPLES,
@@ -272,9 +272,7 @@ class LoadTable(CaseTable):
     """The relaxed rubber at rest, too."""
     load_time: Annotated[Any, Reading(LOAD_TIME, _load_time)] = "passage"
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
-    tester: (
-        Literal["pendulum", "dynamic_friction_tester", "reference_tyre", "locked_wheel"] | None
-    ) = None
+    tester: TesterName | None = None
     """A tester, whose pressure, speed and footprint then need not be stated."""
 
     @model_validator(mode="before")
@@ -427,11 +425,8 @@ class UncertaintyTable(CaseTable):
 
     def options(self) -> UncertaintyOptions:
         """Return what is stated as options of the question."""
-        ranges = {} if self.ranges is None else self.ranges.model_dump(exclude_none=True)
-        options = {name: getattr(self, name) for name in ("samples", "seed", "model", "tolerance")}
-        return UncertaintyOptions(
-            without=tuple(self.without), ranges=ranges, block_length=self.block_length, **options
-        )
+        options = self.model_dump(exclude_none=True)
+        return UncertaintyOptions(**options | {"without": tuple(self.without)})
 
 
 FigureKind = Literal["png", "pdf", "svg"]
@@ -550,14 +545,12 @@ class CaseTables(CaseTable):
 
     def named_files(self) -> list[tuple[str, str]]:
         """Return role and name of every file it names."""
-        friction = [self.measured.friction] if self.measured.friction is not None else []
-        finer = self.below_measurement.finer
-        faces = [name for name in ((finer and (finer.file, finer.map)) or ()) if name is not None]
-        roles = (
-            ("surface", self.surface.measured_files),
-            ("below_measurement", faces),
-            ("rubber", self.rubber.files),
-            ("conditions", self.conditions.files),
-            ("measured", friction),
-        )
-        return [(role, name) for role, names in roles for name in names]
+        finer, softening = self.below_measurement.finer, self.conditions.softening
+        roles: dict[str, list[Any]] = {
+            "surface": self.surface.measured_files,
+            "below_measurement": [finer and finer.file, finer and finer.map],
+            "rubber": [*self.rubber.measured_files, self.rubber.shift],
+            "conditions": softening.files if isinstance(softening, StrainSweeps) else [],
+            "measured": [self.measured.friction],
+        }
+        return [(role, f) for role, names in roles.items() for f in names if isinstance(f, str)]

@@ -37,10 +37,10 @@ class FigureFolder:
 
     def rendered(self, figure: Drawing | Figure) -> dict[str, bytes]:
         """Return the content of each file of a figure."""
-        from gripscale.charts import paper
+        from gripscale.charts.paper import figure_file
 
         drawn = figure.on_paper() if isinstance(figure, Drawing) else figure
-        return paper.rendered(drawn, self.kinds)
+        return {kind: figure_file(drawn, kind) for kind in self.kinds}
 
     def write(self, files: Mapping[str, bytes], name: str) -> None:
         """Write the files of a figure; `FileError` if that fails."""

@@ -38,6 +38,13 @@ _COLUMNS = 1000  # pieces of an outline as the page is opened, a pixel each
 LEAST_EXPONENT = -5
 # From this ratio of largest to least on a log axis, Bokeh labels the decades.
 LEAST_DECADES = 1000.0
+# Numbers between the powers of ten of a short log axis, by its largest over least value.
+_STEPS: tuple[tuple[float, tuple[float, ...]], ...] = (
+    (2.0, (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9)),
+    (4.0, (1, 1.5, 2, 3, 4, 5, 7)),
+    (60.0, (1, 2, 5)),
+    (LEAST_DECADES, (1, 3)),
+)
 _AROUND = 75  # height of a figure around its frame [px]: abscissa and a line of the legend
 # The legend has as many lines as the width of the frame asks for, and the figure grows by them.
 LEGEND_LINES = """\
@@ -120,8 +127,9 @@ def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
     points = [point for mark in panel.marks for point in _draw_mark(figure, mark, panel, store)]
     curves = [mark for mark in panel.marks if isinstance(mark, Series)]
     if any(np.any(curve.beyond) for curve in curves):
-        _draw_line(figure, [np.nan] * 2, [np.nan] * 2, BEYOND_LABEL, line_color=GREY,
-                   line_dash=_DASHES["dashed"])  # fmt: skip
+        nowhere = columns({"x": [np.nan] * 2, "y": [np.nan] * 2})
+        dash = _DASHES["dashed"]
+        _draw_line(figure, nowhere, BEYOND_LABEL, line_color=GREY, line_dash=dash)
     if named := [point for point in points if point["name"]]:
         points = named
     if points:
@@ -136,16 +144,28 @@ def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
 
 def _draw_mark(figure: Part, mark: Mark, panel: Panel, store: DataStore) -> list[Part]:
     """Draw a mark; return what shows its numbers under the pointer."""
-    look: dict[str, Any]
     match mark:
         case Series():
             return _draw_series(figure, mark, positive=panel.y.log)
-        case Outline():
-            _draw_outline(figure, mark, store)
+        case Outline():  # `templates/outlines.js` draws it anew as the reader zooms
+            x, y = mark.drawn(_COLUMNS)
+            names = [store.name(values) for values in (mark.x, mark.low, mark.high)]
+            tags = ["outline", store.source(np.size(mark.x)), *names]
+            width = PIXELS * mark.width
+            source = columns({"x": _stored(x), "y": _stored(y)}, tags=tags)
+            _draw_line(figure, source, mark.label, line_color=mark.colour, line_width=width)
         case ValueMap(levels=0):
             _draw_field(figure, mark)
         case ShadedBand():
-            _draw_band(figure, mark, positive=panel.y.log)
+            low = _stored(mark.low, positive=panel.y.log)
+            arrays = np.broadcast_arrays(_stored(mark.x), low, mark.high)
+            shown = np.isfinite(arrays).all(axis=0)
+            if shown.any():
+                shape = (array[shown] for array in arrays)
+                source = columns(dict(zip(("x", "y1", "y2"), shape, strict=True)))
+                look = {"fill_color": mark.colour, "fill_alpha": mark.alpha}
+                area = Part("VArea", **{name: Field(name) for name in source["data"]}, **look)
+                _draw_glyph(figure, source, area, mark.label)
         case Bars():
             ends = np.broadcast_arrays(*np.atleast_1d(mark.x0, mark.x1, mark.y0, mark.y1))
             source = columns(dict(zip(("left", "right", "bottom", "top"), ends, strict=True)))
@@ -154,11 +174,10 @@ def _draw_mark(figure: Part, mark: Mark, panel: Panel, store: DataStore) -> list
         case CrossLine(to=None):
             _draw_cross_line(figure, mark, panel)
         case CrossLine(to=float(end)):
-            look = {"fill_color": mark.colour, "line_color": mark.colour}
-            look |= {"fill_alpha": 0.4, "level": "underlay"}
             edges = ("left", "right") if mark.upright else ("bottom", "top")
-            look |= dict(zip(edges, (mark.at, end), strict=True))
-            figure["center"].append(Part("BoxAnnotation", **look))
+            shade = dict(zip(edges, (mark.at, end), strict=True))
+            look = {"fill_color": mark.colour, "line_color": mark.colour, "fill_alpha": 0.4}
+            figure["center"].append(Part("BoxAnnotation", level="underlay", **look, **shade))
     return []
 
 
@@ -249,13 +268,7 @@ def _set_ticks(drawn: Part, axis: PlotAxis, values: Array) -> None:
         # Bokeh's own labels of a short log axis are few, and would round 0.2 and 0.5 to 0.1 and 1;
         # of one of two decades they crowd at its upper end.
         first = int(np.floor(np.log10(values.min()))) - 1
-        steps: tuple[float, ...] = (1, 3)
-        if span < 2.0:
-            steps = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9)
-        elif span < 4.0:
-            steps = (1, 1.5, 2, 3, 4, 5, 7)
-        elif span < 60.0:
-            steps = (1, 2, 5)
+        steps = next(steps for most, steps in _STEPS if span < most)
         ticks = [step * 10.0**n for n in range(first, first + 5) for step in steps]
         formatter = Part("BasicTickFormatter", power_limit_low=LEAST_EXPONENT)
         drawn.update(ticker=Part("FixedTicker", ticks=ticks), formatter=formatter)
@@ -277,13 +290,9 @@ def _draw_glyph(figure: Part, source: Part, glyph: Part, label: str = "", name: 
     return curve
 
 
-def _draw_line(
-    figure: Part, x: ArrayLike, y: ArrayLike, label: str, name: str = "", **look: Any
-) -> Part:
-    source = columns({"x": x, "y": y})
-    return _draw_glyph(
-        figure, source, Part("Line", x=Field("x"), y=Field("y"), **look), label, name
-    )
+def _draw_line(figure: Part, source: Part, label: str, name: str = "", **look: Any) -> Part:
+    line = Part("Line", x=Field("x"), y=Field("y"), **look)
+    return _draw_glyph(figure, source, line, label, name)
 
 
 def _draw_series(figure: Part, series: Series, *, positive: bool) -> list[Part]:
@@ -301,9 +310,9 @@ def _draw_series(figure: Part, series: Series, *, positive: bool) -> list[Part]:
         _draw_glyph(figure, source, bars, series.label, name)
     if series.dash:
         for part, dashed in stretches(np.broadcast_to(series.beyond, x.shape)):
-            dash = _DASHES["dashed" if dashed else series.dash]
-            lines.append(_draw_line(figure, x[part], y[part], series.label, name,
-                                    line_width=width, line_dash=dash, **look))  # fmt: skip
+            source = columns({"x": x[part], "y": y[part]})
+            drawn = {"line_width": width, "line_dash": _DASHES["dashed" if dashed else series.dash]}
+            lines.append(_draw_line(figure, source, series.label, name, **drawn, **look))
     if series.marker:
         filled = np.broadcast_to(np.asarray(series.filled, dtype=bool), x.shape)
         size = 4.5 if series.marker == "." else max(1.2 * PIXELS * series.size, LEAST_MARKER)
@@ -326,16 +335,6 @@ def _glyph(kind: str, source: Part, **look: Any) -> Part:
     return Part(kind, **{name: Field(name) for name in source["data"]}, **look)
 
 
-def _draw_outline(figure: Part, outline: Outline, store: DataStore) -> None:
-    """Draw a curve in pieces; `templates/outlines.js` draws it anew as the reader zooms."""
-    x, y = outline.drawn(_COLUMNS)
-    names = [store.name(values) for values in (outline.x, outline.low, outline.high)]
-    tags = ["outline", store.source(np.size(outline.x)), *names]
-    source = columns({"x": _stored(x), "y": _stored(y)}, tags=tags)
-    look = {"line_color": outline.colour, "line_width": PIXELS * outline.width}
-    _draw_glyph(figure, source, Part("Line", x=Field("x"), y=Field("y"), **look), outline.label)
-
-
 def _draw_field(figure: Part, drawn: ValueMap) -> None:
     x, y = np.asarray(drawn.x), np.asarray(drawn.y)
     values = np.asarray(drawn.values, dtype=np.float32)
@@ -350,29 +349,16 @@ def _draw_field(figure: Part, drawn: ValueMap) -> None:
                                 title_text_font=FONT, title_text_font_style="normal"))  # fmt: skip
 
 
-def _draw_band(figure: Part, band: ShadedBand, *, positive: bool) -> None:
-    arrays = np.broadcast_arrays(_stored(band.x), _stored(band.low, positive=positive), band.high)
-    finite = np.isfinite(arrays).all(axis=0)
-    x, low, high = (array[finite] for array in arrays)
-    if x.size:
-        area = Part("VArea", x=Field("x"), y1=Field("y1"), y2=Field("y2"),
-                    fill_color=band.colour, fill_alpha=band.alpha)  # fmt: skip
-        _draw_glyph(figure, columns({"x": x, "y1": low, "y2": high}), area, band.label)
-
-
 def _draw_cross_line(figure: Part, line: CrossLine, panel: Panel) -> None:
     """Draw a line across the limits of the abscissa or all that is drawn, or upright as a span."""
-    look: dict[str, Any] = {
-        "line_color": line.colour,
-        "line_dash": _DASHES[line.dash],
-        "line_width": PIXELS * line.width,
-    }
+    look: dict[str, Any] = {"line_color": line.colour, "line_dash": _DASHES[line.dash]}
+    look["line_width"] = PIXELS * line.width
     if line.upright:
         figure["center"].append(Part("Span", location=line.at, dimension="height", **look))
     across = [end for end in (panel.x.low, panel.x.high) if end is not None]
     x = across or _extent(panel.marks, "x")
     ends = [np.nan] * 2 if line.upright or not len(x) else [min(x), max(x)]
-    _draw_line(figure, ends, [line.at] * 2, line.label, **look)
+    _draw_line(figure, columns({"x": ends, "y": [line.at] * 2}), line.label, **look)
 
 
 def _stored(values: ArrayLike, *, positive: bool = False) -> NDArray[Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis as DrawnAxis
 from matplotlib.backend_bases import get_registered_canvas_class
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
@@ -90,33 +89,41 @@ def house_rules() -> AbstractContextManager[None]:
     return mpl.rc_context(RULES)
 
 
-def draw_panels(
-    panels: Sequence[chart.Panel],
-    columns: int,
-    size: tuple[float, float],
-    gap: float,
-    layout: Mapping[str, Any],
-) -> tuple[Figure, list[Axes]]:
-    """Return the figure of panels, of a `size` [inch], and its axes row by row."""
-    figure = Figure(figsize=size, dpi=DPI, layout=ConstrainedLayoutEngine(wspace=gap))
-    options: dict[str, Any] = {"squeeze": False, **layout}
-    grid = list(figure.subplots(-(-len(panels) // columns), columns, **options).flat)
-    for axes in grid[len(panels) :]:
-        axes.set_visible(False)
-    for axes, panel in zip(grid, panels, strict=False):
-        _draw_panel(figure, axes, panel)
-    # Limits come last: those of a shared axis are found from all of its panels.
-    for i, (axes, panel) in enumerate(zip(grid, panels, strict=False)):
-        _end_axis(axes, "x", panel.x)
-        _end_axis(axes, "y", panel.y)
-        if layout.get("sharey") and i % columns:
-            axes.set_ylabel("")
-        if layout.get("sharex"):
-            if i + columns < len(panels):
-                axes.set_xlabel("")
-            else:
-                axes.tick_params(labelbottom=True)
-    return figure, grid
+def draw_sheet(sheet: chart.PanelGrid) -> Figure:
+    """Return the figure of a sheet; matplotlib's own rules stay as they are."""
+    columns, count, layout = sheet.columns, len(sheet.panels), sheet.layout
+    size: Any = {"figsize": (sheet.width, sheet.height), "dpi": DPI}
+    with house_rules():
+        figure = Figure(layout=ConstrainedLayoutEngine(wspace=sheet.gap), **size)
+        options: dict[str, Any] = {"squeeze": False, **layout}
+        grid = list(figure.subplots(-(-count // columns), columns, **options).flat)
+        for axes in grid[count:]:
+            axes.set_visible(False)
+        for axes, panel in zip(grid, sheet.panels, strict=False):
+            _draw_panel(figure, axes, panel)
+        # Limits come last: those of a shared axis are found from all of its panels.
+        for i, (axes, panel) in enumerate(zip(grid, sheet.panels, strict=False)):
+            _end_axis(axes, "x", panel.x)
+            _end_axis(axes, "y", panel.y)
+            if layout.get("sharey") and i % columns:
+                axes.set_ylabel("")
+            if layout.get("sharex"):
+                if i + columns < count:
+                    axes.set_xlabel("")
+                else:
+                    axes.tick_params(labelbottom=True)
+        if sheet.legend:
+            _add_legend(figure, grid, sheet)
+        if sheet.colour_bar is not None:
+            bar = sheet.colour_bar
+            colours = ListedColormap(shades(256, bar.scale))
+            near = grid[:columns] if bar.first_row else grid
+            look: Any = {"label": bar.label, "ax": near, "aspect": 40, "pad": 0.02}
+            scale = ScalarMappable(Normalize(bar.low, bar.high), colours)
+            figure.colorbar(scale, **look).outline.set_visible(False)
+        if sheet.title:
+            figure.suptitle(sheet.title)
+    return figure
 
 
 def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
@@ -188,7 +195,12 @@ def _draw_mark(figure: Figure, axes: Axes, mark: chart.Mark) -> None:
             look = {"color": mark.colour, "alpha": 0.5, "lw": 0}
             shade(mark.at, end, label=mark.label or None, **look)
         case chart.Note():
-            _draw_note(axes, mark)
+            frames: dict[str, Any] = {"x": ("axes fraction", "data"), "xy": "axes fraction"}
+            box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0} if mark.boxed else None
+            look = {"xycoords": frames.get(mark.frame, "data"), "textcoords": "offset points"}
+            look |= {"va": "top" if mark.top else "center", "ha": mark.align, "bbox": box}
+            look |= {"fontsize": mark.size, "fontstyle": "italic" if mark.italic else "normal"}
+            axes.annotate(mark.text, (mark.x, mark.y), mark.offset, color=mark.colour, **look)
         case chart.ValueMap():
             _draw_field(figure, axes, mark)
 
@@ -248,26 +260,10 @@ def _draw_band(axes: Axes, band: chart.ShadedBand) -> None:
             axes.fill_between(x[part], low[part], high[part], gid=BEYOND_LABEL, **HATCHED)
 
 
-def _draw_note(axes: Axes, note: chart.Note) -> None:
-    frames: dict[str, Any] = {"": "data", "x": ("axes fraction", "data"), "xy": "axes fraction"}
-    axes.annotate(
-        note.text,
-        (note.x, note.y),
-        note.offset,
-        xycoords=frames[note.frame],
-        textcoords="offset points",
-        va="top" if note.top else "center",
-        ha=note.align,
-        fontsize=note.size,
-        fontstyle="italic" if note.italic else "normal",
-        color=note.colour,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0} if note.boxed else None,
-    )
-
-
 def _draw_field(figure: Figure, axes: Axes, field: chart.ValueMap) -> None:
     x, y, values = (np.asarray(part, dtype=float) for part in (field.x, field.y, field.values))
     mappable: Any
+    where: Any = {"ax": axes, "pad": 0.02}
     if field.levels:
         ticks = MaxNLocator(field.levels).tick_values(np.nanmin(values), np.nanmax(values))
         mappable = axes.contourf(x, y, values, levels=ticks, cmap="viridis")
@@ -275,27 +271,15 @@ def _draw_field(figure: Figure, axes: Axes, field: chart.ValueMap) -> None:
     else:
         mappable = axes.pcolormesh(x, y, values, cmap="inferno", rasterized=True)
         axes.set_aspect("equal")
-    # beside the frame, which an equal scale makes narrower than its place
-    where: Any = {"ax": axes, "pad": 0.02}
-    if not field.levels:
+        # beside the frame, which an equal scale makes narrower than its place
         where = {"cax": axes.inset_axes((1.02, 0.0, 0.03, 1.0))}
     bar = figure.colorbar(mappable, label=field.label, **where)
     bar.outline.set_linewidth(0.0)
     bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
 
 
-def add_legend(
-    figure: Figure,
-    panels: Sequence[Axes],
-    keys: Sequence[chart.Mark],
-    where: str,
-    title: str,
-    most: int,
-) -> None:
-    """Add the labels of all panels and of `keys`, and what dashed and hatched mean where it occurs.
-
-    It stands "above", "beside" or "below" the panels, in up to `most` columns.
-    """
+def _add_legend(figure: Figure, panels: Sequence[Axes], sheet: chart.PanelGrid) -> None:
+    """Add the labels and keys of a sheet, and what dashed and hatched mean where it occurs."""
     entries: dict[str, Any] = {}
     dashed = hatched = False
     for axes in panels:
@@ -304,9 +288,10 @@ def add_legend(
                 entries.setdefault(label, handle)
         dashed |= any(line.get_gid() == BEYOND_LABEL for line in axes.lines)
         hatched |= any(part.get_gid() == BEYOND_LABEL for part in axes.collections)
-    for key in keys:
+    for key in sheet.keys:
         entries |= {getattr(key, "label", ""): _key(key)}
-    beyond = BEYOND_LABEL.replace("the ", "the\n") if where == "beside" else BEYOND_LABEL
+    beside = sheet.legend == "beside"
+    beyond = BEYOND_LABEL.replace("the ", "the\n") if beside else BEYOND_LABEL
     if hatched:
         entries = {beyond: Patch(**(HATCHED | {"facecolor": GREY})), **entries}
     elif dashed:
@@ -314,11 +299,12 @@ def add_legend(
     if not entries:
         return
     look: dict[str, Any] = {"loc": "outside right center", "alignment": "left"}
-    if where != "beside":
-        columns = _legend_columns(list(entries), most, figure.get_figwidth())
-        side = "upper" if where == "above" else "lower"
+    if not beside:
+        columns = _legend_columns(list(entries), sheet.legend_columns, sheet.width)
+        side = "upper" if sheet.legend == "above" else "lower"
         look = {"loc": f"outside {side} center", "ncols": columns}
-    figure.legend(list(entries.values()), list(entries), title=title or None, **look)
+    title = sheet.legend_title or None
+    figure.legend(list(entries.values()), list(entries), title=title, **look)
 
 
 def _legend_columns(labels: Sequence[str], most: int, width: float) -> int:
@@ -331,23 +317,14 @@ def _legend_columns(labels: Sequence[str], most: int, width: float) -> int:
     return 1
 
 
-def add_colour_bar(
-    figure: Figure, panels: Sequence[Axes], ends: tuple[float, float], scale: str, label: str
-) -> None:
-    """Add the meaning of the colours of a scale from the lower to the upper of its ends."""
-    mappable = ScalarMappable(Normalize(*ends), ListedColormap(shades(256, scale)))
-    look: Any = {"label": label, "aspect": 40, "pad": 0.02}
-    figure.colorbar(mappable, ax=list(panels), **look).outline.set_visible(False)
-
-
 def _key(mark: chart.Mark) -> Any:
     """Return what stands in the legend for a mark that no panel has."""
-    if isinstance(mark, chart.Series):
-        look: dict[str, Any] = {"marker": mark.marker, "ms": mark.size, "ls": DASHES[mark.dash]}
-        face = mark.colour if np.all(mark.filled) else "white"
-        return Line2D([], [], color=mark.colour, lw=mark.width, mfc=face, **look)
-    if isinstance(mark, chart.CrossLine):
-        return Line2D([], [], color=mark.colour, lw=mark.width, ls=DASHES[mark.dash])
+    if isinstance(mark, chart.Series | chart.CrossLine):
+        look: dict[str, Any] = {"color": mark.colour, "lw": mark.width, "ls": DASHES[mark.dash]}
+        if isinstance(mark, chart.Series):
+            face = mark.colour if np.all(mark.filled) else "white"
+            look |= {"marker": mark.marker, "ms": mark.size, "mfc": face}
+        return Line2D([], [], **look)
     return Patch(color=getattr(mark, "colour", GREY), alpha=getattr(mark, "alpha", 1.0))
 
 
@@ -370,45 +347,29 @@ def _mark_between(figure: Figure) -> None:
             figure.add_artist(Line2D(x, y, transform=where, in_layout=False, **look))
 
 
-def png(figure: Figure, dpi: float = DPI) -> bytes:
-    """Return `figure` as PNG; its layout is solved now, and stays."""
-    target = io.BytesIO()
-    with house_rules():
-        figure.set_dpi(dpi)
-        _solve_layout(figure)
-        # `savefig` would draw twice: once more to find out what it has to show.
-        canvas: Any = FigureCanvasAgg(figure)
-        canvas.print_png(target, pil_kwargs={"compress_level": 1})
-    return target.getvalue()
-
-
-def _lines(figure: Figure, kind: str) -> bytes:
-    target = io.BytesIO()
-    with house_rules():
-        _solve_layout(figure)
-        canvas: Any = get_registered_canvas_class(kind)(figure)  # imported here: not for pages
-        getattr(canvas, f"print_{kind}")(target)
-    return target.getvalue()
-
-
-def _solve_layout(figure: Figure) -> None:
-    layout = figure.get_layout_engine()
-    if isinstance(layout, ConstrainedLayoutEngine):
-        _mark_between(figure)
-        layout.execute(figure)
-        if any(axes.get_aspect() != "auto" for axes in figure.axes):
-            layout.execute(figure)  # the labels of a panel to scale moved with its frame
-        figure.set_layout_engine("none")
-
-
 KINDS = ("png", "pdf", "svg")
 
 
-def rendered(figure: Figure, kinds: Sequence[str]) -> dict[str, bytes]:
-    """Return the content of a file of each kind; raise `InputError` for one not in `KINDS`."""
-    for kind in kinds:
-        checks.one_of("kinds", kind, KINDS)
-    return {kind: png(figure) if kind == "png" else _lines(figure, kind) for kind in kinds}
+def figure_file(figure: Figure, kind: str = "png", dpi: float = DPI) -> bytes:
+    """Return `figure` as a file of a kind out of `KINDS`; its layout is solved now, and stays.
+
+    Raises `InputError` for another kind.
+    """
+    checks.one_of("kinds", kind, KINDS)
+    target, layout = io.BytesIO(), figure.get_layout_engine()
+    with house_rules():
+        figure.set_dpi(dpi)
+        if isinstance(layout, ConstrainedLayoutEngine):
+            _mark_between(figure)
+            layout.execute(figure)
+            if any(axes.get_aspect() != "auto" for axes in figure.axes):
+                layout.execute(figure)  # the labels of a panel to scale moved with its frame
+            figure.set_layout_engine("none")
+        # `savefig` would draw twice: once more to find out what it has to show
+        canvas: Any = get_registered_canvas_class(kind)(figure)
+        options = {"pil_kwargs": {"compress_level": 1}} if kind == "png" else {}
+        getattr(canvas, f"print_{kind}")(target, **options)
+    return target.getvalue()
 
 
 def save_figure(
@@ -418,5 +379,5 @@ def save_figure(
 
     Raises `FileError` if one cannot be written, `InputError` for another kind.
     """
-    files = rendered(figure, kinds)
+    files = {kind: figure_file(figure, kind) for kind in kinds}
     return [write_bytes(folder / f"{name}.{kind}", content) for kind, content in files.items()]

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 import sys
 import unicodedata
+from contextlib import nullcontext
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from typing import Annotated
 
-from gripscale.questions.terminal import argument, command, print_wrapped, screen
+from gripscale.questions.terminal import argument, command, print_parts, print_wrapped, screen
 
 _COMMENT = re.compile(r"<!--.*?-->\s*", flags=re.DOTALL)
 CODE = re.compile(r"^(`{3,}|~{3,}).*?^\1", flags=re.MULTILINE | re.DOTALL)
@@ -39,8 +40,7 @@ def docs(
         for name, path in texts.items():
             heading = path.read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
             print_wrapped(console, f"{name:26}{heading}")
-        console.print()
-        print_wrapped(console, "`gripscale docs PAGE` shows one of them.")
+        print_parts(console, ["", "`gripscale docs PAGE` shows one of them."])
         return
     name, _, heading = page.partition("#")
     name = name.removesuffix(".md")
@@ -49,10 +49,7 @@ def docs(
     text = _PICTURE.sub(r"*Figure: \1.*", text)
     if heading:
         text = text[anchors(text).get(anchor_of(heading), 0) :]
-    if sys.stdout.isatty():
-        with console.pager(styles=True):
-            console.print(Markdown(text))
-    else:
+    with console.pager(styles=True) if sys.stdout.isatty() else nullcontext():
         console.print(Markdown(text))
 
 

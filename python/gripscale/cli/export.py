@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from gripscale.core.errors import InputError
 from gripscale.questions.terminal import Modulus, argument, command, option, print_wrapped, screen
-
-if TYPE_CHECKING:
-    from gripscale.rubber import Rubber
-
 
 export = typer.Typer(
     help="Write rubbers, tables and meshes for other programs.",
@@ -53,15 +49,20 @@ def rubber(
     ] = None,
 ) -> None:
     """Write a rubber as a material of a finite element program."""
+    from gripscale.case_file import RubberSource, prepare_rubber, read_case_file, validate
     from gripscale.core.units import parse_quantity
     from gripscale.export import write_rubber
     from gripscale.export.reduction import reduced
 
-    rubber = _rubber_of(source, modulus)
+    if source.suffix == ".toml":
+        file = read_case_file(source)
+        rubber = prepare_rubber(file.case.rubber, file.resolve).rubber
+    else:
+        keys = {"file": str(source)} | ({} if modulus is None else {"modulus": modulus})
+        rubber = prepare_rubber(validate(RubberSource, keys, str(source))).rubber
     if temperature is not None:
         rubber = rubber.at(temperature)
-    console = screen()
-    ends = None
+    console, ends = screen(), None
     if band is not None:
         words = band.strip().removesuffix("Hz").strip().split("..")
         try:
@@ -121,17 +122,3 @@ def mesh(
     print_wrapped(
         screen(), f"Wave {wave}, {chosen.wavelength:.4g} m long, {chosen.why}, is {output}"
     )
-
-
-def _rubber_of(source: Path, modulus: str | None) -> Rubber:
-    """Return the rubber of a case file, of a file of `Rubber.to_dict`, or of a measurement.
-
-    `modulus` is E or G, of a measurement that does not state it.
-    """
-    from gripscale.case_file import RubberSource, prepare_rubber, read_case_file, validate
-
-    if source.suffix == ".toml":
-        file = read_case_file(source)
-        return prepare_rubber(file.case.rubber, file.resolve).rubber
-    keys = {"file": str(source)} | ({} if modulus is None else {"modulus": modulus})
-    return prepare_rubber(validate(RubberSource, keys, str(source))).rubber

@@ -36,8 +36,6 @@ from gripscale.questions.terminal import (
 )
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from gripscale.io.table import Table
     from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import Surface
@@ -70,17 +68,12 @@ def init(
     """Write a commented case and example data to start from; nothing is overwritten."""
     from gripscale.case_file.examples import EXAMPLES, write_example
 
-    written = write_example(folder, example)
-    console = screen()
-    print_wrapped(console, f"{folder}: {EXAMPLES[example].about}")
-    for path in written:
-        print_wrapped(console, f"  {path.relative_to(folder)}")
-    console.print()
-    print_wrapped(console, "Next:")
-    if EXAMPLES[example].needs:
-        print_wrapped(console, f'  pip install "gripscale[{EXAMPLES[example].needs}]"')
+    written, shown = write_example(folder, example), EXAMPLES[example]
+    lines = [f"{folder}: {shown.about}", *(f"  {path.relative_to(folder)}" for path in written)]
+    lines += ["", "Next:", *([f'  pip install "gripscale[{shown.needs}]"'] if shown.needs else [])]
     for words in (("run", written[0]), ("report", folder / "results"), ("compare", written[0])):
-        print_wrapped(console, f"  {shlex.join(['gripscale', *map(str, words)])}")
+        lines.append(f"  {shlex.join(['gripscale', *map(str, words)])}")
+    print_parts(screen(), lines)
 
 
 @command
@@ -212,8 +205,7 @@ def fit_surface(
 
         make_folder(output)
         surface_figures(prepared, FigureFolder(output, _FIGURES))
-        console.print()
-        print_wrapped(console, f"Figures are in {output}")
+        print_parts(console, ["", f"Figures are in {output}"])
 
 
 def _ambiguity(prepared: Surface) -> Iterator[str]:
@@ -287,11 +279,10 @@ def fit_rubber(
     findings = () if prepared.fit is None else prepared.fit.findings
     print_parts(console, [*rubber_parts(prepared), *findings, *filter(None, tables)])
     if output is not None:
-        console.print()
-        _write(console, prepared, output)
+        print_parts(console, ["", f"{_written(prepared, output)} in {output}"])
 
 
-def _write(console: Console, prepared: MeasuredRubber, output: Path) -> None:
+def _written(prepared: MeasuredRubber, output: Path) -> str:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.io.folders import make_folder, write_text
@@ -301,8 +292,7 @@ def _write(console: Console, prepared: MeasuredRubber, output: Path) -> None:
     rubber_figures(prepared, (), FigureFolder(output, _FIGURES))
     master, sweeps = prepared.master, prepared.sweeps
     if master is None or sweeps is None:
-        print_wrapped(console, f"The figure is in {output}")
-        return
+        return "The figure is"
     from gripscale.rubber import ShiftTable, write_master_curve, write_shift_table
 
     write_master_curve(output / "master_curve.csv", master)
@@ -310,4 +300,4 @@ def _write(console: Console, prepared: MeasuredRubber, output: Path) -> None:
     if len(sweeps) > 1 and isinstance(master.shift, ShiftTable):
         write_shift_table(output / "shift_table.csv", master.shift)
     what = "Figures, shift table, master curve" if len(sweeps) > 1 else "The figure, master curve"
-    print_wrapped(console, f"{what} and rubber are in {output}")
+    return f"{what} and rubber are"

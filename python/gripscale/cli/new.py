@@ -98,11 +98,6 @@ def new(
     """Write a commented case for measured files, and list what is doubtful about it."""
     from gripscale.case_file.new import new_case
 
-    options: dict[str, Any] = {"thickness": thickness}
-    if step is not None:
-        options["step"] = terminal.lengths_of(step)
-    if wlf is not None:
-        options["shift"] = shift_of_wlf(wlf)
     layout = {
         "columns": None if columns is None else terminal.columns_of(columns),
         "sheet": None if sheet is None else terminal.column_of(sheet),
@@ -111,21 +106,23 @@ def new(
         "temperature_unit": temperature_unit,
         "modulus_unit": modulus_unit,
     }
-    options["layout"] = {key: value for key, value in layout.items() if value is not None}
-    load = {"pressure": pressure, "speed": speed, "footprint": footprint}
-    values = {key: value for key, value in load.items() if value is not None}
     with naming_options():
-        case = new_case(files, output, load=values, temperature=temperature, **options)
-    console = terminal.screen()
-    terminal.print_wrapped(console, f"Case: {case.path}")
+        case = new_case(
+            files,
+            output,
+            load={"pressure": pressure, "speed": speed, "footprint": footprint},
+            temperature=temperature,
+            step=None if step is None else terminal.lengths_of(step),
+            shift=None if wlf is None else shift_of_wlf(wlf),
+            layout={key: value for key, value in layout.items() if value is not None},
+            thickness=thickness,
+        )
+    lines = [f"Case: {case.path}"]
     if case.skipped:
         names = ", ".join(path.name for path in case.skipped)
-        terminal.print_wrapped(console, f"Neither a surface nor moduli: {names}")
+        lines.append(f"Neither a surface nor moduli: {names}")
     if case.findings:
-        console.print()
-        terminal.print_wrapped(console, "Doubts, the most important first:")
-        for number, finding in enumerate(case.findings, start=1):
-            terminal.print_wrapped(console, f"  {number}. {finding}")
-    console.print()
-    terminal.print_wrapped(console, "Next:")
-    terminal.print_wrapped(console, f"  {shlex.join(['gripscale', 'run', str(case.path)])}")
+        doubts = (f"  {at}. {finding}" for at, finding in enumerate(case.findings, start=1))
+        lines += ["", "Doubts, the most important first:", *doubts]
+    lines += ["", "Next:", f"  {shlex.join(['gripscale', 'run', str(case.path)])}"]
+    terminal.print_parts(terminal.screen(), lines)

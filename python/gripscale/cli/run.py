@@ -94,13 +94,10 @@ def _show_again(work: terminal.CaseCommand, target: Path, *, chain: bool) -> Non
     terminal.print_parts(console, finished_report(target))
     if chain and (target / CHAIN_REPORT).is_file():
         console.print((target / CHAIN_REPORT).read_text(encoding="utf-8"), soft_wrap=True)
-    console.print()
-    terminal.print_wrapped(
-        console,
-        f"Finished {datetime.fromtimestamp(time):%Y-%m-%d %H:%M}. Case, files and software are the "
-        f"same; nothing was solved again (--fresh does). {terminal.RUN_CLOSING} {target}",
-    )
-    terminal.print_wrapped(console, answer.lines[0])
+    finished = f"Finished {datetime.fromtimestamp(time):%Y-%m-%d %H:%M}."
+    same = "Case, files and software are the same; nothing was solved again (--fresh does)."
+    closing = f"{finished} {same} {terminal.RUN_CLOSING} {target}"
+    terminal.print_parts(console, ["", closing, answer.lines[0]])
     terminal.print_result(answer, work.file.path, named_files(work.file))
 
 

@@ -70,7 +70,14 @@ def solve_run(
             waves = chain.dataset(next(iter(chain.predictions)))
             chain.answer = answer_with_inputs(case, waves_answer(case, waves))
             _print_answer(console, case, chain.answer)
-        _save_answer(chain.answer, case, target, emit)
+        chain.answer.save(target / ANSWER_FILE)
+        friction, area = (
+            headline(chain.answer.data, name).value for name in ("friction", "contact_fraction")
+        )
+        emit(events.AnswerSolved(chain.answer.status == "converged", area, friction))
+        emit(events.FileWritten(str(target / ANSWER_FILE)))
+        if chain.answer.curve is not None:
+            cut_off_result(chain.answer.curve, case).save(target / "cut_off.nc")
         of_chain, heat = _chain_parts(chain, effects)
         parts, files = _parts(chain, chain.answer, target), {}
         if not measured:
@@ -78,8 +85,7 @@ def solve_run(
         else:
             files = {CHAIN_REPORT: as_text(*of_chain, width=REPORT_WIDTH)}
             if show_chain:
-                console.print()
-                terminal.print_parts(console, of_chain)
+                terminal.print_parts(console, ["", *of_chain])
 
     def draw_conditions() -> None:
         if heat is not None:
@@ -116,8 +122,7 @@ def _print_answer(console: Console, case: Case, answer: Answer) -> None:
     """Print an answer with its first findings, above the inputs of its case."""
     terminal.end_steps()
     findings = warning_lines(answer.findings, terminal.RUN_REPORT)
-    for line in ("", *answer.lines, *findings, "", *_inputs(case)):
-        terminal.print_wrapped(console, line)
+    terminal.print_parts(console, ["", *answer.lines, *findings, "", *_inputs(case)])
 
 
 def _solve(
@@ -144,17 +149,6 @@ def _solve(
         emit(events.EffectsSolved(tuple(effects_asked(case.chain))))
         emit(events.FileWritten(str(target / EFFECTS_FILE.format(model=case.chain.name))))
     return effects
-
-
-def _save_answer(answer: Answer, case: Case, target: Path, emit: events.OnEvent) -> None:
-    answer.save(target / ANSWER_FILE)
-    friction, area = (
-        headline(answer.data, name).value for name in ("friction", "contact_fraction")
-    )
-    emit(events.AnswerSolved(answer.status == "converged", area, friction))
-    emit(events.FileWritten(str(target / ANSWER_FILE)))
-    if answer.curve is not None:
-        cut_off_result(answer.curve, case).save(target / "cut_off.nc")
 
 
 def _inputs(case: Case) -> list[str]:

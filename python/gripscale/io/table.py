@@ -141,10 +141,8 @@ class Column(Described):
         return [self._text(value) for value in self.values]
 
     def _text(self, value: Any) -> str:
-        if isinstance(value, str):
+        if value is None or isinstance(value, str):
             return value or "-"
-        if value is None:
-            return "-"
         if np.ndim(value):
             ends = [self._text(end) for end in value]
             return "-" if "-" in ends else self.joint.join(ends)
@@ -169,17 +167,17 @@ class Column(Described):
                 f"{self.name} must hold numbers or texts to be a column; got {values.dtype}"
             )
         unit = f" [{'-' if self.unit == '1' else self.unit}]" if self.unit else ""
-        if values.ndim == 1:
-            return [(f"{self.name}{unit}", [self._raw(value) for value in values.tolist()])]
+        ends = {"": values} if values.ndim == 1 else {"_low": values[:, 0], "_high": values[:, 1]}
         return [
-            (f"{self.name}_{end}{unit}", [self._raw(value) for value in values[:, at].tolist()])
-            for at, end in enumerate(("low", "high"))
+            (f"{self.name}{end}{unit}", [self._raw(value) for value in part.tolist()])
+            for end, part in ends.items()
         ]
 
     def _raw(self, value: Any) -> Any:
-        if not isinstance(value, float | int) or (self.size, self.zero) == (1.0, 0.0):
-            return None if isinstance(value, float) and math.isnan(value) else value
-        return None if math.isnan(value) else (value - self.zero) / self.size
+        if isinstance(value, float) and math.isnan(value):
+            return None
+        in_si = not isinstance(value, float | int) or (self.size, self.zero) == (1.0, 0.0)
+        return value if in_si else (value - self.zero) / self.size
 
 
 @dataclass(frozen=True, repr=False)
@@ -218,8 +216,7 @@ class Table(Described):
 
     def is_bad(self, column: Column, row: int) -> bool:
         """Return whether a cell must not be trusted."""
-        flags = (self.bad, column.bad)
-        return any(bool(flag[row]) for flag in flags if len(flag))
+        return any(bool(flags[row]) for flags in (self.bad, column.bad) if len(flags))
 
     # Files.
 
@@ -277,15 +274,15 @@ class Table(Described):
         share = min(free / max(sum(lacking), 1), 1.0)
         widths = [wide + int(share * lack) for wide, lack in zip(widths, lacking, strict=True)]
         if len({column.group for column in self.columns} - {""}) > 1:
-            above, start = "", 0
-            by_group = itertools.groupby(range(len(columns)), lambda at: columns[at].group)
-            for group, members in by_group:
-                places = list(members)
-                span = sum(widths[at] for at in places) + len(gap) * (len(places) - 1)
-                heading = group if len(group) <= span else group[: span - 1] + "…"
-                above = above.ljust(start) + heading.center(span)
-                start += span + len(gap)
-            yield (above.rstrip(),)
+            above = []
+            pairs = zip(columns, widths, strict=True)
+            for group, members in itertools.groupby(pairs, lambda pair: pair[0].group):
+                spanned = [wide for _, wide in members]
+                span = sum(spanned) + len(gap) * (len(spanned) - 1)
+                above.append(
+                    (group if len(group) <= span else group[: span - 1] + "…").center(span)
+                )
+            yield (gap.join(above).rstrip(),)
         heads = [_heading(column) for column in columns]
         deepest = max(map(len, heads))
         for line in range(deepest, 0, -1):
@@ -331,10 +328,12 @@ class Table(Described):
         )
         texts = [column.texts() for column in self.columns]
         body = []
-        for row in range(len(self)):
+        for row, of_row in enumerate(zip(*texts, strict=True)):
             cells = []
-            for at, (column, kind) in enumerate(zip(self.columns, words, strict=True)):
-                text, tag = texts[at][row], "td" if at else 'th scope="row"'
+            for at, (column, kind, text) in enumerate(
+                zip(self.columns, words, of_row, strict=True)
+            ):
+                tag = "td" if at else 'th scope="row"'
                 cell = (NONE if text == "-" else text) if kind else on_page(text)
                 cells.append(
                     f'<{tag} class="{kind}{" bad" if self.is_bad(column, row) else ""}">'

@@ -85,7 +85,8 @@ def sheets_as_lines(path: Path, *, header: int | None = None) -> dict[str, list[
     """Return the sheets of an Excel file by name, as `read_lines` returns one of them."""
     sheets = {}
     for name, rows in read_sheets(path).items():
-        cells = [[_cell_text(value) for value in row] for row in rows]
+        texts = [["" if value is None else str(value) for value in row] for row in rows]
+        cells = [[" ".join(text.split()) for text in row] for row in texts]
         width = max(map(len, cells), default=0)
         used = [i for i in range(width) if any(row[i : i + 1] not in ([], [""]) for row in cells)]
         lines = [
@@ -95,26 +96,6 @@ def sheets_as_lines(path: Path, *, header: int | None = None) -> dict[str, list[
         ]
         sheets[name] = _below_header(lines, header)
     return sheets
-
-
-def _sheet_lines(path: Path, sheet: str | int | None, header: int | None) -> list[Line]:
-    """Return the lines of a sheet by name or number from 1; by default of the only with numbers."""
-    sheets = sheets_as_lines(path, header=header)
-    if sheet is None:
-        full = [name for name, lines in sheets.items() if any(is_row(line) for _, line in lines)]
-        if len(full) > 1:
-            hold = f"{len(full)} sheets hold rows of numbers ({', '.join(full)})"
-            raise unstated(f"{path}: ", "sheet", f" must be given, because {hold}")
-        return sheets[full[0]] if full else next(iter(sheets.values()))
-    if isinstance(sheet, str):
-        return sheets[checks.one_of(f"{path}: sheet", sheet, sheets)]
-    return list(sheets.values())[checks.counted(f"{path}: sheet", sheet, len(sheets))]
-
-
-def _cell_text(value: object) -> str:
-    if isinstance(value, float):
-        return repr(value)
-    return "" if value is None else " ".join(str(value).split())
 
 
 # Binary files that are mistaken for text, by their first bytes.
@@ -230,17 +211,27 @@ def read_lines(
 ) -> list[Line]:
     """Return the lines of a text file or of a sheet of an Excel file that are not empty.
 
+    A sheet is stated by its name or its number from 1; by default it is the only one with numbers.
     Rows of numbers among the first `header` lines are turned into comments.
     """
-    if is_excel(path):
-        return _sheet_lines(path, sheet, header)
+    if not is_excel(path):
+        if sheet is not None:
+            raise InputError(
+                f"{path}: sheet must be left out, a text file has none; got {short_repr(sheet)}"
+            )
+        text = read_text(path).replace("\r\n", "\n")
+        split = enumerate(_LINE_END.split(text) if "\r" in text else text.split("\n"), start=1)
+        return _below_header([(number, line) for number, line in split if line.strip()], header)
+    sheets = sheets_as_lines(path, header=header)
+    if isinstance(sheet, str):
+        return sheets[checks.one_of(f"{path}: sheet", sheet, sheets)]
     if sheet is not None:
-        raise InputError(
-            f"{path}: sheet must be left out, a text file has none; got {short_repr(sheet)}"
-        )
-    text = read_text(path).replace("\r\n", "\n")
-    split = enumerate(_LINE_END.split(text) if "\r" in text else text.split("\n"), start=1)
-    return _below_header([(number, line) for number, line in split if line.strip()], header)
+        return list(sheets.values())[checks.counted(f"{path}: sheet", sheet, len(sheets))]
+    full = [name for name, lines in sheets.items() if any(is_row(line) for _, line in lines)]
+    if len(full) > 1:
+        hold = f"{len(full)} sheets hold rows of numbers ({', '.join(full)})"
+        raise unstated(f"{path}: ", "sheet", f" must be given, because {hold}")
+    return sheets[full[0]] if full else next(iter(sheets.values()))
 
 
 def _below_header(lines: list[Line], header: int | None) -> list[Line]:
@@ -306,9 +297,7 @@ def table_in(
     decimal = _decimal_sign(path, rows, numbers)
     above = [line for _, line in lines[:first]]
     # separators at the ends of all lines make empty columns
-    full = slice(
-        0 if any(row[0] for row in rows) else 1, count - (0 if any(row[-1] for row in rows) else 1)
-    )
+    full = slice(not any(row[0] for row in rows), count - (not any(row[-1] for row in rows)))
     columns = _columns(above, count, kinds, named)
     for at in {0, count - 1} - set(range(count)[full]):
         if named(columns[at].name):

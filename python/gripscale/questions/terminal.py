@@ -82,11 +82,8 @@ def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
         target = RESULTS_FOLDER.get()
         if target is None or not any(target.rglob("[!.]*.nc")):
             return "Stopped; nothing was finished.", STOPPED
-        stopped = (
-            f"Stopped; what was finished is kept in {target}, and the same command continues "
-            "from there."
-        )
-        return stopped, STOPPED
+        kept = f"what was finished is kept in {target}, and the same command continues from there"
+        return f"Stopped; {kept}.", STOPPED
     from gripscale.report.failures import explained
 
     exit_code = _NOT_CONVERGED if isinstance(error, ConvergenceError) else BAD_INPUT
@@ -466,9 +463,8 @@ class CaseCommand:
 
         target, console, findings = self.target, self.console, result.findings
         end_steps()
-        console.print()
         lead = () if answer_printed else (*result.lines, *warning_lines(findings, text))
-        print_parts(console, [*lead, *parts])
+        print_parts(console, ["", *lead, *parts])
         answer = [*result.lines, *warning_lines(findings)]
         above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
         texts = {text: as_text(*above, *parts, width=width), **(files or {})}
@@ -482,9 +478,7 @@ class CaseCommand:
         except GripscaleError as error:  # such as an extra that is not installed
             words = f"note: no page; {error}"
         end_steps()
-        console.print()
-        print_wrapped(console, f"{closing} {target}")
-        print_wrapped(console, words)
+        print_parts(console, ["", f"{closing} {target}", words])
         print_result(result, self.file.path, self.case.origin.files)
         if result.failure:
             print_error(result.failure)

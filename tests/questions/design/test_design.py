@@ -14,7 +14,7 @@ import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.named_inputs import read_surface
 from gripscale.case_file.prepare import case_surface
-from gripscale.charts.paper import png
+from gripscale.charts.paper import figure_file
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.sampling_error import (
@@ -298,7 +298,7 @@ def test_the_figure_draws_the_answer_and_no_near_copy_of_it(data):
 def test_frequencies_on_the_figure_keep_apart(data):
     wide = data.assign_coords(frequency=np.geomspace(0.01, 2e6, data.sizes["frequency"]))
     figure = design_figure(wide)
-    png(figure)
+    figure_file(figure)
     for axes in figure.axes[1:]:
         low, high = axes.get_xlim()
         places = [at for at in axes.get_xticks() if low <= at <= high]

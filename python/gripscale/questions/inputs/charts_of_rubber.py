@@ -15,7 +15,16 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from gripscale.charts import draw
-from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.chart import (
+    ColourBar,
+    CrossLine,
+    Mark,
+    Note,
+    Panel,
+    PlotAxis,
+    Series,
+    ShadedBand,
+)
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
@@ -307,10 +316,10 @@ def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
     return Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout)
 
 
-def _temperatures(sweeps: Sweeps) -> draw.ColourBar:
+def _temperatures(sweeps: Sweeps) -> ColourBar:
     """Return what the colours of sweeps mean, cold blue to warm yellow."""
     celsius = sweeps.temperatures - ZERO_CELSIUS
-    return draw.ColourBar(celsius[0], celsius[-1], "Plasma", CELSIUS.label)
+    return ColourBar(celsius[0], celsius[-1], "Plasma", CELSIUS.label)
 
 
 def _coloured(drawn: Iterable[Sweep], sweeps: Sweeps) -> Iterator[tuple[Sweep, str]]:

@@ -382,7 +382,7 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     """
     celsius = axis_shown(result, "temperature").of(result.temperature)
     label = axis_label(result, "temperature")
-    bar = draw.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
+    bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
     panels = [
         _reduced_panel(result, believed(result, quantity)) for quantity in reversed(AXIS_TITLES)
     ]
