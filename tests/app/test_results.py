@@ -18,7 +18,7 @@ from gripscale.cli.run_case import run_case
 from gripscale.core.finding import Finding, Severity
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import answer
-from gripscale.questions.chain.run_folder import RunSource
+from gripscale.questions.chain.run_page import RunSource
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.page_of_folder import page_of
 from gripscale.report.elements import Element, Text

@@ -26,7 +26,7 @@ from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.answer.page import answer_lines
 from gripscale.questions.answer.reliance import no_answer
 from gripscale.questions.inputs import record
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.page_of_folder import write_report
 from gripscale.surface import self_affine_profile
 from tests.report.reading import Page

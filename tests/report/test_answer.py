@@ -14,7 +14,7 @@ from gripscale.questions.answer.estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.findings import answer_notices, case_notices, no_answer_notices
 from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
 from gripscale.questions.answer.reliance import no_answer
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import warning_lines
 from gripscale.report.elements import Page
 

@@ -24,8 +24,7 @@ from gripscale.io import netcdf
 from gripscale.io.table import significant
 from gripscale.model import OUTSIDE_BAND, TOTALS, Load, predicted_answer
 from gripscale.questions.chain.charts import contact_charts
-from gripscale.questions.chain.run_folder import RunSource
-from gripscale.questions.chain.run_page import notices, run_cards, run_page
+from gripscale.questions.chain.run_page import RunSource, notices, run_cards, run_page
 from gripscale.questions.inputs.page import rubber_facts
 from gripscale.questions.page_of_folder import read_result, write_report
 from gripscale.report.elements import Text

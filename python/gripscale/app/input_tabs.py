@@ -29,7 +29,7 @@ from gripscale.core.finding import Finding, Severity
 from gripscale.questions.inputs import page, record
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts, superposition_figure
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.report.elements import Text
 
 ROAD_FIELDS = (

@@ -32,7 +32,7 @@ from gripscale.io.table import Column, Table
 from gripscale.model import with_adhesive
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.reliance import has_answer, headline, no_answer
-from gripscale.questions.chain.run_folder import RunSource
+from gripscale.questions.chain.run_page import RunSource
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.registry import Form
 from gripscale.questions.words import AXIS_TITLES, HEADINGS, SYMBOLS

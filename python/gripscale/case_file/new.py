@@ -156,8 +156,8 @@ def propose(
         if shift is not None:
             rubber.add("shift", dict(shift), "as stated")
     else:
-        stated = {"temperature": kelvin, "shift": shift, "layout": layout}
-        rubber = _one_rubber(rubbers, [names[file] for file in rubbers], **stated)
+        measurement = {"temperature": kelvin, "shift": shift, "layout": layout}
+        rubber = _one_rubber(rubbers, [names[file] for file in rubbers], **measurement)
     for name in () if shift is not None else (names[file] for file in shifts):
         unused = f'{name} holds shift factors and is not used: shift = "{name}" in [rubber] takes'
         rubber.findings.append(assumption(BY_A_FACTOR, f"{unused} them"))

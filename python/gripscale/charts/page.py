@@ -159,9 +159,9 @@ def _draw_mark(figure: Part, mark: Mark, panel: Panel, store: DataStore) -> list
         case ShadedBand():
             low = _stored(mark.low, positive=panel.y.log)
             arrays = np.broadcast_arrays(_stored(mark.x), low, mark.high)
-            shown = np.isfinite(arrays).all(axis=0)
-            if shown.any():
-                shape = (array[shown] for array in arrays)
+            finite = np.isfinite(arrays).all(axis=0)
+            if finite.any():
+                shape = (array[finite] for array in arrays)
                 source = columns(dict(zip(("x", "y1", "y2"), shape, strict=True)))
                 look = {"fill_color": mark.colour, "fill_alpha": mark.alpha}
                 area = Part("VArea", **{name: Field(name) for name in source["data"]}, **look)

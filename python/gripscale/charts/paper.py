@@ -290,8 +290,8 @@ def _add_legend(figure: Figure, panels: Sequence[Axes], sheet: chart.PanelGrid) 
         hatched |= any(part.get_gid() == BEYOND_LABEL for part in axes.collections)
     for key in sheet.keys:
         entries |= {getattr(key, "label", ""): _key(key)}
-    beside = sheet.legend == "beside"
-    beyond = BEYOND_LABEL.replace("the ", "the\n") if beside else BEYOND_LABEL
+    at_side = sheet.legend == "beside"
+    beyond = BEYOND_LABEL.replace("the ", "the\n") if at_side else BEYOND_LABEL
     if hatched:
         entries = {beyond: Patch(**(HATCHED | {"facecolor": GREY})), **entries}
     elif dashed:
@@ -299,7 +299,7 @@ def _add_legend(figure: Figure, panels: Sequence[Axes], sheet: chart.PanelGrid) 
     if not entries:
         return
     look: dict[str, Any] = {"loc": "outside right center", "alignment": "left"}
-    if not beside:
+    if not at_side:
         columns = _legend_columns(list(entries), sheet.legend_columns, sheet.width)
         side = "upper" if sheet.legend == "above" else "lower"
         look = {"loc": f"outside {side} center", "ncols": columns}

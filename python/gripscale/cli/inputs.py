@@ -68,9 +68,10 @@ def init(
     """Write a commented case and example data to start from; nothing is overwritten."""
     from gripscale.case_file.examples import EXAMPLES, write_example
 
-    written, shown = write_example(folder, example), EXAMPLES[example]
-    lines = [f"{folder}: {shown.about}", *(f"  {path.relative_to(folder)}" for path in written)]
-    lines += ["", "Next:", *([f'  pip install "gripscale[{shown.needs}]"'] if shown.needs else [])]
+    written, needs = write_example(folder, example), EXAMPLES[example].needs
+    files = [f"  {path.relative_to(folder)}" for path in written]
+    lines = [f"{folder}: {EXAMPLES[example].about}", *files, "", "Next:"]
+    lines += [f'  pip install "gripscale[{needs}]"'] if needs else []
     for words in (("run", written[0]), ("report", folder / "results"), ("compare", written[0])):
         lines.append(f"  {shlex.join(['gripscale', *map(str, words)])}")
     print_parts(screen(), lines)

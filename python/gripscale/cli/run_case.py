@@ -54,9 +54,8 @@ def run_case(
         require_writable(target)
     run = ChainRun.of(read_case(file), target, fresh=fresh) if run is None else run
     case = run.case
-    names = tuple(name for name, _ in planned(case))
     iterated = case.conditions is not None and case.conditions.iterated
-    emit(events.RunStarted(names, len(case.surface.sines), iterated))
+    emit(events.RunStarted(tuple(planned(case)), len(case.surface.sines), iterated))
     if target is not None:
         replaced = folder.earlier_run(target, run.kept_files)
         if replaced:

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
-from gripscale.questions.chain.run_folder import RunSource, read_run, run_of
-from gripscale.questions.chain.run_page import run_page
+from gripscale.questions.chain.run_page import RunSource, read_run, run_of, run_page
 from gripscale.questions.compare.page import Compared, comparison_page, stored_comparisons
 from gripscale.questions.result import Result
 from gripscale.questions.stored import KINDS_OF_REPORTS, require_totals, result_of

@@ -23,7 +23,7 @@ from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
 from gripscale.questions.inputs.findings import input_findings
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 
 if TYPE_CHECKING:
     import pandas as pd

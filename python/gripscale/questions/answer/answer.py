@@ -28,7 +28,7 @@ from gripscale.questions.answer.page import answer_cards, answer_lines, answer_p
 from gripscale.questions.answer.reliance import answer_number, is_measured, no_answer
 from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.inputs import record
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.report.elements import Page
 

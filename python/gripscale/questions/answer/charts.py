@@ -16,7 +16,6 @@ import xarray as xr
 from gripscale.charts import chart, draw
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, RED, SKY, WIDE
-from gripscale.core.arrays import Array
 from gripscale.core.units import MEGA, MICRO, MILLI
 from gripscale.half_space.location import contact_trace, traces_of
 from gripscale.half_space.result import RoughContact
@@ -44,6 +43,11 @@ PAGE = 420  # width of half a page [px]
 _ROW, FIELD_ROW, _BELOW, _HEAD = 1.15, 2.9, 0.32, 1.1
 # Width of a frame over that of the figure, at most: a panel to scale is as wide as the others.
 _INSIDE = 0.94
+# Variables of a trace that are lengths.
+_LENGTHS = (
+    *("x", "height_low", "height_high", "rubber_low", "rubber_high"),
+    *("stretch_start", "stretch_end", "section", "field_x", "field_y"),
+)
 
 
 def rough_contact_figure(contact: RoughContact, *, stretch: float | None = None) -> Figure:
@@ -82,9 +86,9 @@ def named_traces(data: xr.Dataset, inputs: xr.Dataset | None = None) -> list[Nam
 
 def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None) -> draw.Sheet:
     """Describe a trace on paper, its stretch of a length [m] or as short as the contact allows."""
-    trace = _around_contact(trace, length)
-    fields, lines, close = _field_panels(trace), _line_panels(trace), _stretch_panel(trace)
-    heights = [FIELD_ROW] * len(fields) + [_ROW] * len(lines) + [_drawn_height(close)]
+    line = _around_contact(trace, length)
+    fields, lines, close = _field_panels(line), _line_panels(line), _stretch_panel(line)
+    heights = [FIELD_ROW] * len(fields) + [_ROW] * len(lines)
     return _sheet([*fields, *lines, close], heights, title)
 
 
@@ -95,70 +99,67 @@ def summary_sheet(
 
     `words` say what the numbers of the `cards` are for; `inputs` is the record of the inputs.
     """
-    trace = _around_contact(trace)
-    close, heights, moduli = _stretch_panel(trace), _line_panels(trace)[0], moduli_panels(inputs)[0]
-    bands = (mark for mark in close.marks if isinstance(mark, chart.ShadedBand))
-    pressure = next(band.label for band in bands if band.label)
-    names = (("storage $E'$", BLUE), ("loss $E''$", ORANGE))
-    panels = [
-        _number_panel(cards, words),
-        replace(close, title=f"Rubber (blue) on the surface, to scale\norange: {pressure}"),
-        replace(
-            moduli.with_marks(
-                chart.Note(0.04, 0.96 - 0.1 * row, text, colour, frame="xy", top=True, size=8.0)
-                for row, (text, colour) in enumerate(names)
-            ),
-            x=replace(moduli.x, numbers=6),
-            title="Master curve, measured and as solved",
-        ),
-        replace(heights, x=_along(trace, _lengths(trace.x, trace)), title="The whole profile"),
-    ]
-    layout = {"width_ratios": [1.0, 1.4], "height_ratios": [1.2, 1.0]}
-    return draw.Sheet(panels, 2, WIDE, WIDE * 9.0 / 16.0, legend="", layout=layout)
-
-
-def _number_panel(cards: Sequence[Card], words: str) -> chart.Panel:
-    """Return the first two results of a page with their intervals, large."""
-    notes = [chart.Note(0.0, 1.0, words, GREY, frame="xy", top=True, size=8.0)]
+    line = _around_contact(trace)
+    close, heights, moduli = _stretch_panel(line), _line_panels(line)[0], moduli_panels(inputs)[0]
+    numbers = [chart.Note(0.0, 1.0, words, GREY, frame="xy", top=True, size=8.0)]
     for at, card in zip((0.88, 0.4), cards, strict=False):
         colour = RED if card.bad else INK
         label = card.label.replace("A_r/A_0", "$A_r/A_0$")
         texts = (label, card.value, card.interval or card.detail)
-        notes += [
+        numbers += [
             chart.Note(0.0, at - down, text, colour, frame="xy", top=True, size=size)
             for text, (down, size) in zip(texts, _LINES, strict=True)
         ]
-    return chart.Panel(chart.PlotAxis(), chart.PlotAxis(), notes, framed=False)
+    names = [
+        chart.Note(0.04, at, text, colour, frame="xy", top=True, size=8.0)
+        for at, text, colour in ((0.96, "storage $E'$", BLUE), (0.86, "loss $E''$", ORANGE))
+    ]
+    bands = (mark for mark in close.marks if isinstance(mark, chart.ShadedBand))
+    pressure = next(band.label for band in bands if band.label)
+    panels = [
+        chart.Panel(chart.PlotAxis(), chart.PlotAxis(), numbers, framed=False),
+        replace(close, title=f"Rubber (blue) on the surface, to scale\norange: {pressure}"),
+        replace(
+            moduli.with_marks(names),
+            x=replace(moduli.x, numbers=6),
+            title="Master curve, measured and as solved",
+        ),
+        replace(heights, x=_along(line), title="The whole profile"),
+    ]
+    layout = {"width_ratios": [1.0, 1.4], "height_ratios": [1.2, 1.0]}
+    return draw.Sheet(panels, 2, WIDE, WIDE * 9.0 / 16.0, legend="", layout=layout)
 
 
 def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
     """Return a trace on the page: a stretch to scale, and along the whole line, to be zoomed."""
     from gripscale.charts.page import draw_linked  # of Bokeh, which only pages need
 
-    trace = _around_contact(trace)
+    line = _around_contact(trace)
     lines = draw_linked(
-        _line_panels(trace),
+        _line_panels(line),
         f"contact-{_word(name)}",
         f"{name}: rubber on the surface, contact pressure, and friction and load from the "
         "beginning of the line. The shade is the stretch to scale. Draw a box to zoom; "
         "the tools above move the line and zoom by the wheel.",
         f"Heights of surface and rubber, pressure, and running friction along {name}.",
     )
-    return [*draw.panels_on_page([_stretch_panel(trace, name), *_field_panels(trace, name)]), lines]
+    return [*draw.panels_on_page([_stretch_panel(line, name), *_field_panels(line, name)]), lines]
 
 
 def height_panels(trace: xr.Dataset, name: str) -> list[chart.Panel]:
     """Return the stretch with most friction, and what its heights are worth for the friction."""
-    trace = _around_contact(trace)
-    part = _stretch(trace)
-    x, values = _lengths(part.x, trace), part.by_height.values * MICRO * MILLI
+    line = _around_contact(trace)
+    part = _stretch(line)
+    worth = 100.0 * part.by_height.values * MICRO * MILLI
     return [
-        _stretch_panel(trace, name),
+        _stretch_panel(line, name),
         chart.Panel(
-            _along(trace, x),
+            _along(part),
             chart.PlotAxis("friction by height\n[% / (µm mm)]"),
             [
-                chart.Series(x, 100.0 * values, GREEN, "change of $\\mu$ by the height", width=0.9),
+                chart.Series(
+                    part.x.values, worth, GREEN, "change of $\\mu$ by the height", width=0.9
+                ),
                 chart.CrossLine(0.0),
             ],
             name=f"height-{_word(name)}",
@@ -173,46 +174,35 @@ def height_panels(trace: xr.Dataset, name: str) -> list[chart.Panel]:
 def height_figure(trace: xr.Dataset, name: str) -> Figure:
     """Draw what heights are worth for the friction, on the stretch with most, and the stretch."""
     close, worth = height_panels(trace, name)
-    sheet = _sheet([worth, close], [_ROW, _drawn_height(close)], name)
+    sheet = _sheet([worth, close], [_ROW], name)
     return replace(sheet, layout={**sheet.layout, "sharex": True}).on_paper()
 
 
 def _sheet(panels: list[chart.Panel], heights: list[float], title: str) -> draw.Sheet:
-    """Return panels of these heights [inch] below each other."""
+    """Return panels of these heights [inch] below each other, the last one to scale."""
+    x, y = panels[-1].x, panels[-1].y
+    ends = (float(end or 0.0) for end in (x.low, x.high, y.low, y.high))
+    start, end, low, high = ends
+    heights = [*heights, _INSIDE * WIDE * (high - low) / (end - start)]
     height = sum(heights) + _BELOW * len(panels) + _HEAD
     look: dict[str, Any] = {"legend_columns": 4, "legend_title": title}
     return draw.Sheet(panels, 1, WIDE, height, layout={"height_ratios": heights}, **look)
-
-
-def _drawn_height(close: chart.Panel) -> float:
-    """Return the height [inch] of a panel to scale over the width of the figure."""
-    ends = close.y.low, close.y.high, close.x.low, close.x.high
-    low, high, start, end = (float(each or 0.0) for each in ends)
-    return _INSIDE * WIDE * (high - low) / (end - start)
 
 
 def _word(name: str) -> str:
     return re.sub(r"\W+", "-", name)
 
 
-def _unit(trace: xr.Dataset) -> tuple[float, str]:
-    """Return the unit of lengths: a millimetre, or of very small surfaces a micrometre."""
-    return (MILLI, "mm") if np.ptp(trace.x.values) > MILLI else (MICRO, "µm")
-
-
-def _lengths(values: xr.DataArray, trace: xr.Dataset) -> Array:
-    return np.asarray(values.values, dtype=float) / _unit(trace)[0]
-
-
-def _along(trace: xr.Dataset, x: Array) -> chart.PlotAxis:
-    label = f"distance $x$ [{_unit(trace)[1]}]"
-    return chart.PlotAxis(label, low=float(x[0]), high=float(x[-1]))
+def _along(trace: xr.Dataset, label: str = "distance $x$ [{}]") -> chart.PlotAxis:
+    low, high = (float(trace.x[at]) for at in (0, -1))
+    return chart.PlotAxis(label.format(trace.unit), low=low, high=high)
 
 
 def _around_contact(trace: xr.Dataset, length: float | None = None) -> xr.Dataset:
     """Return a trace whose stretch has its contact in the middle, and its shares there.
 
     It ends before pieces of several points that are in contact: their contact is longer than it is.
+    Lengths are in the `unit` of its attributes: in mm, or of very small surfaces in µm.
     """
     x, inside = trace.x.values, trace.pressure_high.values > 0.0
     start, end = (float(trace[f"stretch_{end}"]) for end in ("start", "end"))
@@ -231,7 +221,11 @@ def _around_contact(trace: xr.Dataset, length: float | None = None) -> xr.Datase
     for name in ("friction", "load"):
         running = np.insert(trace[f"running_{name}"].values, 0, 0.0)
         drawn[f"stretch_{name}"] = running[after] - running[before]
-    return trace.assign(drawn)
+    trace = trace.assign(drawn)
+    size, unit = (MILLI, "mm") if np.ptp(x) > MILLI else (MICRO, "µm")
+    lengths = [name for name in _LENGTHS if name in trace]
+    trace = trace.assign({name: trace[name].astype(float) / size for name in lengths})
+    return trace.assign_attrs(unit=unit)
 
 
 def _stretch(trace: xr.Dataset) -> xr.Dataset:
@@ -239,44 +233,33 @@ def _stretch(trace: xr.Dataset) -> xr.Dataset:
     return trace.isel(piece=np.flatnonzero(inside.values))
 
 
-def _ends(trace: xr.Dataset, name: str) -> tuple[Array, Array]:
-    return _lengths(trace[f"{name}_low"], trace), _lengths(trace[f"{name}_high"], trace)
-
-
 def _line_panels(trace: xr.Dataset) -> list[chart.Panel]:
     """Return heights, pressure, and running friction and load along the whole line."""
-    x, unit = _lengths(trace.x, trace), _unit(trace)[1]
-    start, end = (float(trace[f"stretch_{end}"]) / _unit(trace)[0] for end in ("start", "end"))
+    x, inside = trace.x.values, trace.pressure_high.values > 0.0
+    start, end = float(trace.stretch_start), float(trace.stretch_end)
     shade = chart.CrossLine(start, SKY, "", upright=True, to=end)
-    p_low, p_high = (trace[f"pressure_{end}"].values / MEGA for end in ("low", "high"))
-    running: list[chart.Mark] = [
-        chart.Outline(x, trace[name].values, trace[name].values, colour, words, width=1.2)
-        for name, colour, words in (
-            ("running_load", GREY, "load"),
-            ("running_friction", GREEN, "friction"),
-        )
-        if np.isfinite(trace[name].values).any()
+
+    def outline(name: str, colour: str, label: str = "", width: float = 0.8) -> chart.Outline:
+        low, high = (trace[f"{name}_{end}"].values for end in ("low", "high"))
+        return chart.Outline(x, low, high, colour, label, width)
+
+    surface, pressure = outline("height", INK, "surface", 0.6), outline("pressure", ORANGE)
+    low, high = (np.where(inside, end, np.nan) for end in (surface.low, surface.high))
+    contact = chart.Outline(x, low, high, ORANGE, "contact", 2.2)
+    low, high = (np.asarray(end) / MEGA for end in (pressure.low, pressure.high))
+    running = [
+        chart.Outline(x, values, values, colour, name, 1.2)
+        for name, colour in (("load", GREY), ("friction", GREEN))
+        if np.isfinite(values := trace[f"running_{name}"].values).any()
     ]
-    surface, inside = _ends(trace, "height"), trace.pressure_high.values > 0.0
-    low_touching, high_touching = (np.where(inside, end, np.nan) for end in surface)
-    heights: list[chart.Mark] = [
-        chart.Outline(x, low, high, colour, words, width=width)
-        for (low, high), colour, words, width in (
-            (surface, INK, "surface", 0.6),
-            (_ends(trace, "rubber"), BLUE, "rubber", 0.9),
-            ((low_touching, high_touching), ORANGE, "contact", 2.2),
-        )
-    ]
-    rows: tuple[tuple[str, list[chart.Mark]], ...] = (
-        (f"height $z$ [{unit}]", heights),
-        ("pressure $p$ [MPa]", [chart.Outline(x, p_low, p_high, ORANGE, width=0.8)]),
+    rows: tuple[tuple[str, list[chart.Outline]], ...] = (
+        (f"height $z$ [{trace.unit}]", [surface, outline("rubber", BLUE, "rubber", 0.9), contact]),
+        ("pressure $p$ [MPa]", [replace(pressure, low=low, high=high)]),
         ("running share [-]", running),
     )
     return [
         chart.Panel(
-            _along(trace, x)
-            if number == len(rows)
-            else chart.PlotAxis("", low=float(x[0]), high=float(x[-1])),
+            _along(trace, "distance $x$ [{}]" if number == len(rows) else ""),
             chart.PlotAxis(label, low=None if number == 1 else 0.0),
             [shade, *marks],
             height=250 if number == 1 else 190,
@@ -288,33 +271,31 @@ def _line_panels(trace: xr.Dataset) -> list[chart.Panel]:
 def _stretch_panel(trace: xr.Dataset, name: str = "") -> chart.Panel:
     """Return the stretch with most friction to scale, the pressure drawn upon the rubber."""
     part = _stretch(trace)
-    x, surface, rubber = (_lengths(part[name], trace) for name in ("x", "height_low", "rubber_low"))
-    unit = _unit(trace)[1]
+    x, surface, rubber = (part[name].values for name in ("x", "height_low", "rubber_low"))
+    pressure = part.pressure_high.values / MEGA
     length, highest = x[-1] - x[0], float(rubber.max())
-    contact = np.where(part.pressure_high > 0.0, _lengths(part.height_high, trace), np.nan)
+    contact = np.where(pressure > 0.0, part.height_high.values, np.nan)
     # of a pit beside the contact only the edge
     lowest = max(float(surface.min()), float(np.nanmin(contact)) - LOWEST * length)
     lowest = min(lowest, highest - FLATTEST * length)
     room = DRAPED * (highest - lowest)
     top = highest + 1.1 * room
-    pressure = part.pressure_high.values / MEGA
-    scale = _round_down(room / float(pressure.max()))
-    mark = _round_down(float(pressure.max()))
-    text = f"pressure, {mark:g} MPa is {scale * mark:.2g} {unit} high"
+    highest_pressure = float(pressure.max())
+    scale, mark = _round_down(room / highest_pressure), _round_down(highest_pressure)
+    text = f"pressure, {mark:g} MPa is {scale * mark:.2g} {trace.unit} high"
     makes = "a stretch"
-    if np.isfinite(part.stretch_friction):
+    if "section" in trace and np.isfinite(part.stretch_friction):
+        makes = "the stretch of a line with most friction"
+    elif np.isfinite(part.stretch_friction):
         shares = (percent(float(part[f"stretch_{what}"])) for what in ("friction", "load"))
         makes = "the stretch with most friction, {} of it under {} of the load".format(*shares)
-        if "section" in trace:
-            makes = "the stretch of a line with most friction"
+    floor, ceiling = np.full(x.size, lowest), np.full(x.size, top)
     return chart.Panel(
-        _along(trace, x),
-        chart.PlotAxis(f"height $z$ [{unit}]", low=lowest, high=top),
+        _along(part),
+        chart.PlotAxis(f"height $z$ [{trace.unit}]", low=lowest, high=top),
         [
-            chart.ShadedBand(
-                x, np.full(x.size, lowest), np.maximum(surface, lowest), FAINT, alpha=1.0
-            ),
-            chart.ShadedBand(x, rubber, np.full(x.size, top), SKY, alpha=0.25),
+            chart.ShadedBand(x, floor, np.maximum(surface, lowest), FAINT, alpha=1.0),
+            chart.ShadedBand(x, rubber, ceiling, SKY, alpha=0.25),
             chart.ShadedBand(x, rubber, rubber + scale * pressure, ORANGE, text, alpha=0.8),
             chart.Series(x, np.where(surface < lowest, np.nan, surface), INK, "surface", width=0.8),
             chart.Series(x, rubber, BLUE, "rubber", width=0.9),
@@ -333,24 +314,24 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> chart.Panel:
 def _round_down(value: float) -> float:
     """Return the next smaller of 1, 2, 5 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(value))
-    return float(
-        power * max(step for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-9))
-    )
+    steps = (step for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-9))
+    return float(power * max(steps))
 
 
 def _field_panels(trace: xr.Dataset, name: str = "") -> list[chart.Panel]:
     """Return the pressure of a map with its section; nothing of a line."""
     if "field_pressure" not in trace:
         return []
-    x, y = _lengths(trace.field_x, trace), _lengths(trace.field_y, trace)
-    unit = _unit(trace)[1]
-    field = chart.ValueMap(x, y, trace.field_pressure.values.T / MEGA, "pressure $p$ [MPa]")
-    section = chart.CrossLine(float(trace.section) / _unit(trace)[0], BLUE, "section", width=1.2)
+    x, y, pressure = (trace[f"field_{of}"].values for of in ("x", "y", "pressure"))
+    marks: list[chart.Mark] = [
+        chart.ValueMap(x, y, pressure.T / MEGA, "pressure $p$ [MPa]"),
+        chart.CrossLine(float(trace.section), BLUE, "section", width=1.2),
+    ]
     return [
         chart.Panel(
-            chart.PlotAxis(f"$x$, the way of sliding [{unit}]", grid=False),
-            chart.PlotAxis(f"$y$ [{unit}]", grid=False),
-            [field, section],
+            chart.PlotAxis(f"$x$, the way of sliding [{trace.unit}]", grid=False),
+            chart.PlotAxis(f"$y$ [{trace.unit}]", grid=False),
+            marks,
             name=f"field-{_word(name)}",
             caption=f"{name}: contact pressure, white out of contact, and the section below.",
             alt=f"Contact pressure over the map {name}.",

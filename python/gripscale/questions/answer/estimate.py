@@ -108,30 +108,31 @@ def answer_of_samples(
     `answer_adhesive_friction` is its stress on the area of the answer, and `answer_total_friction`
     the sum with the hysteresis.
     """
-    has_direct = DIRECT in samples["model"].values
+    direct = samples.sel(model=DIRECT, drop=True) if DIRECT in samples["model"].values else None
     status = samples["prediction_status"].isel(model=0, sample=0, drop=True)
     unknown = xr.full_like(status, math.nan, dtype=float)
     factors: dict[str, tuple[str, FactorNumbers]] = {}
-    if has_direct:
-        numbers = _numbers_of(ASSUMED_FINITE_STRAIN, unknown)
-        if solved_finite_strain is not None:
-            numbers = solved_finite_strain
-        factors[ASSUMED_FINITE_STRAIN.name] = ASSUMED_FINITE_STRAIN.label, numbers
-        if _are_lines(samples):
-            factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(samples)
+    if direct is not None:
+        assumed, numbers = ASSUMED_FINITE_STRAIN, solved_finite_strain
+        factors[assumed.name] = assumed.label, numbers or _numbers_of(assumed, unknown)
+        heights = direct.get("upper_height")
+        if heights is not None and bool(heights.notnull().any()):  # lines of a surface, no map
+            factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
         for factor in supplied:
             factors[factor.name] = factor.label, _numbers_of(factor, unknown)
-    labels = [label for label, _ in factors.values()]
-    solved = [_where_all_known(numbers) for _, numbers in factors.values()]
+    labels, solved = [label for label, _ in factors.values()], [n for _, n in factors.values()]
+
+    def over_factors(values: Sequence[xr.DataArray]) -> xr.DataArray:
+        return xr.concat(values, "factor") if values else unknown.expand_dims(factor=0)
+
+    values = {name: over_factors([numbers[name][0] for numbers in solved]) for name in ESTIMATED}
+    # a factor that is not known of both quantities is not included
+    included = values["contact_fraction"].notnull() & values["friction"].notnull()
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
-    direct = samples.sel(model=DIRECT, drop=True) if has_direct else None
-    for share in BASIS_SHARES:
-        data[f"answer_{share}"] = unknown
-        if direct is not None and share in direct:
-            data[f"answer_{share}"] = reduce.mean(direct, share)
-    for share in SHARES_BY_SLOPE:
-        if direct is not None and share in direct:
-            data[f"answer_{share}"] = reduce.mean(direct, share)
+    data = data.assign({f"answer_{share}": unknown for share in BASIS_SHARES})
+    if direct is not None:
+        shares = (share for share in (*BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
+        data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
     errors_of: dict[str, LogError] = {}
     for name in ESTIMATED:
         mean, road, grid = unknown, LogError(unknown, unknown), unknown
@@ -142,18 +143,18 @@ def answer_of_samples(
         errors = [road, _certain(grid)]
         if sampled is not None:
             errors = [*([] if sampled.of_road else [road]), _certain(grid), *sampled.errors[name]]
-        data[f"answer_{name}_sampling_error"] = road.sigma
-        data[f"answer_{name}_grid_error"] = grid
-        value = uncertainty = unknown.expand_dims(factor=0)
-        if solved:
-            value = xr.concat([numbers[name][0] for numbers in solved], "factor")
-            every = [numbers[name][1] for numbers in solved]
-            uncertainty = xr.concat([error.sigma for error in every], "factor")
-            errors += [LogError(error.sigma.fillna(0.0), error.freedom) for error in every]
+        value, each = values[name].where(included), [numbers[name][1] for numbers in solved]
+        sigma = over_factors([error.sigma for error in each]).where(included)
+        errors += [
+            LogError(sigma.isel(factor=at).fillna(0.0), error.freedom)
+            for at, error in enumerate(each)
+        ]
         errors_of[name] = combined(errors)
         data = data.assign(with_interval(name, mean * value.prod("factor"), errors_of[name]))
+        data[f"answer_{name}_sampling_error"] = road.sigma
+        data[f"answer_{name}_grid_error"] = grid
         data[f"answer_{name}_factor"] = value
-        data[f"answer_{name}_factor_uncertainty"] = uncertainty
+        data[f"answer_{name}_factor_uncertainty"] = sigma
     if direct is not None and "adhesive_friction" in direct:
         term = reduce.mean(direct, "adhesive_friction")
         data = with_total_friction(
@@ -167,12 +168,22 @@ def with_large_strain(
 ) -> xr.Dataset:
     """Return an answer with what it becomes by the solved factor of finite strain.
 
-    Unchanged where windows were not solved with both models, or a supplied factor has its name.
+    The error of the factor is the scatter of the samples of both models and, evenly, as much again
+    as it changes, for what the samples leave out. Unchanged where windows were not solved with both
+    models, or a supplied factor has its name.
     """
-    solved = _finite_strain(samples)
-    if solved is None or any(factor.name == ASSUMED_FINITE_STRAIN.name for factor in supplied):
+    solved = {DIRECT, *FINITE_STRAIN} <= set(samples["model"].values.tolist())
+    if not solved or any(factor.name == ASSUMED_FINITE_STRAIN.name for factor in supplied):
         return answer
-    large = answer_of_samples(samples, supplied, solved_finite_strain=solved)
+    factor: FactorNumbers = {}
+    over, under = (samples.sel(model=member, drop=True) for member in FINITE_STRAIN)
+    for name, measure in ESTIMATED.items():
+        value, error = reduce.ratio(over, under, measure)
+        if not bool(value.notnull().all()):
+            return answer
+        changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
+        factor[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
+    large = answer_of_samples(samples, supplied, solved_finite_strain=factor)
     names = {name: name.replace(LARGE_STRAIN, "answer_") for name in LARGE_STRAIN_NUMBERS}
     numbers = {name: large[answered] for name, answered in names.items() if answered in large}
     for name, number in numbers.items():
@@ -232,15 +243,8 @@ def _certain(sigma: xr.DataArray) -> LogError:
     return LogError(sigma, xr.full_like(sigma, math.inf))
 
 
-def _are_lines(samples: xr.Dataset) -> bool:
-    """Return whether samples of the direct contact are lines of a surface, not a map."""
-    heights = samples.get("upper_height")
-    return heights is not None and bool(heights.sel(model=DIRECT).notnull().any())
-
-
-def _of_surface(samples: xr.Dataset) -> FactorNumbers:
+def _of_surface(direct: xr.Dataset) -> FactorNumbers:
     """Return the step from lines to their surface at the contact area of the lines."""
-    direct = samples.sel(model=DIRECT, drop=True)
     lines, *line = (
         reduce.mean(direct, name) for name in ("contact_fraction", "upper_height", "relative_load")
     )
@@ -253,24 +257,6 @@ def _of_surface(samples: xr.Dataset) -> FactorNumbers:
     return numbers
 
 
-def _finite_strain(samples: xr.Dataset) -> FactorNumbers | None:
-    """Return the factor of finite strain where windows were solved with both models, else None.
-
-    Its error is the scatter of the samples of both models and, evenly, as much again as the factor
-    changes, for what the samples leave out.
-    """
-    if not {DIRECT, *FINITE_STRAIN} <= set(samples["model"].values.tolist()):
-        return None
-    numbers: FactorNumbers = {}
-    over, under = (samples.sel(model=member, drop=True) for member in FINITE_STRAIN)
-    for name, measure in ESTIMATED.items():
-        value, error = reduce.ratio(over, under, measure)
-        changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
-        numbers[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
-    complete = all(bool(value.notnull().all()) for value, _ in numbers.values())
-    return numbers if complete else None
-
-
 def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
     numbers = {}
     for name in ESTIMATED:
@@ -279,15 +265,6 @@ def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
         error = LogError(sigma, xr.full_like(unknown, factor.freedom))
         numbers[name] = xr.full_like(unknown, number.value), error
     return numbers
-
-
-def _where_all_known(numbers: FactorNumbers) -> FactorNumbers:
-    """Return a factor with NaN where it is not known of all quantities: it is not included."""
-    there = np.logical_and.reduce([value.notnull() for value, _ in numbers.values()])
-    return {
-        name: (value.where(there), LogError(error.sigma.where(there), error.freedom))
-        for name, (value, error) in numbers.items()
-    }
 
 
 _INTERVAL = {

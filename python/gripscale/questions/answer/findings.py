@@ -35,7 +35,7 @@ from gripscale.questions.inputs.findings import (
     input_findings,
     misfits,
 )
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.wave.result import LARGE_MISMATCH
@@ -80,9 +80,7 @@ def answer_notices(data: xr.Dataset) -> Iterator[Finding]:
             area=octave.get("contact_fraction", math.nan),
             topic=Topic.SURFACE,
         )
-    traction, lost = (
-        float(direct[f"total_{name}"]) for name in ("friction", "friction_from_dissipation")
-    )
+    traction, lost = float(direct.total_friction), float(direct.total_friction_from_dissipation)
     apart = abs(traction / lost - 1.0) if is_moving(data) and lost > 0.0 else 0.0
     if apart > LARGE_MISMATCH:
         yield Finding(
@@ -156,17 +154,15 @@ def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Finding
     """Return what may change an answer, ranked: findings of its own and of its inputs."""
     if direct is None:
         return input_findings(record)
-    parts = answer_notices(direct), _beyond_measurement(direct, record), misfits(record)
+    beyond = _beyond_measurement(direct, record) if has_answer(direct) else extrapolated(record)
     in_answer = set(model.input_doubts_of(direct))
-    inputs = [finding for finding in record.warnings() if finding not in in_answer]
-    return ranked([*(finding for part in parts for finding in part), *inputs])
+    inputs = (finding for finding in record.warnings() if finding not in in_answer)
+    return ranked([*answer_notices(direct), *beyond, *misfits(record), *inputs])
 
 
 def _beyond_measurement(direct: xr.Dataset, record: InputRecord) -> Iterator[Finding]:
-    """Yield what the roughness adds that is shorter than the measurement resolves."""
-    if not has_answer(direct):
-        yield from extrapolated(record)
-    if not has_answer(direct) or not record.number("cut_off_beyond_measurement") > 0.0:
+    """Yield what the roughness adds to an answer that is shorter than the measurement resolves."""
+    if not record.number("cut_off_beyond_measurement") > 0.0:
         return
     limit, end = record.number("cut_off_carried_m"), record.number("cut_off_m")
     held = float(direct.cutoff_wavelength)

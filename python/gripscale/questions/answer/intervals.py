@@ -32,10 +32,9 @@ class LogError(NamedTuple):
 
 def combined(errors: Sequence[LogError]) -> LogError:
     """Return the error of a product of independent numbers; NaN if one of them is not known."""
-    variance = sum((error.sigma**2 for error in errors), start=xr.DataArray(0.0))
-    uncertain = sum(
-        ((error.sigma**4 / error.freedom).fillna(0.0) for error in errors), start=xr.DataArray(0.0)
-    )
+    zero = xr.DataArray(0.0)
+    variance = sum((error.sigma**2 for error in errors), zero)
+    uncertain = sum(((error.sigma**4 / error.freedom).fillna(0.0) for error in errors), zero)
     freedom = (variance**2 / uncertain.where(uncertain > 0.0)).fillna(np.inf)
     return LogError(variance**0.5, freedom)
 

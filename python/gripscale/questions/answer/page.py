@@ -29,7 +29,7 @@ from gripscale.questions.answer.reliance import headline
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.inputs.page import rubber_section, surface_section
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
 from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report.again import case_title, rerun_section
@@ -54,31 +54,25 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
         yield f"Answer: {statement}"
         return
     lead = f"{statement} It would be " if statement else ""
-    yield f"Answer: {lead}{answer_words(data)}"
-    yield from (f"  {line}" for line in basis_lines(data))
-
-
-def answer_words(data: xr.Dataset) -> str:
-    """Return the numbers of an answer with their intervals, and the parts of the friction."""
-    texts = []
-    for name in reliance.estimated_names(data):
-        texts.append(f"{SYMBOLS[name]} = {reliance.headline(data, name)}")
-        parts = friction_parts(data)
-        if name == "friction" and parts:
-            texts[-1] += f": {parts}"
-    numbers = ("; " if "area term" in texts[0] else ", ").join(texts)
+    numbers = [
+        f"{SYMBOLS[name]} = {headline(data, name)}" for name in reliance.estimated_names(data)
+    ]
+    if parts := friction_parts(data):
+        numbers[0] += f": {parts}"
     rest = "" if reliance.is_moving(data) else "no friction at rest; "
     by = "" if reliance.is_measured(data) else " by the chain of waves"
-    if reliance.headline(data, "contact_fraction").interval:
-        return f"{rest}{numbers}{by} ({100.0 * LEVEL:.0f} % intervals)"
-    return f"{rest}{numbers}{by}{',' if by else ''} without an interval"
+    intervals = f" ({100.0 * LEVEL:.0f} % intervals)"
+    if not headline(data, "contact_fraction").interval:
+        intervals = f"{',' if by else ''} without an interval"
+    yield f"Answer: {lead}{rest}{('; ' if parts else ', ').join(numbers)}{by}{intervals}"
+    yield from (f"  {line}" for line in basis_lines(data))
 
 
 def friction_parts(data: xr.Dataset) -> str:
     """Return what the friction of an answer with an area term is the sum of; else empty."""
-    parts = (reliance.answer_number(data, name).value for name in ("friction", "adhesive_friction"))
-    hysteresis, term = parts
-    if not math.isfinite(term):
+    names = ("friction", "adhesive_friction")
+    hysteresis, term = (reliance.answer_number(data, name).value for name in names)
+    if not math.isfinite(term) or not reliance.is_moving(data):
         return ""
     return f"{significant(hysteresis)} of hysteresis and {significant(term)} of the area term"
 
@@ -98,7 +92,7 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
         thickness = display_unit_of(data.attrs, "thickness").text(float(data.thickness))
         thick = f", rubber {thickness} thick on a rigid base"
     yield f"For {pressure} {motion}, roughness down to {end}{thick}."
-    if reading := tester_reading(data.attrs.get(TESTER, ""), *reliance.headline(data, "friction")):
+    if reading := tester_reading(data.attrs.get(TESTER, ""), *headline(data, "friction")):
         yield f"{reading}."
     if MEASURED_FRICTION in data:
         yield f"Measured: μ = {measured_words(data)}."

@@ -41,18 +41,14 @@ def no_answer(data: xr.Dataset) -> str:
     """Return why a result has no answer, or none to rely on; empty if it has one."""
     doubts = [doubt.sentence for doubt in model.input_doubts_of(data)]
     if not has_answer(data):
-        words = f"The {solved_model(data)} has no result: {_status(data)}."
+        direct = direct_of(data)
+        name = next((name for name in (model.STATUS, "status") if name in direct), "")
+        ended = str(direct[name].item()) if name and not direct[name].ndim else ""
+        words = f"The {solved_model(data)} has no result: {ended}."
         return " ".join(["none.", *doubts, words])
     guessed = [share.sentence for share in guesses(data) if share.effect > MOST_ON_GUESSES]
     reasons = [*doubts, *guessed, *_sampled_too_little(data)]
     return f"none to rely on. {' '.join(reasons)}" if reasons else ""
-
-
-def _status(data: xr.Dataset) -> str:
-    """Return how the direct contact of a result ended; empty if none was solved."""
-    direct = direct_of(data)
-    name = next((name for name in (model.STATUS, "status") if name in direct), "")
-    return str(direct[name].item()) if name and not direct[name].ndim else ""
 
 
 def guesses(data: xr.Dataset) -> Iterator[Finding]:

@@ -13,6 +13,7 @@ A number between y exp(-sigma) and y exp(sigma) is within one standard uncertain
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -63,10 +64,8 @@ def sample_numbers(
             numbers["contact_fraction"], load.pressure, load.speed, kelvin
         )
     beyond, exponents = model.extrapolation_of(answer), model.cut_off_exponents_of(answer)
-    numbers |= {name: getattr(beyond, part) for name, (part, _) in model.OUTSIDE_BAND.items()}
-    numbers |= {
-        name: getattr(exponents, part) for name, (part, _) in model.CUT_OFF_EXPONENTS.items()
-    }
+    for whole, parts in ((beyond, model.OUTSIDE_BAND), (exponents, model.CUT_OFF_EXPONENTS)):
+        numbers |= {name: getattr(whole, part) for name, (part, _) in parts.items()}
     numbers[model.WHY_NO_EXPONENT] = exponents.why_not
     numbers[model.STATUS] = str(answer[model.STATUS].item())
     numbers[model.STATUS_WORD] = str(model.status_words(answer).item())
@@ -83,13 +82,11 @@ def _curve(answer: xr.Dataset) -> dict[str, Any]:
     if by_octave:
         names = ("contact_fraction_without_shorter", "octave_running_friction")
         weight = answer["weight"].values
-        parts = (answer[name].transpose("profile", ...).values for name in names)
-        area, friction = (weight @ part for part in parts)
+        area, friction = (weight @ answer[n].transpose("profile", ...).values for n in names)
     elif "running_friction" in answer:
         friction = answer["running_friction"].values
-        area = np.full(friction.size, np.nan)
-        if "running_contact_fraction" in answer:
-            area = answer["running_contact_fraction"].values
+        unknown = xr.full_like(answer["running_friction"], math.nan)
+        area = answer.get("running_contact_fraction", unknown).values
     else:
         return {}
     return {
@@ -238,21 +235,20 @@ def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray,
     of both; the truth lies evenly within the errors that the models estimate.
     """
     if not paired(over, under):
-        means = [usable(samples, name).mean("sample") for samples in (over, under)]
+        upper, lower = (usable(samples, name).mean("sample") for samples in (over, under))
         uncertainties = (relative_uncertainty(samples, name) for samples in (over, under))
         first, second = (road_error(samples, name).freedom for samples in (over, under))
         fewest = first.where(first < second, second)
-        value = means[0] / means[1].where(means[1] != 0.0)
-        return value, LogError(in_quadrature(*uncertainties), fewest)
+        return upper / lower.where(lower != 0.0), LogError(in_quadrature(*uncertainties), fewest)
     both = converged(over) & converged(under)
-    upper, lower = over[name].where(both), under[name].where(both)
-    mean, scatter = lower.mean("sample"), pair_scatter(over, under, name)
+    upper, lower = (samples[name].where(both).mean("sample") for samples in (over, under))
+    scatter = pair_scatter(over, under, name)
     errors = (
         estimated_error(samples, name).where(both.any("sample")) / math.sqrt(3.0)
         for samples in (over, under)
     )
     sigma = in_quadrature(scatter.sigma, *errors)
-    return upper.mean("sample") / mean.where(mean != 0.0), LogError(sigma, scatter.freedom)
+    return upper / lower.where(lower != 0.0), LogError(sigma, scatter.freedom)
 
 
 def pair_scatter(over: xr.Dataset, under: xr.Dataset, name: str) -> LogError:
@@ -306,34 +302,40 @@ def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
         total = _sum(weight, there)
         mean = _sum(weight * samples[name], there) / total.where(total != 0.0)
         data[name] = mean.where(there.any("sample"))
-    texts = samples[model.WHY_NO_EXPONENT].where(there, "").transpose(..., "sample")
-    first = texts.isel(sample=0).copy(deep=True)
-    for at in np.ndindex(first.shape):
-        first.values[at] = next(filter(None, texts.values[at]), "")
-    data[model.WHY_NO_EXPONENT] = first.where(there.any("sample"), NOT_TOLD.why_not)
+    why_not = _over_samples(
+        lambda texts: next(filter(None, texts), ""), samples[model.WHY_NO_EXPONENT].where(there, "")
+    )
+    data[model.WHY_NO_EXPONENT] = why_not.where(there.any("sample"), NOT_TOLD.why_not)
     return xr.Dataset(data)
 
 
 def status(samples: xr.Dataset) -> xr.DataArray:
     """Return "converged", or how many samples did not and what the first of them says."""
-    texts = samples[model.STATUS].transpose(..., "sample")
-    words = np.empty(texts.shape[:-1], dtype=object)
-    for at in np.ndindex(words.shape):
-        present = [text for text in texts.values[at] if text]
+
+    def in_words(texts: Sequence[str]) -> str:
+        present = [text for text in texts if text]
         bad = [text for text in present if text != CONVERGED]
-        words[at] = next(iter(bad), CONVERGED)
         if bad and len(present) > 1:
-            words[at] = f"{len(bad)} of {len(present)} samples failed: {bad[0]}"
-    return xr.DataArray(words, dims=texts.dims[:-1])
+            return f"{len(bad)} of {len(present)} samples failed: {bad[0]}"
+        return next(iter(bad), CONVERGED)
+
+    return _over_samples(in_words, samples[model.STATUS])
 
 
 def status_word(samples: xr.Dataset) -> xr.DataArray:
     """Return the word of the status of the first sample that did not converge, or "converged"."""
-    texts = samples[model.STATUS].transpose(..., "sample")
-    of_samples = model.status_words(samples).transpose(..., "sample")
-    words = np.empty(texts.shape[:-1], dtype=object)
-    for at in np.ndindex(words.shape):
-        pairs = zip(texts.values[at], of_samples.values[at], strict=True)
-        bad = (str(word) for text, word in pairs if text not in ("", CONVERGED))
-        words[at] = next(bad, CONVERGED)
-    return xr.DataArray(words, dims=texts.dims[:-1])
+
+    def first(texts: Sequence[str], words: Sequence[str]) -> str:
+        pairs = zip(texts, words, strict=True)
+        return next((str(word) for text, word in pairs if text not in ("", CONVERGED)), CONVERGED)
+
+    return _over_samples(first, samples[model.STATUS], model.status_words(samples))
+
+
+def _over_samples(text: Callable[..., str], *values: xr.DataArray) -> xr.DataArray:
+    """Return one text of the values of all samples, for each load."""
+    each: dict[str, Any] = {"vectorize": True, "output_dtypes": [object]}
+    words: xr.DataArray = xr.apply_ufunc(
+        text, *values, input_core_dims=[["sample"]] * len(values), **each
+    )
+    return words

@@ -42,7 +42,7 @@ from gripscale.questions.calibration.measured_comparison import (
 )
 from gripscale.questions.calibration.profile_likelihood import groups_of
 from gripscale.questions.inputs import record
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.questions.uncertainty.page import as_elements
 from gripscale.questions.vary.inputs import default_model

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -29,11 +29,11 @@ from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
 from gripscale.core import Array, InputError
-from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit
+from gripscale.core.units import MILLI, ZERO_CELSIUS
 from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.result import RoughContact
-from gripscale.model import with_adhesive
+from gripscale.model import ADHESIVE_FRICTION
 from gripscale.questions.answer.reliance import headline
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import measured_points
@@ -73,11 +73,12 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
     converge are red crosses.
     """
     judged = [*predictions, *([] if direct is None else [PredictionView(direct, JUDGE)])]
-    area, friction = (_total_panel(judged, name) for name in AXIS_TITLES)
-    panels = [area.with_marks(_failed(predictions, "contact_fraction"))]
     moving = [view for view in predictions if view.moving]
-    if moving:
-        panels.append(friction.with_marks(_failed(moving, "friction")))
+    panels = [
+        _total_panel(judged, name).with_marks(_failed(views, name))
+        for name, views in (("contact_fraction", predictions), ("friction", moving))
+        if views
+    ]
     abscissa, pressure_unit = _wavelengths(predictions), predictions[0].display_unit("pressure")
     panels.append(Panel(
         abscissa,
@@ -103,7 +104,25 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
             "both are near one.",
             alt="Largest and smallest principal stretch against wavelength.",
         ))  # fmt: skip
-    panels += [_pressure_panel(view) for view in predictions if view.has("surface_pressure")]
+    for view in predictions:
+        if not view.has("surface_pressure"):
+            continue
+        unit, wavelength = view.display_unit("pressure"), view.column("wavelength") / MILLI
+        marks = []
+        for i, shade in enumerate(style.shades(view.waves)):
+            phase, pressure = view.pressure_along(i)
+            colour, end = (shade, "") if view.converged[i] else (RED, ", not converged")
+            label = f"{i + 1}: {wavelength[i]:.3g} mm{end}"
+            marks.append(Series(phase, unit.of(pressure), colour, label, width=1.2))
+        panels.append(Panel(
+            PlotAxis("$x/\\lambda$, crest at 0 [-]"),
+            PlotAxis(f"contact pressure [{unit.unit}]"),
+            marks,
+            name=f"pressure-{view.name}",
+            caption=f"{view.title}: contact pressure along each wave. Click a wave to hide it.",
+            alt=f"Contact pressure along each wave of the {view.name} prediction.",
+            height=380,
+        ))  # fmt: skip
     return draw.panels_on_page(panels)
 
 
@@ -122,7 +141,7 @@ def _total_panel(views: Views, name: str) -> Panel:
         axis,
         [mark for view, colour in zip(views, COLOURS, strict=False)
          if view.moving or name != "friction"
-         for mark in (*_running_and_each(view, name, colour), *_answer(view, name, abscissa))],
+         for mark in _total_marks(view, name, colour, abscissa)],
         name=title,
         caption=f"{words.capitalize()}: {sum_of} down to each wave (filled), and of each wave "
         "(open); dashed beyond the measured band.",
@@ -135,36 +154,32 @@ def _wavelengths(views: Views) -> PlotAxis:
     return chart.wavelength_axis(np.concatenate([*columns, []]))
 
 
-def _running_and_each(view: PredictionView, quantity: str, colour: str) -> Iterator[Mark]:
-    """Yield the running value and that of each wave, or the total of a model without waves."""
+def _total_marks(view: PredictionView, name: str, colour: str, along: PlotAxis) -> Iterator[Mark]:
+    """Yield the running value and that of each wave, or the total of a model without waves.
+
+    Above them the answer with its interval, if there is one.
+    """
     if not view.waves:
-        total = view.total(quantity)
-        if np.isfinite(total):
+        if np.isfinite(total := view.total(name)):
             yield CrossLine(total, colour, f"{view.name}, total", "dotted", 1.4)
-        return
-    if not view.converged.any():
-        label = f"{view.name}: {view.why(view.waves - 1)}"
-        yield Series([], [], colour, label, dash="")
-        return
-    x, beyond = view.column("wavelength") / MILLI, style.waves_beyond(view.data)
-    running, each = view.usable(f"running_{quantity}"), view.usable(quantity)
-    yield Series(
-        x, running, colour, f"{view.name}, running total", marker="o", beyond=style.down_to(beyond)
-    )
-    yield Series(x, each, colour, f"{view.name}, each wave", marker="o", beyond=beyond, width=0.8,
-                 filled=False)  # fmt: skip
-
-
-def _answer(view: PredictionView, quantity: str, along: PlotAxis) -> Iterator[Mark]:
-    """Yield the answer with its interval, if there is one."""
-    best, low, high = headline(view.data, quantity)
-    if not np.isfinite(best):
-        return
-    measured = np.isfinite(low)
-    yield CrossLine(best, INK, ANSWER if measured else "answer", width=1.2)
-    if measured:
-        ends = (0.0, 1.0) if along.low is None or along.high is None else (along.low, along.high)
-        yield ShadedBand(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
+    elif not view.converged.any():
+        yield Series([], [], colour, f"{view.name}: {view.why(view.waves - 1)}", dash="")
+    else:
+        x, beyond = view.column("wavelength") / MILLI, style.waves_beyond(view.data)
+        running, each, down_to = f"running_{name}", view.usable(name), style.down_to(beyond)
+        yield Series(x, view.usable(running), colour, f"{view.name}, running total", marker="o",
+                     beyond=down_to)  # fmt: skip
+        yield Series(x, each, colour, f"{view.name}, each wave", marker="o", beyond=beyond,
+                     width=0.8, filled=False)  # fmt: skip
+    best, low, high = headline(view.data, name)
+    if np.isfinite(best):
+        measured = np.isfinite(low)
+        yield CrossLine(best, INK, ANSWER if measured else "answer", width=1.2)
+        if measured:
+            ends = (
+                (0.0, 1.0) if along.low is None or along.high is None else (along.low, along.high)
+            )
+            yield ShadedBand(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
 
 
 def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator[Series]:
@@ -189,54 +204,14 @@ def _pairs(
     ]  # fmt: skip
 
 
-def _pressure_panel(view: PredictionView) -> Panel:
-    pressure_unit, wavelength = view.display_unit("pressure"), view.column("wavelength") / MILLI
-    marks: list[Mark] = []
-    for i, colour in enumerate(style.shades(view.waves)):
-        phase, pressure = view.pressure_along(i)
-        good = view.converged[i]
-        label = f"{i + 1}: {wavelength[i]:.3g} mm{'' if good else ', not converged'}"
-        marks.append(
-            Series(phase, pressure_unit.of(pressure), colour if good else RED, label, width=1.2)
-        )
-    return Panel(
-        PlotAxis("$x/\\lambda$, crest at 0 [-]"),
-        PlotAxis(f"contact pressure [{pressure_unit.unit}]"),
-        marks,
-        name=f"pressure-{view.name}",
-        caption=f"{view.title}: contact pressure along each wave. Click a wave to hide it.",
-        alt=f"Contact pressure along each wave of the {view.name} prediction.",
-        height=380,
-    )
-
-
 def verification_charts(predictions: Views) -> list[Chart]:
     """Return the figures that say how far the numbers may be trusted."""
-    panels: list[Panel] = []
-    for view in predictions:
-        if view.moving:
-            traction, lost = view.usable("friction"), view.usable("friction_from_dissipation")
-            panels.append(Panel(
-                _wave_axis([view]),
-                PlotAxis("friction coefficient of the wave [-]"),
-                [
-                    Series(view.number, traction, BLUE, "from the contact traction", "",
-                           marker="o", size=7.0, filled=False),
-                    Series(view.number, lost, ORANGE, "from the energy lost", "", marker="+",
-                           size=7.0),
-                    *_failed([view], "friction", by_number=True),
-                ],
-                name=f"two-frictions-{view.name}",
-                caption="The two measures of friction, found independently; a cross in its circle "
-                "means they agree.",
-                alt="Friction coefficient of each wave from traction and from dissipation.",
-            ))  # fmt: skip
-            if view.shows("friction_mismatch"):
-                panels.append(_errors_panel(view))
+    panels = [panel for view in predictions if view.moving for panel in _friction_panels(view)]
+    coloured = list(zip(predictions, COLOURS, strict=False))
     if any((view.column("residual") > 0.0).any() for view in predictions):
-        residuals: list[Mark] = [
+        residuals = [
             Series(view.number, view.column("residual"), colour, view.name, marker="o")
-            for view, colour in zip(predictions, COLOURS, strict=False)
+            for view, colour in coloured
         ]
         panels.append(Panel(
             _wave_axis(predictions),
@@ -246,7 +221,24 @@ def verification_charts(predictions: Views) -> list[Chart]:
             caption="Residual of the equations at the end of Newton's iteration.",
             alt="Residual of each wave on a logarithmic axis.",
         ))  # fmt: skip
-    return draw.panels_on_page([*panels, _iterations_panel(predictions)])
+    width = 0.8 / len(predictions)
+    bars: list[Mark] = []
+    for i, (view, colour) in enumerate(coloured):
+        start, count = view.number + i * width - 0.4, view.column("newton_iterations")
+        good = view.converged
+        for rows, shade, label in ((good, colour, view.name), (~good, RED, "not converged")):
+            if rows.any():
+                ends = start[rows], start[rows] + 0.9 * width
+                bars.append(Bars(*ends, 0.0, count[rows], shade, label))
+    panels.append(Panel(
+        _wave_axis(predictions),
+        PlotAxis("Newton iterations [-]", low=0.0),
+        bars,
+        name="iterations",
+        caption="Newton iterations over all load steps; red where the wave did not converge.",
+        alt="Newton iterations of each wave.",
+    ))  # fmt: skip
+    return draw.panels_on_page(panels)
 
 
 def _wave_axis(views: Views) -> PlotAxis:
@@ -254,20 +246,39 @@ def _wave_axis(views: Views) -> PlotAxis:
     return PlotAxis("number of the wave [-]", ticks={float(i): str(i) for i in range(1, most + 1)})
 
 
-def _errors_panel(view: PredictionView) -> Panel:
-    """Return the mismatch, and the solver's error estimates where it gives them."""
-    friction = np.abs(view.usable("friction"))
-    errors = [("mismatch of the two frictions", BLUE, view.usable("friction_mismatch"))]
-    if view.has("friction_error"):
-        share = np.abs(view.usable("friction_error")) / np.where(friction > 0, friction, np.nan)
-        errors.append(("estimated error of friction", ORANGE, share))
-    if view.has("contact_fraction_error"):
-        error = np.abs(view.usable("contact_fraction_error"))
-        errors.append(("estimated error of contact fraction", GREEN, error))
-    return Panel(
+def _friction_panels(view: PredictionView) -> Iterator[Panel]:
+    """Yield the two frictions, their mismatch, and the error estimates that the solver gives."""
+    friction, lost = view.usable("friction"), view.usable("friction_from_dissipation")
+    yield Panel(
+        _wave_axis([view]),
+        PlotAxis("friction coefficient of the wave [-]"),
+        [
+            Series(view.number, friction, BLUE, "from the contact traction", "", marker="o",
+                   size=7.0, filled=False),
+            Series(view.number, lost, ORANGE, "from the energy lost", "", marker="+", size=7.0),
+            *_failed([view], "friction", by_number=True),
+        ],
+        name=f"two-frictions-{view.name}",
+        caption="The two measures of friction, found independently; a cross in its circle means "
+        "they agree.",
+        alt="Friction coefficient of each wave from traction and from dissipation.",
+    )  # fmt: skip
+    if not view.shows("friction_mismatch"):
+        return
+    size = np.abs(friction)
+    errors: list[tuple[str, str, str, Array | float]] = [
+        ("friction_mismatch", "mismatch of the two frictions", BLUE, 1.0),
+        ("friction_error", "estimated error of friction", ORANGE, np.where(size > 0, size, np.nan)),
+        ("contact_fraction_error", "estimated error of contact fraction", GREEN, 1.0),
+    ]
+    yield Panel(
         _wave_axis([view]),
         PlotAxis("error [%]", log=True),
-        [Series(view.number, 100.0 * v, colour, label, marker="o") for label, colour, v in errors],
+        [
+            Series(view.number, 100.0 * np.abs(view.usable(name)) / over, colour, label, marker="o")
+            for name, label, colour, over in errors
+            if view.has(name)
+        ],
         name=f"errors-{view.name}",
         caption="Errors of the discretisation: friction relative, contact fraction absolute (of "
         "the wavelength).",
@@ -275,39 +286,19 @@ def _errors_panel(view: PredictionView) -> Panel:
     )
 
 
-def _iterations_panel(views: Views) -> Panel:
-    width = 0.8 / len(views)
-    marks: list[Mark] = []
-    for i, (view, colour) in enumerate(zip(views, COLOURS, strict=False)):
-        start, good = view.number + (i - 0.5 * len(views)) * width, view.converged
-        count = view.column("newton_iterations")
-        for rows, shade, label in ((good, colour, view.name), (~good, RED, "not converged")):
-            if rows.any():
-                ends = start[rows], start[rows] + 0.9 * width
-                marks.append(Bars(*ends, 0.0, count[rows], shade, label))
-    return Panel(
-        _wave_axis(views),
-        PlotAxis("Newton iterations [-]", low=0.0),
-        marks,
-        name="iterations",
-        caption="Newton iterations over all load steps; red where the wave did not converge.",
-        alt="Newton iterations of each wave.",
-    )
-
-
 def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
     """Return measured friction with the totals of `predictions`, each at its speed."""
-    speed_unit = predictions[0].display_unit("speed") if predictions else display_unit("speed")
+    speed_unit = predictions[0].display_unit("speed")
     marks: list[Mark] = [*measured_points(xr.Dataset(measured_variables(friction)), speed_unit)]
     for view, colour in zip(predictions, COLOURS, strict=False):
-        both = with_adhesive(view.data)
-        totals = [("hysteresis", float(view.data.total_friction), True)]
-        totals += [] if both is None else [("with the area term", float(both), False)]
+        hysteresis = float(view.data.total_friction)
+        both = hysteresis + float(view.data.get(ADHESIVE_FRICTION, math.nan))
+        totals = (("hysteresis", hysteresis, True), ("with the area term", both, False))
         marks += [
-            Series(speed_unit.of([view.speed]), [friction], colour, f"{view.name}, {words}", "",
+            Series(speed_unit.of([view.speed]), [total], colour, f"{view.name}, {words}", "",
                    marker="*", size=11.0, filled=filled)
-            for words, friction, filled in totals
-            if np.isfinite(friction)
+            for words, total, filled in totals
+            if np.isfinite(total)
         ]  # fmt: skip
     panel = Panel(
         PlotAxis(f"speed [{speed_unit.unit}]", log=True),
@@ -338,14 +329,7 @@ def heat_figure(data: xr.Dataset, title: str = "") -> Figure:
     that cool it below zero: heat that comes up from the depth when the contact has passed. Dots are
     at the surface, in the contact of the wave. Waves without solution are left out.
 
-    Raises `InputError` if there are no temperatures in it.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `ChainResult.to_dataset`, with heat.
-    title : str
-        Above the panel.
+    Raises `InputError` if there are no temperatures in `data`, of `ChainResult.to_dataset`.
     """
     return heat_sheet(data, title).on_paper()
 
@@ -374,24 +358,15 @@ def heat_sheet(data: xr.Dataset, title: str = "") -> Sheet:
                         size=4.0, filled=False))  # fmt: skip
     label = f"above the {before - ZERO_CELSIUS:.3g} °C before the contact [K]"
     panel = Panel(chart.wavelength_axis(length), PlotAxis(label, margin=0.08), marks)
-    look: dict[str, Any] = {"legend_columns": 2, "legend_title": title, "gap": 0.02}
-    return Sheet([panel], 1, NARROW, 3.4, **look)
+    return Sheet([panel], 1, NARROW, 3.4, legend_columns=2, legend_title=title, gap=0.02)
 
 
 def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
     """Draw by how much the rubber is warmer than before a direct contact.
 
     On one side where the octaves of wavelengths lose their energy; on the other at the surface, of
-    a line with its contact marked below.
-
-    Raises `InputError` if it has no temperatures.
-
-    Parameters
-    ----------
-    contact : RoughContact
-        Solved with heat, sliding.
-    title : str
-        Above the panels.
+    a line with its contact marked below. Raises `InputError` if the contact was not solved with
+    heat, sliding.
     """
     if contact.surface_warming is None or contact.scales is None:
         raise InputError("contact must be solved with heat and slide; got one without temperatures")
@@ -402,24 +377,21 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
         PlotAxis("warming where the octave loses energy [K]", low=0.0, high=top),
         [Series(length, contact.scales.warming, ORANGE, marker="o")],
     )
-    x, warming = contact.x / MILLI, contact.surface_warming
+    x, warming, words = contact.x / MILLI, contact.surface_warming, "warming of the surface [K]"
     along = PlotAxis("along the way of sliding $x$ [mm]", margin=0.0)
     if contact.height.ndim == 1:
         top = float(np.max(warming))
         level = float(np.average(warming, weights=contact.pressure))
         touching = np.where(contact.active, -0.06 * top, np.nan)
-        surface = Panel(
-            along,
-            PlotAxis("warming of the surface [K]", low=-0.12 * top, high=1.25 * top),
-            [
-                Series(x, warming, ORANGE, width=0.9, coarse=True),
-                CrossLine(level, GREY, "mean in the contact, by pressure", "dashdot"),
-                Series(x, touching, GREEN, "contact", width=4.0),
-            ],
-            legend="upper right",
-        )
+        marks: list[Mark] = [
+            Series(x, warming, ORANGE, width=0.9, coarse=True),
+            CrossLine(level, GREY, "mean in the contact, by pressure", "dashdot"),
+            Series(x, touching, GREEN, "contact", width=4.0),
+        ]
+        warmth = PlotAxis(words, low=-0.12 * top, high=1.25 * top)
+        surface = Panel(along, warmth, marks, legend="upper right")
     else:
-        field = ValueMap(x, contact.y / MILLI, warming.T, "warming of the surface [K]")
+        field = ValueMap(x, contact.y / MILLI, warming.T, words)
         surface = Panel(
             PlotAxis(along.label, grid=False), PlotAxis("$y$ [mm]", grid=False), [field]
         )
@@ -441,17 +413,10 @@ PER_CENT = "at a bar: change by the effects that are left out"
 def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
     """Draw A_r/A_0 and friction as bars: with all effects, without each in turn, without any.
 
-    A dotted line goes on from the answer with all effects. At each other bar stands what the
-    effects left out change, in per cent of it. Where an area term was asked for, friction with it
-    has a panel of its own.
-
-    Parameters
-    ----------
-    *results : xarray.Dataset
-        As `effects` returns them, one for each model, one at least; all of the
-        same conditions.
-    title : str
-        Above the panels.
+    `results` are of `effects`, one for each model, one at least; all of the same conditions. A
+    dotted line goes on from the answer with all effects. At each other bar stands what the effects
+    left out change, in per cent of it. Where an area term was asked for, friction with it has a
+    panel of its own.
     """
     return effects_sheet(*results, title=title).on_paper()
 
@@ -461,18 +426,24 @@ def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:
     names = [str(name) for name in results[0].effect.values]
     ticks = {float(i): EFFECTS.get(name, name) for i, name in enumerate(names)}
     rows = PlotAxis("", low=len(names) - 0.5, high=-0.5, ticks=ticks, grid=False)
+    half = 0.45 * SHARE / len(results)
     panels = []
     for name, label in PANELS.items():
         values = [result[name].values for result in results if name in result]
         if not values:
             continue
         longest = float(np.nanmax(np.concatenate(values), initial=0.0))
-        marks = [
-            mark
-            for k, (result, colour) in enumerate(zip(results, COLOURS, strict=False))
-            if name in result
-            for mark in _effect_bars(result, name, colour, longest, (k, len(results)))
-        ]
+        marks: list[Mark] = []
+        for k, (result, colour) in enumerate(zip(results, COLOURS, strict=False)):
+            if name not in result:
+                continue
+            bars, model = result[name].values, str(result.attrs["model"])
+            at: Array = np.arange(float(bars.size)) + SHARE * ((k + 0.5) / len(results) - 0.5)
+            ends, label_of_model = np.nan_to_num(bars), MODELS.get(model, model)
+            marks.append(Bars(0.0, ends, at - half, at + half, colour, label_of_model))
+            if np.isfinite(bars[0]):
+                marks.append(CrossLine(bars[0], colour, "", "dotted", upright=True, order=0.9))
+            marks += _changes(at, bars, result[CHANGES[name]].values, _INSIDE * longest)
         high = 1.3 * longest or None
         panels.append(Panel(PlotAxis(label, low=0.0, high=high, numbers=4), rows, marks))
     return Sheet(
@@ -486,25 +457,14 @@ def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:
     )
 
 
-def _effect_bars(
-    result: xr.Dataset, name: str, colour: str, longest: float, model: tuple[int, int]
-) -> Iterator[Mark]:
-    """Yield the bars of one of several models, and at each what the effects left out change."""
-    number, count = model
-    values, changes = result[name].values, result[CHANGES[name]].values
-    rows = np.arange(values.size) + SHARE * ((number + 0.5) / count - 0.5)
-    half = 0.45 * SHARE / count
-    model_name = str(result.attrs["model"])
-    yield Bars(0.0, np.nan_to_num(values), rows - half, rows + half, colour,
-               MODELS.get(model_name, model_name))  # fmt: skip
-    if np.isfinite(values[0]):
-        yield CrossLine(values[0], colour, "", "dotted", upright=True, order=0.9)
-    for at, value, change in zip(rows, values, changes, strict=True):
-        if np.isfinite(value) and not np.isfinite(change):
-            continue
-        text = f"{100.0 * change:+.0f} %" if np.isfinite(value) else "not converged"
-        x, y = float(np.nan_to_num(value)), float(at)
-        if value > _INSIDE * longest:
-            yield Note(x, y, text, "white", (-3.0, 0.0), "right")
-        else:  # a short bar may end just before the dotted line, which then passes behind
-            yield Note(x, y, text, INK, (3.0, 0.0), boxed=True)
+def _changes(rows: Array, bars: Array, changes: Array, inside: float) -> Iterator[Note]:
+    """Yield at each bar what the effects left out change; in a bar longer than `inside`, in it."""
+    for y, bar, change in zip(rows.tolist(), bars.tolist(), changes.tolist(), strict=True):
+        if math.isnan(bar):
+            yield Note(0.0, y, "not converged", INK, (3.0, 0.0), boxed=True)
+        elif math.isfinite(change):
+            text = f"{100.0 * change:+.0f} %"
+            if bar > inside:
+                yield Note(bar, y, text, "white", (-3.0, 0.0), "right")
+            else:  # a short bar may end just before the dotted line, which then passes behind
+                yield Note(bar, y, text, INK, (3.0, 0.0), boxed=True)

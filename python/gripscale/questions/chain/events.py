@@ -10,12 +10,11 @@ All numbers are in SI units; NaN and infinity are `null`. A reader ignores event
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias, get_args
+from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
     from gripscale.chain.prediction import ChainResult
@@ -23,8 +22,12 @@ if TYPE_CHECKING:
 PASSES = "passes"  # detail of the waves of a prediction whose rubber and contact were iterated
 
 
+class Event:
+    """What happens while a case runs."""
+
+
 @dataclass(frozen=True)
-class RunStarted:
+class RunStarted(Event):
     """The inputs of the case are read and fitted; the waves follow."""
 
     predictions: tuple[str, ...]  # names of the predictions the case asks for, in order
@@ -33,14 +36,14 @@ class RunStarted:
 
 
 @dataclass(frozen=True)
-class ResultsReplaced:
+class ResultsReplaced(Event):
     """Results of an earlier run are about to be replaced."""
 
     message: str  # what is replaced, in a sentence
 
 
 @dataclass(frozen=True)
-class WaveSolved:
+class WaveSolved(Event):
     """One more wave of a prediction is solved."""
 
     prediction: str
@@ -72,7 +75,7 @@ class WaveSolved:
 
 
 @dataclass(frozen=True)
-class PredictionFinished:
+class PredictionFinished(Event):
     """A prediction is complete, or ended at a wave without solution."""
 
     prediction: str
@@ -100,7 +103,7 @@ class PredictionFinished:
 
 
 @dataclass(frozen=True)
-class AnswerSolved:
+class AnswerSolved(Event):
     """The answer of the case is solved: friction and contact area of the measured surface."""
 
     converged: bool
@@ -109,52 +112,40 @@ class AnswerSolved:
 
 
 @dataclass(frozen=True)
-class EffectsSolved:
+class EffectsSolved(Event):
     """The effect of each condition on area and friction is solved."""
 
     effects: tuple[str, ...]  # names of the conditions, such as "heat"
 
 
 @dataclass(frozen=True)
-class FileWritten:
+class FileWritten(Event):
     """A result file is complete."""
 
     path: str
 
 
 @dataclass(frozen=True)
-class RunFinished:
+class RunFinished(Event):
     """The run came to its end and every prediction converged."""
 
     exit_code: int = 0
 
 
 @dataclass(frozen=True)
-class RunFailed:
+class RunFailed(Event):
     """The run ended early, or a prediction did not converge."""
 
     message: str
     exit_code: int
 
 
-Event: TypeAlias = (
-    RunStarted
-    | ResultsReplaced
-    | WaveSolved
-    | PredictionFinished
-    | AnswerSolved
-    | EffectsSolved
-    | FileWritten
-    | RunFinished
-    | RunFailed
-)
 OnEvent: TypeAlias = Callable[[Event], None]
 
 
 def event_to_json(event: Event) -> str:
     """Return an event as one line of JSON."""
-    names = [item.name for item in dataclasses.fields(event) if item.name != "so_far"]
-    values = {name: getattr(event, name) for name in names}
+    values = {name: value for name, value in vars(event).items() if name != "so_far"}
     infinite = {k for k, v in values.items() if isinstance(v, float) and not math.isfinite(v)}
     values |= dict.fromkeys(infinite)
     return json.dumps({"event": type(event).__name__, **values}, allow_nan=False)
@@ -162,17 +153,16 @@ def event_to_json(event: Event) -> str:
 
 def event_from_json(line: str) -> Event | None:
     """Return the event of a line of JSON, or None if the line is none that this version knows."""
-    kinds = {kind.__name__: kind for kind in get_args(Event)}
+    kinds = {kind.__name__: kind for kind in Event.__subclasses__()}
     try:
         values = json.loads(line)
         kind = kinds[values.pop("event")]
-        types = {item.name: item.type for item in dataclasses.fields(kind) if item.name in values}
+        types = {name: of for name, of in kind.__annotations__.items() if name in values}
         for name, value in values.items():
             if isinstance(value, list):
                 values[name] = tuple(value)
             elif value is None and types.get(name) == "float":
                 values[name] = math.nan
-        event: Event = kind(**{name: values[name] for name in types})
+        return kind(**{name: values[name] for name in types})
     except (ValueError, KeyError, AttributeError, TypeError):  # no JSON, or another event
         return None
-    return event

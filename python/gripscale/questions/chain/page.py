@@ -6,10 +6,10 @@ beside each other.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,34 +63,23 @@ CONTACT = [
     Column("running_friction", heading="μ", unit="sum"),
     Column("friction_from_dissipation", heading="μ", unit="losses"),
 ]
+# What warms the rubber of a wave, and how warm it is.
+_RISE = "flash_temperature_rise_"
+_CELSIUS: dict[str, Any] = {"zero": ZERO_CELSIUS, "format": fixed(1)}
+_HEAT = [
+    Column(f"{_RISE}uniform", (), "warming", "uniform, K", format=fixed(2)),
+    Column(f"{_RISE}larger_waves", (), "warming", "larger waves, K", format=fixed(2)),
+    Column(f"{_RISE}own", (), "warming", "own, K", format=fixed(2)),
+    Column("temperature", (), "temperature", "where lost, °C", **_CELSIUS),
+    Column("contact_temperature", (), "temperature", "in contact, °C", **_CELSIUS),
+]
 _CONDITIONS = [
     Column("strain", heading="strain", unit="%", size=0.01),
     Column("storage_modulus_ratio", heading="E′ left", format=percent),
     Column("loss_modulus_ratio", heading="E″ left", format=percent),
     Column("series_misfit", heading="misfit", unit="of the series", format=percent),
     Column("strain_extrapolated", heading="beyond sweep", format=yes_no),
-    Column("flash_temperature_rise_uniform", heading="warming", unit="uniform, K", format=fixed(2)),
-    Column(
-        "flash_temperature_rise_larger_waves",
-        heading="warming",
-        unit="larger waves, K",
-        format=fixed(2),
-    ),
-    Column("flash_temperature_rise_own", heading="warming", unit="own, K", format=fixed(2)),
-    Column(
-        "temperature",
-        heading="temperature",
-        unit="where lost, °C",
-        zero=ZERO_CELSIUS,
-        format=fixed(1),
-    ),
-    Column(
-        "contact_temperature",
-        heading="temperature",
-        unit="in contact, °C",
-        zero=ZERO_CELSIUS,
-        format=fixed(1),
-    ),
+    *_HEAT,
     Column("temperature_extrapolated", heading="beyond shift", format=yes_no),
     Column("passes", heading="passes", format=whole_number),
 ]
@@ -186,19 +175,12 @@ def prediction_table(data: xr.Dataset, title: str) -> Table:
             for group, names in IN_TERMINAL.items()
             for name in names
         ),
-        Column(
-            "stretch",
-            np.stack(
-                [filled(view, ALL_WAVES[f"{end}_stretch"]).values for end in ("min", "max")], 1
-            ),
-            unit="min-max",
-            format=fixed(2),
-            group="contact",
-            joint="-",
-        ),
-        replace(filled(view, ALL_WAVES["newton_iterations"]), group="contact"),
-        Column("status", [view.why(i) for i in range(view.waves)], group="contact", words=True),
     ]
+    ends = [filled(view, ALL_WAVES[f"{end}_stretch"]).values for end in ("min", "max")]
+    stretch = Column("stretch", np.stack(ends, 1), unit="min-max", format=fixed(2), joint="-")
+    states = Column("status", [view.why(i) for i in range(view.waves)], words=True)
+    iterations = filled(view, ALL_WAVES["newton_iterations"])
+    columns += [replace(column, group="contact") for column in (stretch, iterations, states)]
     if view.moving and view.converged.all():
         apart = view.column("friction_mismatch").max()
         notes.append(f"The two friction coefficients of a wave are at most {apart:.2%} apart.")
@@ -232,59 +214,51 @@ def totals(data: xr.Dataset) -> str:
 def heat_table(data: xr.Dataset) -> Table:
     """Return how warm the rubber is on each wave of a chain solved with heat, and what warms it."""
     view = PredictionView(data)
-    names = [column.name for column in _CONDITIONS]
-    first, last = names.index("flash_temperature_rise_uniform"), names.index("contact_temperature")
-    warming = [WAVE[0], *_CONDITIONS[first : last + 1]]
-    columns = [numbers("wave", view.waves, "#"), *(filled(view, column) for column in warming)]
-    return Table("heat", columns, "Temperature of the rubber on each wave")
-
-
-def _plain(value: float) -> str:
-    return whole_number(value) if value.is_integer() else significant(value)
+    columns = (filled(view, column) for column in (WAVE[0], *_HEAT))
+    caption = "Temperature of the rubber on each wave"
+    return Table("heat", [numbers("wave", view.waves, "#"), *columns], caption)
 
 
 def wave_tables(predictions: Sequence[PredictionView]) -> list[Table]:
     """Return the tables of a page: those of `_TABLES` and one of any further numbers per wave."""
     if not predictions:
         return []
+
+    def count_or_number(value: float) -> str:
+        return whole_number(value) if value.is_integer() else significant(value)
+
     further: dict[str, Column] = {}
     for name, variable in chain(*(view.data.data_vars.items() for view in predictions)):
         if name not in ALL_WAVES and variable.dims == ("scale",) and variable.dtype.kind in "fiu":
             unit = str(variable.attrs.get("units", "")).replace("1", "")
-            further[str(name)] = Column(str(name), unit=unit, format=_plain)
-    all_tables = _TABLES | {"further": ("Further columns of the result", list(further.values()))}
-    tables = [_table(name, *content, predictions) for name, content in all_tables.items()]
-    return [table for table in tables if len(table.columns) > 2]
-
-
-def _table(
-    name: str, caption: str, columns: Iterable[Column], predictions: Sequence[PredictionView]
-) -> Table:
+            further[str(name)] = Column(str(name), unit=unit, format=count_or_number)
+    all_tables = _TABLES | {"further": ("Further columns of the result", [*further.values()])}
     longest = max(predictions, key=lambda view: view.waves)
     rows = longest.waves
-    failed = np.zeros(rows, dtype=bool)
-    parts: list[Column] = []
-    for view in predictions:
-        failed |= _failed(view, rows)
-        parts += [
-            replace(filled(view, column, rows), group=view.title)
-            for column in columns
-            if view.has(column.name) and (view.moving or column.name not in MOVING_ONLY)
-        ]
-        if name == "solution":
-            states = [
-                f"{'' if good else 'NOT CONVERGED: '}{view.why(i)}"
-                for i, good in enumerate(view.converged)
+    failed = np.logical_or.reduce([_failed(view, rows) for view in predictions])
+    tables = []
+    for name, (caption, columns) in all_tables.items():
+        parts = []
+        for view in predictions:
+            parts += [
+                replace(filled(view, column, rows), group=view.title)
+                for column in columns
+                if view.has(column.name) and (view.moving or column.name not in MOVING_ONLY)
             ]
-            states += ["not reached"] * (rows - view.waves)
-            parts.append(Column("status", states, group=view.title, bad=_failed(view, rows)))
-    if not parts:
-        return Table(name, [])
-    waves = [replace(filled(longest, c), bad=()) for c in (WAVE if name == "load" else WAVE[:1])]
-    gaps = any("-" in column.texts() for column in parts)
-    return Table(
-        name, [numbers("wave", rows, bad=failed), *waves, *parts], caption, [_NOTE] if gaps else []
-    )
+            if name == "solution":
+                states = [
+                    f"{'' if good else 'NOT CONVERGED: '}{view.why(i)}"
+                    for i, good in enumerate(view.converged)
+                ]
+                states += ["not reached"] * (rows - view.waves)
+                parts.append(Column("status", states, group=view.title, bad=_failed(view, rows)))
+        if parts:
+            waves = WAVE if name == "load" else WAVE[:1]
+            keys = [numbers("wave", rows, bad=failed)]
+            keys += [replace(filled(longest, column), bad=()) for column in waves]
+            gaps = any("-" in column.texts() for column in parts)
+            tables.append(Table(name, [*keys, *parts], caption, [_NOTE] if gaps else []))
+    return tables
 
 
 def _failed(view: PredictionView, rows: int) -> NDArray[np.bool_]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -84,7 +83,7 @@ class ChainRun:
         run = cls(case, folder)
         require_feasible(case)
         if folder is not None and not fresh:
-            for name, _ in planned(case):
+            for name in planned(case):
                 prediction = earlier(folder / f"{name}.nc", run.key(name), case.chain)
                 if prediction is not None:
                     run.stored[name] = prediction
@@ -112,7 +111,7 @@ class ChainRun:
 
     def key(self, name: str) -> str:
         """Return the key of the prediction `name`: equal keys mean equal results."""
-        load = replace(self.case.load, speed=dict(planned(self.case))[name])
+        load = replace(self.case.load, speed=planned(self.case)[name])
         return Task(self.case.rubber, self.case.surface, load, self.case.chain).key
 
     def dataset(self, name: str) -> xr.Dataset:
@@ -129,11 +128,10 @@ class ChainRun:
 
         A wave that does not converge ends its prediction, which is named in `failures`.
         """
-        emit = on_event or (lambda event: None)
-        for name, speed in planned(self.case):
-            self._solve(name, speed, emit)
+        for name in planned(self.case):
+            self._solve(name, on_event or (lambda event: None))
 
-    def _solve(self, name: str, speed: float, emit: OnEvent) -> None:
+    def _solve(self, name: str, emit: OnEvent) -> None:
         chain, stored = self.case.chain, self.stored.get(name)
         stored_waves = 0 if stored is None else len(stored.prediction.scales)
         clock = saved = time.perf_counter()
@@ -162,7 +160,7 @@ class ChainRun:
                 if stored is not None:
                     waves = ReplayedWaves(chain.solver, tuple(stored.prediction.scales))
                     chain = replace(chain, solver=waves)
-                load = replace(self.case.load, speed=speed)
+                load = replace(self.case.load, speed=planned(self.case)[name])
                 chain.solve(self.case.rubber, self.case.surface.sines, load, on_scale=keep)
             finished = True
         except ChainError as failure:
@@ -185,12 +183,10 @@ class ChainRun:
         netcdf.save(data, self.folder / f"{name}.nc", groups)
 
 
-def planned(case: Case) -> Iterator[tuple[str, float]]:
-    """Yield name and speed [m/s] of the predictions that a case asks for."""
-    if case.load.speed > 0.0:
-        yield DYNAMIC, case.load.speed
-    if case.static or case.load.speed == 0.0:
-        yield STATIC, 0.0
+def planned(case: Case) -> dict[str, float]:
+    """Return the speeds [m/s] of the predictions that a case asks for, by their names."""
+    speeds = {DYNAMIC: case.load.speed} if case.load.speed > 0.0 else {}
+    return speeds | ({STATIC: 0.0} if case.static or not speeds else {})
 
 
 def earlier(path: Path, key: str, chain: Chain) -> StoredPrediction | None:
@@ -201,19 +197,18 @@ def earlier(path: Path, key: str, chain: Chain) -> StoredPrediction | None:
     """
     try:
         data = netcdf.load_dataset(path)
-        prediction = ChainResult.from_dataset(data) if data.attrs.get(_KEY) == key else None
+        if data.attrs.get(_KEY) != key:
+            return None
+        prediction = ChainResult.from_dataset(data)
     except (FileError, InputError):
         return None
-    if prediction is None:
-        return None
-    finished = bool(data.attrs.get(FINISHED, 0))
-    if finished and prediction.converged:
+    if bool(data.attrs.get(FINISHED, 0)) and prediction.converged:
         return StoredPrediction(prediction, finished=True)
     iterated = chain.conditions is not None and chain.conditions.iterated
-    if iterated or chain.pressure_classes > 1:
-        return None
     waves = [wave for wave in prediction.scales if wave.converged]
-    return StoredPrediction(replace(prediction, scales=waves), finished=False) if waves else None
+    if iterated or chain.pressure_classes > 1 or not waves:
+        return None
+    return StoredPrediction(replace(prediction, scales=waves), finished=False)
 
 
 def require_feasible(case: Case) -> None:
@@ -222,9 +217,9 @@ def require_feasible(case: Case) -> None:
     The latter only if the case refuses it.
     """
     rubber = case.rubber_before
-    for _, speed in planned(case):
+    for speed in planned(case).values():
         load = replace(case.load, speed=speed)
         require_load_bearing(rubber, load.pressure, load.time_under(load.footprint))
     if case.chain.extrapolate == "refuse":
-        for _, speed in planned(case):
+        for speed in planned(case).values():
             require_measured(rubber, case.surface.sines.wavelength, speed)

@@ -28,7 +28,7 @@ def background_figures(run: ChainRun, figures: Figures) -> Iterator[OnEvent]:
     first wave the folder of results is ready and the direct contact solved, with the end of a
     prediction its blocks are complete. On leaving, what went wrong is raised.
     """
-    last = [name for name, _ in planned(run.case)][-1]
+    last = list(planned(run.case))[-1]
     with ThreadPoolExecutor(1, thread_name_prefix="figures") as pool:
         jobs: dict[Callable[[ChainRun, Figures], None], Future[None]] = {}
 

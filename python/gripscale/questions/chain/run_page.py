@@ -1,33 +1,48 @@
-"""The page of a run: the answer, its inputs, the chain wave by wave, and its comparisons."""
+"""What a run left in its folder, and its page.
+
+The page has the answer, its inputs, the chain wave by wave, and what was asked of them since.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.core.provenance import versions
 from gripscale.experiment.design import CONVERGED
-from gripscale.experiment.measured_friction import friction_doubts
+from gripscale.experiment.measured_friction import (
+    MeasuredFriction,
+    friction_doubts,
+    stored_measurement,
+)
 from gripscale.io.table import NONE, Table
 from gripscale.questions.answer import page as answer
+from gripscale.questions.answer.answer import ANSWER_FILE
 from gripscale.questions.answer.findings import case_notices, no_answer_notices
 from gripscale.questions.answer.reliance import has_answer, is_measured
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
 from gripscale.questions.chain.charts_of_blocks import blocks_image
 from gripscale.questions.chain.findings import exponent_sentence, prediction_sentence, wave_notices
 from gripscale.questions.chain.page import wave_tables
-from gripscale.questions.chain.run_folder import RunSource
+from gripscale.questions.chain.run import DYNAMIC, STATIC
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare import page as comparison
 from gripscale.questions.cut_off.question import CutOff
 from gripscale.questions.inputs import page as inputs
+from gripscale.questions.inputs.record import InputRecord
+from gripscale.questions.stored import predicted_tree
 from gripscale.questions.uncertainty import page as uncertainty
-from gripscale.questions.vary import page_side_by_side as side_by_side
+from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_uncertainty
+from gripscale.questions.vary.effects import stored_effects
+from gripscale.questions.vary.page_side_by_side import effects_table
 from gripscale.questions.words import OF_THE_PAPER
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import (
@@ -44,6 +59,87 @@ from gripscale.report.equations import method_section
 from gripscale.report.failures import Failure, chapter_words
 from gripscale.surface import SineStack
 from gripscale.wave.result import LARGE_MISMATCH
+
+
+@dataclass(frozen=True)
+class RunSource:
+    """The predictions of one run, the record of its inputs and comparisons; both may be missing."""
+
+    predictions: list[PredictionView]
+    inputs: xr.Dataset
+    # Models side by side over the same case, as far as they are there.
+    compared: comparison.Compared = field(default_factory=comparison.Compared)
+    # What each effect of its conditions is worth, model by model.
+    effects: list[xr.Dataset] = field(default_factory=list)
+    uncertainty: xr.Dataset | None = None  # what was sampled of it, or of another case
+    direct: xr.Dataset | None = None  # totals of the direct contact of the measured profiles
+    cut_off: xr.Dataset | None = None  # contact and friction against the cut-off
+
+    @property
+    def data(self) -> xr.Dataset:
+        """The first prediction: load, waves, provenance, versions."""
+        return self.predictions[0].data
+
+    @property
+    def attrs(self) -> dict[Any, Any]:
+        """Attributes of the first prediction."""
+        return self.data.attrs
+
+    @property
+    def record(self) -> InputRecord:
+        """The record of its inputs."""
+        return InputRecord(self.inputs)
+
+    @property
+    def measured(self) -> MeasuredFriction | None:
+        """Measured friction that its case names."""
+        return stored_measurement(self.inputs)
+
+    @property
+    def by_wave(self) -> list[PredictionView]:
+        """The predictions of models that go wave by wave."""
+        return [prediction for prediction in self.predictions if prediction.waves]
+
+    @property
+    def own_uncertainty(self) -> xr.Dataset | None:
+        """What was sampled of its very inputs, or None."""
+        data, case = self.uncertainty, str(self.attrs.get("case", ""))
+        if data is None or not of_same_inputs(data, case, self.record.digests):
+            return None
+        return data
+
+
+def read_run(folder: Path) -> RunSource | None:
+    """Return what a run left in a folder; None if there is no prediction of a run in it.
+
+    Raises `FileError` if a file is damaged or is no result of gripscale.
+    """
+    paths = [folder / f"{name}.nc" for name in (DYNAMIC, STATIC)]
+    trees = {path.stem: predicted_tree(path) for path in paths if path.is_file()}
+    if not trees:
+        return None
+    run = run_of(trees)
+    case = run.attrs.get("case")
+
+    def of_this_case(path: Path) -> xr.Dataset | None:
+        data = predicted_tree(path).to_dataset() if path.is_file() else None
+        return data if data is not None and data.attrs.get("case") == case else None
+
+    return replace(
+        run,
+        compared=comparison.stored_comparisons(folder / comparison.COMPARISON),
+        effects=stored_effects((folder / comparison.COMPARISON, folder), case),
+        uncertainty=stored_uncertainty(folder),
+        direct=of_this_case(folder / ANSWER_FILE),
+        cut_off=of_this_case(folder / "cut_off.nc"),
+    )
+
+
+def run_of(trees: dict[str, xr.DataTree]) -> RunSource:
+    """Return the run of its predictions by name, with the record of inputs of the first."""
+    views = [PredictionView(tree.to_dataset(), name) for name, tree in trees.items()]
+    return RunSource(views, InputRecord.of_tree(next(iter(trees.values()))).data)
+
 
 _EVIDENCE = (
     "The two friction coefficients of a wave are found independently, from the traction in the "
@@ -63,51 +159,15 @@ _OF_ANOTHER = Finding(Severity.WARNING, uncertainty.OF_ANOTHER, topic=Topic.SOUR
 
 def run_page(run: RunSource) -> Page:
     """Return the report of `run`."""
-    case = case_title(run.attrs)
-    tables = {table.name: table for table in wave_tables(run.by_wave)}
     stale = run.uncertainty is not None and run.own_uncertainty is None
-    blocks = ("surface_x", "surface_pressure", "mesh_x")
-    meshed = [view for view in run.predictions if all(view.has(name) for name in blocks)]
-    surface: list[Element] = []
-    if "sines_wavelength" in run.data:
-        waves = SineStack(run.data["sines_wavelength"].values, run.data["sines_amplitude"].values)
-        surface = inputs.surface_section(run.record, waves)
-    moving = next((view.data for view in run.by_wave if view.moving), None)
-    effects: list[Element] = []
-    if run.effects:
-        effects = [Text(_EFFECTS), side_by_side.effects_table(*run.effects)]
-    origin: list[Element] = [_load_facts(run)]
-    if run.record.has("file_name"):
-        origin.append(inputs.files_table(run.record))
     return Page.of(
-        f"Contact and friction: {case or 'result'}",
+        f"Contact and friction: {case_title(run.attrs) or 'result'}",
         "; ".join(view.title for view in run.predictions),
         [*notices(run), *([_OF_ANOTHER] if stale else [])],
         [*run_cards(run), *uncertainty.uncertainty_cards(run.own_uncertainty)],
         [
-            Section(
-                "contact",
-                "Rubber on the surface",
-                [] if run.direct is None else answer.contact_elements(run.direct, run.record),
-            ),
-            Section("inputs", "Inputs and their origin", origin),
-            Section("surface", "Surface", surface),
-            Section("rubber", "Rubber", inputs.rubber_section(run.record, moving)),
-            Section("results", _chain_title(run), _results(run, tables)),
-            Section("measured", "Measured friction", _measured(run)),
-            Section(
-                "cut-off",
-                "Against the cut-off",
-                [] if run.cut_off is None else CutOff(run.cut_off).elements(),
-            ),
-            Section("effects", "What each effect is worth to the chain", effects),
-            Section(
-                "blocks",
-                "Deformed blocks",
-                list(map(blocks_image, meshed)) or [Text("The result holds no deformed meshes.")],
-            ),
-            Section("comparison", "Models side by side", _comparison(run)),
-            Section("verification", "Verification", _verification(run, tables)),
+            *_sections_of_inputs(run),
+            *_sections_of_results(run),
             method_section(),
             rerun_section(run.attrs),
         ],
@@ -115,98 +175,111 @@ def run_page(run: RunSource) -> Page:
     )
 
 
-def _chain_title(run: RunSource) -> str:
-    """Return the title of the chapter of the chain: beside an answer it is a comparison."""
-    if run.direct is None or not is_measured(run.direct):
-        return "Contact and friction, wave by wave"
-    return f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}, for comparison"
+def _sections_of_inputs(run: RunSource) -> Iterator[Section]:
+    """Yield the contact of the measured surface, and what the result rests on."""
+    contact = [] if run.direct is None else answer.contact_elements(run.direct, run.record)
+    yield Section("contact", "Rubber on the surface", contact)
+    files = [inputs.files_table(run.record)] if run.record.has("file_name") else []
+    yield Section("inputs", "Inputs and their origin", [_load_facts(run), *files])
+    surface: list[Element] = []
+    if "sines_wavelength" in run.data:
+        waves = SineStack(run.data["sines_wavelength"].values, run.data["sines_amplitude"].values)
+        surface = inputs.surface_section(run.record, waves)
+    yield Section("surface", "Surface", surface)
+    moving = next((view.data for view in run.by_wave if view.moving), None)
+    yield Section("rubber", "Rubber", inputs.rubber_section(run.record, moving))
 
 
 def _load_facts(run: RunSource) -> Facts:
-    attrs, data = run.attrs, run.data
-    first = run.predictions[0]
+    attrs, data, record = run.attrs, run.data, run.record
 
     def text(name: str, value: float) -> str:
-        display_unit = first.display_unit(name)
-        return f"{number_text(display_unit.of(value))} {display_unit.unit}"
+        unit = run.predictions[0].display_unit(name)
+        return f"{number_text(unit.of(value))} {unit.unit}"
 
     speeds = ", ".join(text("speed", view.speed) for view in run.predictions if view.moving)
     if any(not view.moving for view in run.predictions):
         speeds = f"{speeds or 'none'}; and at rest (relaxed rubber)"
-    model = str(attrs.get("model", NONE))
+    pairs = [
+        ("Nominal pressure", text("pressure", float(data["nominal_pressure"]))),
+        ("Sliding speed", speeds),
+        ("Footprint", text("footprint", float(data["footprint"]))),
+    ]
+    if "thickness" in data:
+        pairs.append(("Thickness of the rubber", text("thickness", float(data["thickness"]))))
+    solver = str(attrs.get("model", NONE))
     if "wave_solver" in data:
-        solvers = dict.fromkeys(str(name) for name in data["wave_solver"].values)
-        model += f", waves by {', '.join(solvers)}"
-    record = run.record
+        names = dict.fromkeys(str(name) for name in data["wave_solver"].values)
+        solver += f", waves by {', '.join(names)}"
     source = inputs.without_folder(str(attrs.get("rubber_source", attrs.get("rubber", ""))))
     # of a strain energy such as "MooneyRivlin(share=0.2)" the name in words, and its parameters
     law, _, parameters = record.text("strain_energy").partition("(")
     energy = "-".join(re.findall(r"[A-Z][a-z]+", law)) or law or NONE
-    return Facts(
-        "Load and model",
-        [
-            ("Nominal pressure", text("pressure", float(data["nominal_pressure"]))),
-            ("Sliding speed", speeds),
-            ("Footprint", text("footprint", float(data["footprint"]))),
-            *(
-                [("Thickness of the rubber", text("thickness", float(data["thickness"])))]
-                if "thickness" in data
-                else []
-            ),
-            ("Rubber", "; ".join(filter(None, [record.text("rubber_name"), source])) or NONE),
-            ("Model", model.replace("_", " ")),
-            ("Strain energy", ", ".join(filter(None, [energy, parameters.removesuffix(")")]))),
-            ("Method", str(attrs.get("method", NONE))),
-        ],
-    )
+    pairs += [
+        ("Rubber", "; ".join(filter(None, [record.text("rubber_name"), source])) or NONE),
+        ("Model", solver.replace("_", " ")),
+        ("Strain energy", ", ".join(filter(None, [energy, parameters.removesuffix(")")]))),
+        ("Method", str(attrs.get("method", NONE))),
+    ]
+    return Facts("Load and model", pairs)
 
 
-def _results(run: RunSource, tables: dict[str, Table]) -> list[Element]:
+def _sections_of_results(run: RunSource) -> Iterator[Section]:
+    """Yield the chain wave by wave, what stands beside it, and how far it is to be trusted."""
+    tables = {table.name: table for table in wave_tables(run.by_wave)}
+    yield _results(run, tables)
+    direct = [] if run.direct is None else [PredictionView(run.direct, "direct contact")]
+    sliding = [view for view in run.predictions if view.moving and view.complete]
+    measured: list[Element] = []
+    if run.measured is not None and sliding:
+        measured.append(measured_chart(run.measured, [*sliding, *direct]))
+    yield Section("measured", "Measured friction", measured)
+    cut_off = [] if run.cut_off is None else CutOff(run.cut_off).elements()
+    yield Section("cut-off", "Against the cut-off", cut_off)
+    effects: list[Element] = []
+    if run.effects:
+        effects = [Text(_EFFECTS), effects_table(*run.effects)]
+    yield Section("effects", "What each effect is worth to the chain", effects)
+    names = ("surface_x", "surface_pressure", "mesh_x")
+    meshed = [view for view in run.predictions if all(view.has(name) for name in names)]
+    no_mesh = Text("The result holds no deformed meshes.")
+    yield Section("blocks", "Deformed blocks", [*map(blocks_image, meshed)] or [no_mesh])
+    # the comparison of just this case; another's is named and left out
+    same = run.compared.of(run.attrs.get("case"))
+    lines: list[Element] = []
+    if len(same.parts) < len(run.compared.parts):
+        lines.append(Finding(Severity.WARNING, STALE))
+    if same.ladder is not None and has_answer(same.ladder):
+        lines += (Text(line.strip()) for line in answer.answer_lines(same.ladder))
+    compared = [*lines, *comparison.comparison_elements(same)]
+    yield Section("comparison", "Models side by side", compared)
+    evidence: list[Element] = []
+    if run.by_wave:
+        evidence = list(run_failures(run)) or [Finding(Severity.GOOD, "Every wave converged.")]
+        evidence.append(Text(_EVIDENCE))
+        evidence += [tables[name] for name in ("errors", "solution", "mesh") if name in tables]
+        evidence += verification_charts(run.by_wave)
+    yield Section("verification", "Verification", evidence)
+
+
+def _results(run: RunSource, tables: dict[str, Table]) -> Section:
+    """Return the chapter of the chain; beside an answer it is a comparison."""
+    title, judge = "Contact and friction, wave by wave", None
     sentences = [(view.title, exponent_sentence(view.data)) for view in run.predictions]
-    below: list[Element] = [Text(f"{title}. {text}") for title, text in sentences if text]
-    judge = run.direct if run.direct is not None and is_measured(run.direct) else None
-    if judge is not None:
+    below: list[Element] = [Text(f"{of}. {text}") for of, text in sentences if text]
+    if run.direct is not None and is_measured(run.direct):
+        title, judge = f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}, for comparison", run.direct
         below += map(Text, comparison.judgement(run.predictions[0], judge))
     if not run.by_wave:
-        return [Text("The model has no waves; its totals stand above."), *below]
-    names = ("load", "contact", "conditions", "further")
-    elements: list[Element] = [tables[name] for name in names if name in tables]
+        return Section(
+            "results", title, [Text("The model has no waves; its totals stand above."), *below]
+        )
+    elements: list[Element] = []
     if any(not view.moving for view in run.by_wave):
-        rest = "A prediction at rest has no friction; its columns are left out."
-        elements.insert(0, Text(rest))
-    return [*elements, *below, *contact_charts(run.by_wave, judge)]
-
-
-def _measured(run: RunSource) -> list[Element]:
-    """Return the measured friction that the case names, with the predictions."""
-    sliding = [view for view in run.predictions if view.moving and view.complete]
-    if run.measured is None or not sliding:
-        return []
-    direct = [] if run.direct is None else [PredictionView(run.direct, "direct contact")]
-    return [measured_chart(run.measured, [*sliding, *direct])]
-
-
-def _comparison(run: RunSource) -> list[Element]:
-    """Return the comparison of just this case; another's is named and left out."""
-    same = run.compared.of(run.attrs.get("case"))
-    stale = len(same.parts) < len(run.compared.parts)
-    answered = same.ladder is not None and has_answer(same.ladder)
-    lines = answer.answer_lines(same.ladder) if same.ladder is not None and answered else ()
-    heads: list[Element] = [Finding(Severity.WARNING, STALE)] if stale else []
-    return [*heads, *(Text(line.strip()) for line in lines), *comparison.comparison_elements(same)]
-
-
-def _verification(run: RunSource, tables: dict[str, Table]) -> list[Element]:
-    if not run.by_wave:
-        return []
-    errors: list[Element] = list(run_failures(run))
-    names = ("errors", "solution", "mesh")
-    return [
-        *(errors or [Finding(Severity.GOOD, "Every wave converged.")]),
-        Text(_EVIDENCE),
-        *(tables[name] for name in names if name in tables),
-        *verification_charts(run.by_wave),
-    ]
+        elements.append(Text("A prediction at rest has no friction; its columns are left out."))
+    names = ("load", "contact", "conditions", "further")
+    elements += [tables[name] for name in names if name in tables]
+    return Section("results", title, [*elements, *below, *contact_charts(run.by_wave, judge)])
 
 
 def notices(run: RunSource) -> list[Finding]:
@@ -242,31 +315,29 @@ def notices(run: RunSource) -> list[Finding]:
 def run_failures(run: RunSource) -> Iterator[Finding]:
     """Yield what has no numbers in a run: waves and predictions."""
     for view in run.predictions:
-        text = ""
-        for i in np.flatnonzero(~view.converged):
-            text = (
-                f"wave {i + 1} did NOT converge ({view.why(int(i))}). Its numbers are not to be "
-                "used, the waves after it were not solved, and there are no totals. "
-                f"{_advice(str(view.data['status'].values[i]))}"
+        failed = np.flatnonzero(~view.converged).tolist()
+        texts = [
+            f"wave {i + 1} did NOT converge ({view.why(i)}). Its numbers are not to be used, the "
+            "waves after it were not solved, and there are no totals. "
+            f"{_advice(str(view.data['status'].values[i]))}"
+            for i in failed
+        ]
+        if not view.complete and not failed and view.status == CONVERGED:
+            texts.append(
+                f"the run ended after wave {view.waves} of {view.planned}. The totals would lack "
+                "the smaller waves and are not shown; run the case again."
             )
+        elif not view.complete and not failed:
+            advice = _advice(str(model.status_words(view.data).item()))
+            texts.append(f"{view.status}. There are no totals. {advice}")
+        for text in texts:
             yield Finding(Severity.ERROR, f"{view.title}: {text}".rstrip())
-        if view.complete or text:
-            continue
-        text = (
-            f"the run ended after wave {view.waves} of {view.planned}. The totals would lack the "
-            "smaller waves and are not shown; run the case again."
-        )
-        if view.status != CONVERGED:
-            text = f"{view.status}. There are no totals. {_advice(view.status_word)}"
-        yield Finding(Severity.ERROR, f"{view.title}: {text}".rstrip())
 
 
 def _advice(word: str) -> str:
     """Return what to do about a status as sentences of their own; empty where nothing is known."""
     status = Failure("", word).status
-    if status is None:
-        return ""
-    return f"{status.advice} See {chapter_words(status.chapter)}."
+    return "" if status is None else f"{status.advice} See {chapter_words(status.chapter)}."
 
 
 def run_cards(run: RunSource) -> Iterator[Card]:
@@ -274,28 +345,24 @@ def run_cards(run: RunSource) -> Iterator[Card]:
     answered = [] if run.direct is None else list(answer.answer_cards(run.direct))
     yield from answered
     for view in run.predictions:
-        if not answered or not view.complete:
-            yield from _cards(view)
-
-
-def _cards(view: PredictionView) -> Iterator[Card]:
-    if not view.complete:
-        yield Card("No totals", "not converged", view.title, bad=True)
-        return
-    area = number_text(view.total("contact_fraction"))
-    waves = f"; {view.waves} wave{'s' if view.waves != 1 else ''}" if view.waves else ""
-    yield Card("Real contact area A_r/A_0", area, f"{view.title}{waves}")
-    if not view.moving:
-        return
-    lost = number_text(view.total("friction_from_dissipation"))
-    friction = number_text(view.total("friction"))
-    yield Card("Friction coefficient μ", friction, f"{view.title}; {lost} from energy lost")
-    both = model.with_adhesive(view.data)
-    if both is not None:
-        yield Card("With the area term, μ", number_text(float(both)), f"{view.title}; as stated")
-    if not view.has("friction_mismatch"):
-        return
-    mismatch = view.usable("friction_mismatch")
-    largest = percent_text(np.nanmax(mismatch)) if np.isfinite(mismatch).any() else NONE
-    bad = bool(np.nanmax(mismatch, initial=0.0) > LARGE_MISMATCH)
-    yield Card("Largest mismatch of μ", largest, "traction against energy lost", bad=bad)
+        if not view.complete:
+            yield Card("No totals", "not converged", view.title, bad=True)
+        if not view.complete or answered:
+            continue
+        area = number_text(view.total("contact_fraction"))
+        waves = f"; {view.waves} wave{'s' if view.waves != 1 else ''}" if view.waves else ""
+        yield Card("Real contact area A_r/A_0", area, f"{view.title}{waves}")
+        if not view.moving:
+            continue
+        lost = number_text(view.total("friction_from_dissipation"))
+        friction = number_text(view.total("friction"))
+        yield Card("Friction coefficient μ", friction, f"{view.title}; {lost} from energy lost")
+        both = model.with_adhesive(view.data)
+        if both is not None:
+            yield Card(
+                "With the area term, μ", number_text(float(both)), f"{view.title}; as stated"
+            )
+        if view.has("friction_mismatch"):
+            mismatch = float(np.fmax.reduce(view.usable("friction_mismatch")))
+            text, bad = percent_text(mismatch), mismatch > LARGE_MISMATCH
+            yield Card("Largest mismatch of μ", text, "traction against energy lost", bad)

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from gripscale.core.arrays import Array
 from gripscale.core.units import DisplayUnit, display_unit_of
 from gripscale.experiment.design import CONVERGED
-from gripscale.model import status_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,11 +52,6 @@ class PredictionView:
     def status(self) -> str:
         """`converged`, or why there are no totals."""
         return str(self.data["prediction_status"].item())
-
-    @property
-    def status_word(self) -> str:
-        """The word of its status, empty where none is known."""
-        return str(status_words(self.data).item())
 
     @property
     def waves(self) -> int:

@@ -41,7 +41,6 @@ from gripscale.rubber import (
     Superposition,
     Sweep,
     Sweeps,
-    UniaxialTest,
     uniaxial_stress,
 )
 from gripscale.rubber.superposition import temperatures_in
@@ -53,6 +52,8 @@ if TYPE_CHECKING:
     from gripscale.rubber.measured_rubber import MeasuredRubber
 
 OMEGA = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)
+MODULUS = PlotAxis("modulus $E'$, $E''$ [MPa]", log=True)
+LOSS_FACTOR = PlotAxis("loss factor $E''/E'$ [-]", low=0.0)
 CELSIUS = PlotAxis("temperature [°C]")
 KILO = 1e3
 _TWO_TO_ONE: dict[str, Any] = {"sharex": True, "height_ratios": [2.0, 1.0]}
@@ -67,16 +68,9 @@ def master_curve_figure(
 ) -> Figure:
     """Draw moduli [MPa] and loss factor against angular frequency.
 
-    Parameters
-    ----------
-    rubber
-        Its Prony series is drawn as lines, dashed beyond the measured band, whose ends are marked.
-    master
-        The measured points, if any.
-    fit
-        Tells which rows were left out of the fit; they are drawn as crosses.
-    excitation
-        Angular frequencies of the waves [rad/s], marked on the curves.
+    The Prony series of `rubber` is drawn as lines, dashed beyond the measured band, whose ends are
+    marked; the measured points of `master` with those that `fit` left out as crosses; the angular
+    frequencies `excitation` of the waves [rad/s] as marks on the curves.
     """
     return master_curve_sheet(rubber, master, fit, excitation).on_paper()
 
@@ -184,7 +178,7 @@ def moduli_panels(
     return [
         Panel(
             OMEGA,
-            PlotAxis("modulus $E'$, $E''$ [MPa]", log=True),
+            MODULUS,
             [*moduli, *borders, *waves[0]],
             name="master-curve",
             caption="Storage and loss modulus: measured, and the Prony series that is solved with.",
@@ -193,7 +187,7 @@ def moduli_panels(
         ),
         Panel(
             OMEGA,
-            PlotAxis("loss factor $E''/E'$ [-]", low=0.0),
+            LOSS_FACTOR,
             [*loss, *borders, *waves[1]],
             name="loss-factor",
             caption="Loss factor: measured, and of the Prony series.",
@@ -229,14 +223,8 @@ def measured_moduli_figure(master: MasterCurve) -> Figure:
         Series(omega, getattr(master, part) / MEGA, colour, name, **marks)
         for part, name, colour in _MODULI
     ]
-    panels = [
-        Panel(OMEGA, PlotAxis("modulus $E'$, $E''$ [MPa]", log=True), moduli),
-        Panel(
-            OMEGA,
-            PlotAxis("loss factor $E''/E'$ [-]", low=0.0),
-            [Series(omega, master.loss_factor, GREEN, **marks)],
-        ),
-    ]
+    loss = [Series(omega, master.loss_factor, GREEN, **marks)]
+    panels = [Panel(OMEGA, MODULUS, moduli), Panel(OMEGA, LOSS_FACTOR, loss)]
     return Sheet(panels, 1, NARROW, 4.9, gap=0.02, layout=_TWO_TO_ONE).on_paper()
 
 
@@ -266,14 +254,7 @@ def compound_moduli_figure(rubbers: Mapping[str, Rubber]) -> Figure:
 def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
     """Draw the sweeps as measured and shifted: moduli [MPa] and loss factor by frequency [Hz].
 
-    Raises `InputError` if the master curve has no shift.
-
-    Parameters
-    ----------
-    sweeps
-        The sweeps.
-    master
-        Their master curve, with its shift.
+    Raises `InputError` if their `master` curve has no shift.
     """
     return superposition_sheet(sweeps, master).on_paper()
 
@@ -333,12 +314,7 @@ def _coloured(drawn: Iterable[Sweep], sweeps: Sweeps) -> Iterator[tuple[Sweep, s
 def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
     """Draw log10 a_T, with two standard errors, and log10 b_T by temperature, with formulas.
 
-    Parameters
-    ----------
-    table
-        The shift factors.
-    fits
-        Formulas fitted to them; dashed beyond the temperatures fitted.
+    Formulas `fits` to the `table` of factors are dashed beyond the temperatures fitted.
     """
     return shift_sheet(table, fits).on_paper()
 
@@ -352,14 +328,22 @@ def shift_sheet(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Sheet:
         ends: dict[str, Any] = {"low": values - spread, "high": values + spread}
         return Series(celsius, values, INK, label, "", marker="o", size=3.2, **ends)
 
-    shifts: list[Mark] = [
-        factors(table.horizontal, table.horizontal_error, "sweeps, two std. errors")
-    ]
-    rest: list[Mark] = [factors(np.zeros_like(celsius), table.horizontal_error)]
+    shifts = [factors(table.horizontal, table.horizontal_error, "sweeps, two std. errors")]
+    rest = [factors(np.zeros_like(celsius), table.horizontal_error)]
     for fit, colour in zip(fits, COLOURS, strict=False):
-        shifts += _formula(table, fit, colour)
-        rest.append(Series(fit.temperature - ZERO_CELSIUS, -fit.residual, colour, marker="o",
-                           size=2.5, width=0.9))  # fmt: skip
+        fitted, lowest = fit.temperature, max(table.limits[0], fit.shift.limits[0])
+        kelvin = np.linspace(lowest, table.limits[1], 200)
+        # A formula of the glass alone runs through its rows, not through the reference.
+        at = int(np.argmin(np.abs(table.temperature - fitted[0])))
+        start = table.horizontal[at] - fit.residual[0]
+        values = start + fit.shift.log_a(kelvin, float(fitted[0]))
+        inside = (kelvin >= fitted[0]) & (kelvin <= fitted[-1])
+        name = {"wlf": "WLF", "arrhenius": "Arrhenius"}[fit.shift.kind]
+        for rows, dash, label in ((inside, "solid", name), (~inside, "dashed", "")):
+            curve = np.where(rows, values, np.nan)
+            shifts.append(Series(kelvin - ZERO_CELSIUS, curve, colour, label, dash, width=1.1))
+        rest.append(Series(fitted - ZERO_CELSIUS, -fit.residual, colour, marker="o", size=2.5,
+                           width=0.9))  # fmt: skip
     margin = 0.15 * max(float(np.ptp(table.horizontal)), 1.0)  # WLF has a pole
     ends = float(table.horizontal.min()) - margin, float(table.horizontal.max()) + margin
     panels = [
@@ -369,38 +353,17 @@ def shift_sheet(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Sheet:
     if (table.vertical != 0.0).any():
         lifted = [factors(table.vertical, table.vertical_error)]
         panels.append(Panel(CELSIUS, PlotAxis("$\\log_{10} b_T$ [-]"), lifted))
-    rows = len(panels)
-    layout = {"sharex": True, "height_ratios": [2.0, *[1.0] * (rows - 1)]}
-    height = 1.5 * rows + 1.4
+    layout = {"sharex": True, "height_ratios": [2.0, *[1.0] * (len(panels) - 1)]}
+    height = 1.5 * len(panels) + 1.4
     return Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout)
-
-
-def _formula(table: ShiftTable, fit: ShiftFit, colour: str) -> Iterator[Series]:
-    """Yield a formula where it has values, against the reference of the table."""
-    kelvin = np.linspace(max(table.limits[0], fit.shift.limits[0]), table.limits[1], 200)
-    # A formula of the glass alone runs through its rows, not through the reference.
-    first = float(fit.temperature[0])
-    at = int(np.argmin(np.abs(table.temperature - first)))
-    values = table.horizontal[at] - fit.residual[0] + fit.shift.log_a(kelvin, first)
-    inside = (kelvin >= fit.temperature[0]) & (kelvin <= fit.temperature[-1])
-    name = {"wlf": "WLF", "arrhenius": "Arrhenius"}[fit.shift.kind]
-    for chosen, dash, label in ((inside, "solid", name), (~inside, "dashed", "")):
-        curve = np.where(chosen, values, np.nan)
-        yield Series(kelvin - ZERO_CELSIUS, curve, colour, label, dash, width=1.1)
 
 
 def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
     """Draw what needs no shift, and how neighbours meet once shifted.
 
     Van Gurp and Palmen's plot (phase angle by |E*|) and that of Cole and Cole (E'' by E') are one
-    curve where horizontal shifts suffice; overlap and distance of neighbours by temperature.
-
-    Parameters
-    ----------
-    sweeps
-        The sweeps.
-    report
-        Of their superposition.
+    curve where horizontal shifts suffice; overlap and distance of neighbours by temperature, as the
+    `report` of their superposition has them.
     """
     return superposition_tests_sheet(sweeps, report).on_paper()
 
@@ -438,46 +401,36 @@ def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
 
 
 def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
-    """Draw nominal stress [kPa] against stretch, one panel for each test.
+    """Draw nominal stress [kPa] against stretch, one panel for each test, with labelled fits.
 
-    Raises `InputError` if there is no fit, or the fits are of different tests.
-
-    Parameters
-    ----------
-    fits
-        Label of each fit in the legend -> fit; all of the same tests.
+    The errors of the fits stand in their colours. Raises `InputError` if there is no fit, or the
+    fits are of different tests.
     """
     first = next(iter(fits.values()), None)
     if first is None or any(fit.tests != first.tests for fit in fits.values()):
         raise InputError("fits must hold at least one fit, all of the same tests")
-    panels = [_test_panel(test, fits, number) for number, test in enumerate(first.tests)]
+    dashes = ("solid", "solid", "dashed", "dotted", "dashdot", "solid")
+    panels = []
+    for number, test in enumerate(first.tests):
+        measured = test.stress / KILO
+        marks: list[Mark] = [
+            Series(test.stretch, measured, GREY, "measured", "", marker="o", size=3.0,
+                   filled=False),
+            Note(0.03, 0.97, "error: rms, work lost", frame="xy", top=True),
+        ]  # fmt: skip
+        looks = zip(fits.items(), COLOURS, dashes, strict=False)
+        for row, ((label, fit), colour, dash) in enumerate(looks, 1):
+            stress = uniaxial_stress(fit.rubber, test.time, test.stretch) / KILO
+            marks.append(Series(test.stretch, stress, colour, label, dash, width=1.1))
+            rms, work = 100.0 * fit.rms_errors[number], 100.0 * fit.work_errors[number]
+            text = f"{rms:.1f} %, {work:+.0f} %"
+            marks.append(Note(0.03, 0.97 - 0.075 * row, text, colour, frame="xy", top=True))
+        top = float(np.max(measured))
+        ends = min(0.0, float(np.min(measured))) - 0.04 * top, 1.25 * top
+        stress_axis = PlotAxis("nominal stress $P$ [kPa]", False, *ends)
+        panels.append(Panel(PlotAxis("stretch $s$ [-]"), stress_axis, marks, test.name))
     height = 2.6 * -(-len(panels) // 2) + 0.3
     return Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02).on_paper()
-
-
-def _test_panel(test: UniaxialTest, fits: Mapping[str, FiniteStrainFit], number: int) -> Panel:
-    """Return one test, the fits over it, and their errors in the same colours."""
-    measured = test.stress / KILO
-    marks: list[Mark] = [
-        Series(test.stretch, measured, GREY, "measured", "", marker="o", size=3.0, filled=False),
-        Note(0.03, 0.97, "error: rms, work lost", frame="xy", top=True),
-    ]
-    dashes = ("solid", "solid", "dashed", "dotted", "dashdot", "solid")
-    looks = zip(fits.items(), COLOURS, dashes, strict=False)
-    for row, ((label, fit), colour, dash) in enumerate(looks, 1):
-        stress = uniaxial_stress(fit.rubber, test.time, test.stretch) / KILO
-        marks.append(Series(test.stretch, stress, colour, label, dash, width=1.1))
-        rms, work = 100.0 * fit.rms_errors[number], 100.0 * fit.work_errors[number]
-        text = f"{rms:.1f} %, {work:+.0f} %"
-        marks.append(Note(0.03, 0.97 - 0.075 * row, text, colour, frame="xy", top=True))
-    top = float(np.max(measured))
-    ends = min(0.0, float(np.min(measured))) - 0.04 * top, 1.25 * top
-    return Panel(
-        PlotAxis("stretch $s$ [-]"),
-        PlotAxis("nominal stress $P$ [kPa]", False, *ends),
-        marks,
-        test.name,
-    )
 
 
 def rubber_figures(prepared: MeasuredRubber, omega: ArrayLike, figures: Figures) -> None:

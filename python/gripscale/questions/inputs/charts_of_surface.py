@@ -172,25 +172,25 @@ def raw_chart(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None =
 
 
 def _raw_panel(raw: HeightMap | Sequence[Profile], crop: Sequence[float] | None = None) -> Panel:
-    kept: list[Mark] = []
-    if crop is not None:
-        low, high = (end / MILLI for end in crop)
-        kept = [CrossLine(low, _KEPT, upright=True, to=high)]
+    marks: list[Mark]
     if isinstance(raw, HeightMap):
         along, across = (-(-size // MOST_PIXELS) for size in raw.z.shape)
         heights = (raw.z - np.nanmin(raw.z))[::along, ::across].T / MILLI
         x, y = raw.x[::along] / MILLI, raw.y[::across] / MILLI
-        marks: list[Mark] = [ValueMap(x, y, heights, "height above the lowest [mm]")]
+        marks = [ValueMap(x, y, heights, "height above the lowest [mm]")]
         words = "The map as measured; the rubber slides along x, to the right."
         ordinate = PlotAxis("distance across $y$ [mm]")
     else:
         pieces = [envelope(profile.x, profile.z) for profile in raw]
         marks = [_outline(x, ends, "as read", GREY) for x, *ends in pieces]
         words, ordinate = "The profiles as measured.", _HEIGHT
+    if crop is not None:
+        low, high = (end / MILLI for end in crop)
+        marks.append(CrossLine(low, _KEPT, upright=True, to=high))
     return Panel(
         DISTANCE,
         ordinate,
-        [*marks, *kept],
+        marks,
         name="raw",
         caption=words,
         alt="The surface as measured, before cleaning.",
@@ -231,17 +231,43 @@ def correlation_sheet(
 
 
 def correlation_charts(inputs: xr.Dataset) -> list[Chart]:
-    """Return C_z of recorded inputs with its fits, and the ratio of each fit to C_z."""
+    """Return C_z of recorded inputs with its fits, and what the fits leave over.
+
+    That is open where the lag did not count in the fit.
+    """
     lag, value = inputs["lag"].values, inputs["correlation_value"].values
     ends = (inputs[f"correlation_{end}"].values for end in ("lower", "upper"))
-    panel = _correlation_panel(lag, value, *ends)
     names = ("fine_lag", "fine_sines", "fine_pure_sines")
     lags, fitted, pure = (inputs[name].values for name in names)
-    marks = _waves(lags, fitted, pure, "sine waves, as fitted", BLUE)
+    fits = _waves(lags, fitted, pure, "sine waves, as fitted", BLUE)
+    residuals: list[Mark] = [CrossLine(0.0, INK)]
+    labels = {"sines": ("sine waves", BLUE)}
     if SELF_AFFINE in inputs:
+        labels["self_affine"] = "self-affine", ORANGE
         label = f"self-affine, $H$ = {inputs.attrs['self_affine_hurst']:.2f}"
-        marks.append(_self_affine(lag, inputs[SELF_AFFINE].values, label))
-    return draw.panels_on_page([panel.with_marks(marks), _residual_panel(inputs, lag, value)])
+        fits.append(_self_affine(lag, inputs[SELF_AFFINE].values, label))
+    for key, (label, colour) in labels.items():
+        fit = inputs[f"correlation_{key}"].values
+        low, high = (inputs.attrs.get(f"{key}_lag_{end}_m") for end in ("min", "max"))
+        inside = (lag >= (low or 0.0)) & (lag <= (high or math.inf))
+        usable = (value > 0.0) & np.isfinite(fit)
+        for filled, words in ((True, "fitted lags"), (False, "not fitted")):
+            rows = usable & (inside == filled)
+            ratio = np.log10(fit[rows] / value[rows])
+            residuals.append(Series(lag[rows] / MILLI, ratio, colour, f"{label}, {words}", "",
+                                    marker="o", size=3.8, filled=filled))  # fmt: skip
+    residual = Panel(
+        PlotAxis("lag $l$ [mm]", log=True),
+        PlotAxis("$\\log_{10}$ (fit / measured) [-]"),
+        residuals,
+        name="correlation-residual",
+        caption="Residual of the fits, in decades of C_z; filled marks are lags that count in the "
+        "fit.",
+        alt="Difference of fitted and measured height difference correlation against lag.",
+        height=400,
+    )
+    panel = _correlation_panel(lag, value, *ends).with_marks(fits)
+    return draw.panels_on_page([panel, residual])
 
 
 def _correlation_panel(lag: Array, value: Array, low: Array | None, high: Array | None) -> Panel:
@@ -279,36 +305,6 @@ def _waves(lag: Array, fitted: Array, pure: Array, label: str, colour: str) -> l
 
 def _self_affine(lag: Array, value: Array, label: str) -> Series:
     return Series(lag / MILLI, value / SQUARE_MM, ORANGE, label, "dashed")
-
-
-def _residual_panel(inputs: xr.Dataset, lag: Array, value: Array) -> Panel:
-    """Return what the fits leave over; open where the lag did not count in the fit."""
-    marks: list[Mark] = [CrossLine(0.0, INK)]
-    for key, curve, label, colour in (
-        ("sines", "correlation_sines", "sine waves", BLUE),
-        ("self_affine", SELF_AFFINE, "self-affine", ORANGE),
-    ):
-        if curve not in inputs:
-            continue
-        fit = inputs[curve].values
-        low, high = (inputs.attrs.get(f"{key}_lag_{end}_m") for end in ("min", "max"))
-        inside = (lag >= (low or 0.0)) & (lag <= (high or math.inf))
-        usable = (value > 0.0) & np.isfinite(fit)
-        for filled, words in ((True, "fitted lags"), (False, "not fitted")):
-            rows = usable & (inside == filled)
-            ratio = np.log10(fit[rows] / value[rows])
-            marks.append(Series(lag[rows] / MILLI, ratio, colour, f"{label}, {words}", "",
-                                marker="o", size=3.8, filled=filled))  # fmt: skip
-    return Panel(
-        PlotAxis("lag $l$ [mm]", log=True),
-        PlotAxis("$\\log_{10}$ (fit / measured) [-]"),
-        marks,
-        name="correlation-residual",
-        caption="Residual of the fits, in decades of C_z; filled marks are lags that count in the "
-        "fit.",
-        alt="Difference of fitted and measured height difference correlation against lag.",
-        height=400,
-    )
 
 
 def surface_figures(prepared: Surface, figures: Figures) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.core.units import MILLI
 from gripscale.io.table import significant
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.report.elements import number_text, percent_text
 
 LARGE_MISFIT = 0.05  # of a series from the moduli it stands for: friction errs by about as much

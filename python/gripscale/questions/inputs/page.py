@@ -22,7 +22,7 @@ from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of, in_
 from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole_number
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
-from gripscale.questions.inputs.page_record import InputRecord
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.vary.axis import dimensions
 from gripscale.report.elements import Element, Facts, Section, Text, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
 GIGA = 1e9
-_VARIED = "varied"
 
 
 def numbers(name: str, count: int, heading: str | None = None, bad: Flags = ()) -> Column:
@@ -149,24 +148,20 @@ def files_table(record: InputRecord) -> Table:
 def cleaning_tables(record: InputRecord) -> Iterator[Table]:
     """Yield for each profile what each step of its cleaning did."""
     data = record.data
-    headings = {
-        "points": "points left",
-        "removed": "cut off",
-        "made_missing": "made missing",
-        "missing": "missing now",
-    }
-    for i, name in enumerate(data["profile_name"].values):
+    names = ("points", "removed", "made_missing", "missing")
+    headings = ("points left", "cut off", "made missing", "missing now")
+    for i, profile in enumerate(data["profile_name"].values):
         part = data.isel(profile=i)
         columns = [Column("step", data["cleaning_step_name"].values)]
         columns += [
             Column(name, part[f"cleaning_{name}"].values, heading, format=whole_number)
-            for name, heading in headings.items()
+            for name, heading in zip(names, headings, strict=True)
         ]
         columns.append(Column("note", part["cleaning_note"].values, "what was done", words=True))
         ends = (part[f"profile_{end}"] for end in ("step", "length"))
         step, length = (number_text(value, MILLI, digits(4)) for value in ends)
         points = number_text(part["profile_points"], format=whole_number)
-        caption = f"Cleaning of {name}: {points} points read, step {step} mm, length {length} mm"
+        caption = f"Cleaning of {profile}: {points} points read, step {step} mm, length {length} mm"
         yield Table(f"cleaning-{i + 1}", columns, caption)
 
 
@@ -201,15 +196,10 @@ def surface_lines(surface: Surface) -> Iterator[str]:
 
 def map_line(surface: HeightMap) -> str:
     """Return which way of a map is which, and how long it is: a picture of its axes in words."""
+    ways = ("along the way of sliding (x)", "across it (y)")
     axes = (
-        f"{way} ({letter}): {size} points over {in_mm(length, 4)}"
-        for way, letter, size, length in zip(
-            ("along the way of sliding", "across it"),
-            "xy",
-            surface.z.shape,
-            surface.length,
-            strict=True,
-        )
+        f"{way}: {size} points over {in_mm(length, 4)}"
+        for way, size, length in zip(ways, surface.z.shape, surface.length, strict=True)
     )
     array = PurePath(surface.source).suffix.lower() in (".npy", ".npz")
     return "; ".join([*axes, *(["the first index of the array is x of the file"] * array)])
@@ -268,9 +258,8 @@ def conditions_lines(conditions: Conditions, rubber: Rubber) -> Iterator[str]:
     if conditions.shear_stress is not None:
         yield f"area term, as stated: {_numbers(conditions.shear_stress)}"
     if conditions.water is not None:
-        film = (
-            "flooded" if math.isinf(conditions.water) else f"a film of {in_mm(conditions.water, 3)}"
-        )
+        flooded = math.isinf(conditions.water)
+        film = "flooded" if flooded else f"a film of {in_mm(conditions.water, 3)}"
         yield f"water: {film}, trapped where contact surrounds it"
 
 
@@ -399,9 +388,10 @@ def input_sections(data: xr.Dataset) -> list[Section]:
     attrs, axes = data.attrs, dimensions(data)
 
     def quantity(key: str, attribute: str) -> str:
-        if key in axes or attribute not in attrs:
-            return _VARIED if key in axes else NONE
-        return display_unit_of(attrs, key).text(attrs[attribute])
+        if key in axes:
+            return "varied"
+        unit = display_unit_of(attrs, key)
+        return unit.text(attrs[attribute]) if attribute in attrs else NONE
 
     effects = json.loads(attrs.get("conditions", "null")) or {}
     names = (name for name in _CONDITIONS if effects.get(name) is not None)
@@ -416,7 +406,7 @@ def input_sections(data: xr.Dataset) -> list[Section]:
             ("Rubber", without_folder(str(attrs.get("rubbers", NONE)))),
         ],
     )
-    waves: list[Element] = []
+    waves = []
     if {"wavelength", "amplitude"} <= set(data.data_vars):
         length, height = (
             data[name].transpose(..., "scale").values.reshape(-1, data.sizes["scale"])
@@ -424,14 +414,11 @@ def input_sections(data: xr.Dataset) -> list[Section]:
         )
         if (length == length[0]).all() and (height == height[0]).all():  # of all predictions
             waves.append(waves_table(length[0], height[0]))
+    rubbers = [_facts_of(rubber, f"Rubber {i}") for i, rubber in enumerate(rubbers_of(data), 1)]
     return [
         Section("inputs", "Inputs and their origin", [load]),
         Section("surface", "Surface", waves),
-        Section(
-            "rubber",
-            "Rubber",
-            [_rubber_facts(rubber, f"Rubber {i + 1}") for i, rubber in enumerate(rubbers_of(data))],
-        ),
+        Section("rubber", "Rubber", rubbers),
     ]
 
 
@@ -440,7 +427,7 @@ def rubbers_of(data: xr.Dataset) -> list[Rubber]:
     return list(map(Rubber.from_dict, json.loads(data.attrs.get("rubber_parameters", "[]"))))
 
 
-def _rubber_facts(rubber: Rubber, name: str) -> Facts:
+def _facts_of(rubber: Rubber, name: str) -> Facts:
     relaxed, glassy = rubber.equilibrium_modulus, rubber.glassy_modulus
     pairs = [
         ("Relaxed modulus of the series", f"{number_text(relaxed, MEGA)} MPa"),
@@ -462,9 +449,10 @@ def surface_section(record: InputRecord, waves: SineStack | None = None) -> list
     if record.is_empty:
         return []
     elements: list[Element] = []
+    if record.has("cleaning_points"):
+        elements += cleaning_tables(record)
     if record.has("profile_name"):
-        cleaning = cleaning_tables(record) if record.has("cleaning_points") else []
-        elements += [*cleaning, *profile_charts(record.data)]
+        elements += profile_charts(record.data)
     if record.has("texture_of"):
         elements.append(texture_table(record.data))
     if record.has("lag"):
@@ -472,9 +460,9 @@ def surface_section(record: InputRecord, waves: SineStack | None = None) -> list
         elements += [*facts, *correlation_charts(record.data)]
     else:
         elements.append(Text("The sine waves are stated in the case; no surface was measured."))
-    if waves is None:
-        return elements
-    return [*elements, waves_table(waves.wavelength, waves.amplitude)]
+    if waves is not None:
+        elements.append(waves_table(waves.wavelength, waves.amplitude))
+    return elements
 
 
 def rubber_section(record: InputRecord, moving: xr.Dataset | None = None) -> list[Element]:

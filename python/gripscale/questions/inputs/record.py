@@ -1,14 +1,15 @@
-"""What a run writes beside its chain, so that a report needs nothing but the result file.
+"""The record of its inputs that a run writes beside its chain, and as pages read it.
 
-Group `inputs`: the input files with their checksums, the profiles as drawn, their cleaning, the
-height difference correlation and its fits, the master curve and its Prony series, the curves as the
-fits themselves evaluate them.
+A report needs nothing but the result file. Group `inputs`: the input files with their checksums,
+the profiles as drawn, their cleaning, the height difference correlation and its fits, the master
+curve and its Prony series, the curves as the fits themselves evaluate them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,11 +17,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.case import Case, NamedFile
+from gripscale.case import Case
 from gripscale.core.arrays import Array, ComplexArray
-from gripscale.core.finding import Finding, to_json
+from gripscale.core.finding import Finding, Severity, Topic, from_json, to_json
 from gripscale.experiment.measured_friction import measured_variables
+from gripscale.io.table import significant
 from gripscale.model import Load
+from gripscale.report.elements import number_text
 from gripscale.rubber import MasterCurve, PronyFit, Rubber
 from gripscale.rubber.material import fast_end, slow_end
 from gripscale.surface import HeightDifference, Measured, Profile, SineStack, Surface
@@ -112,7 +115,11 @@ def inputs(
     # what the measurement does not carry stands in `cut_off_beyond_measurement`
     findings = [*further, *case.findings(surfaces, loads, extrapolated=False)]
     series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
-    data = _files(case.origin.files) | series
+    data = dict(series)
+    if files := case.origin.files:
+        data["file_bytes"] = ("file", np.array([file.size for file in files]))
+        for part in ("role", "name", "sha256"):
+            data[f"file_{part}"] = ("file", _texts([getattr(file, part) for file in files]))
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
     attrs: Variables = {
@@ -142,18 +149,6 @@ def inputs(
             data |= variables
             attrs |= about
     return xr.Dataset(data, attrs={k: value for k, value in attrs.items() if value is not None})
-
-
-def _files(files: Sequence[NamedFile]) -> Variables:
-    """Return names, sizes and checksums of the measured files of the case."""
-    if not files:
-        return {}
-    return {
-        "file_role": ("file", _texts([file.role for file in files])),
-        "file_name": ("file", _texts([file.name for file in files])),
-        "file_bytes": ("file", np.array([file.size for file in files])),
-        "file_sha256": ("file", _texts([file.sha256 for file in files])),
-    }
 
 
 def _cut_off(surface: Surface, measured: Measured) -> _Part:
@@ -217,13 +212,15 @@ def _correlation(hdc: HeightDifference, measured: Measured, sines: SineStack) ->
     }
     if fit is not None:
         curves["correlation_self_affine"] = fit.evaluate(lag)
-    data: Variables = {"lag": ("lag", lag, {"units": "m"})}
-    data |= {name: ("lag", np.asarray(v), {"units": "m^2"}) for name, v in curves.items()}
-    data["correlation_pairs"] = ("lag", np.asarray(hdc.pairs))
-    data["fine_lag"] = ("fine_lag", fine, {"units": "m"})
     fitted, pure = sine_curves(sines, fine)
-    data["fine_sines"] = ("fine_lag", fitted, {"units": "m^2"})
-    data["fine_pure_sines"] = ("fine_lag", pure, {"units": "m^2"})
+    data: Variables = {
+        "lag": ("lag", lag, {"units": "m"}),
+        **{name: ("lag", np.asarray(curve), {"units": "m^2"}) for name, curve in curves.items()},
+        "correlation_pairs": ("lag", np.asarray(hdc.pairs)),
+        "fine_lag": ("fine_lag", fine, {"units": "m"}),
+        "fine_sines": ("fine_lag", fitted, {"units": "m^2"}),
+        "fine_pure_sines": ("fine_lag", pure, {"units": "m^2"}),
+    }
     if fit is None:
         return data, {"no_self_affine": measured.no_self_affine}
     lengths = ("xi_parallel", "xi_perpendicular", "lag_min", "lag_max")
@@ -285,3 +282,98 @@ def _moduli(name: str, along: str, modulus: ComplexArray) -> Variables:
 
 def _texts(values: Sequence[Any]) -> NDArray[np.object_]:
     return np.array(values, dtype=object)
+
+
+@dataclass(frozen=True)
+class InputRecord:
+    """The record that a run keeps of its inputs, as `record` writes it."""
+
+    data: xr.Dataset
+
+    @classmethod
+    def of_tree(cls, tree: xr.DataTree) -> InputRecord:
+        """Return the record in a result with its groups; an empty one where it holds none."""
+        return cls(tree.children.get("inputs", xr.DataTree()).to_dataset(inherit=False))
+
+    def has(self, name: str) -> bool:
+        """Return whether a variable or an attribute is there."""
+        return name in self.data or name in self.data.attrs
+
+    def number(self, name: str) -> float:
+        """Return an attribute, NaN where it is missing."""
+        return float(self.data.attrs.get(name, math.nan))
+
+    def text(self, name: str) -> str:
+        """Return an attribute, empty where it is missing."""
+        return str(self.data.attrs.get(name, ""))
+
+    def quantity(
+        self,
+        name: str,
+        unit: str = "",
+        size: float = 1.0,
+        format: Callable[[float], str] = significant,
+    ) -> str:
+        """Return an attribute as a page shows it, with its unit."""
+        return f"{number_text(self.number(name), size, format)} {unit}".rstrip()
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing was recorded: not the result of `gripscale run`."""
+        return not self.data.data_vars
+
+    @property
+    def of_map(self) -> bool:
+        """Whether a map was measured."""
+        return "texture_of" in self.data and "map" in self.data["texture_of"].values
+
+    @property
+    def bulk_modulus(self) -> float:
+        """Bulk modulus of the rubber [Pa]."""
+        return self.number("bulk_modulus_Pa")
+
+    @property
+    def relaxation_times(self) -> tuple[ArrayLike, ArrayLike]:
+        """Times [s] and moduli [Pa] of the Maxwell elements."""
+        names = ("term_relaxation_time", "term_modulus")
+        times, moduli = (self.data.get(name, xr.DataArray(np.zeros(0))).values for name in names)
+        return times, moduli
+
+    @property
+    def findings(self) -> list[str]:
+        """What the fit of the Prony series found."""
+        return self.text("prony_findings").splitlines()
+
+    @property
+    def digests(self) -> list[str] | None:
+        """Checksums of the files the prediction rests on; None where none were recorded."""
+        if "file_sha256" not in self.data:
+            return None
+        counted = self.data["file_role"].values != "measured"
+        return [str(digest) for digest in self.data["file_sha256"].values[counted]]
+
+    @property
+    def loss_factor_error(self) -> float:
+        """Mean relative error of the loss factor of the Prony series where the waves excite it.
+
+        NaN at rest, without a master curve, and where none of its rows lies between the waves.
+        """
+        if "master_series_loss" not in self.data:
+            return math.nan
+        names = ("master_loss", "master_storage", "master_series_loss", "master_series_storage")
+        loss, storage, series_loss, series_storage = (self.data[name].values for name in names)
+        omega = 2.0 * math.pi * self.data["master_frequency"].values
+        low, high = self.number("excited_low_rad_per_s"), self.number("excited_high_rad_per_s")
+        inside = (omega >= low) & (omega <= high)
+        error = (series_loss / series_storage)[inside] / (loss / storage)[inside] - 1.0
+        return float(error.mean()) if inside.any() else math.nan
+
+    def warnings(self) -> Iterator[Finding]:
+        """Yield what is doubtful about load, conditions, rubber and surface."""
+        yield from from_json(self.text("findings"))
+        if self.is_empty:
+            text = (
+                "The result holds no record of its inputs (a script or an older version wrote it): "
+                "profiles, fits, master curve and doubts about the inputs are missing here."
+            )
+            yield Finding(Severity.WARNING, text, topic=Topic.SOURCE)
