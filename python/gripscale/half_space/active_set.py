@@ -207,13 +207,8 @@ class PointsInContact:
         The second value is this residual as GMRES estimates it. `right` has unit length.
         """
         response, rows = self._response, self._extension
-
-        def image(pressure: Single) -> Single:
-            missing = self.missing(self.displacement(pressure)[self._where])
-            return missing.astype(np.float32, copy=False)
-
         if len(response.grid.shape) > 1:
-            return gmres(image, right, target, most)[:2]
+            return gmres(self._image, right, target, most)[:2]
         pressure, residual, products = response.line.close_gap(
             right,
             self._where,
@@ -223,6 +218,11 @@ class PointsInContact:
         )
         self.products += products
         return pressure, residual
+
+    def _image(self, pressure: Single) -> Single:
+        """Return Q K_AA p."""
+        image = self.missing(self.displacement(pressure)[self._where])
+        return image.astype(np.float32, copy=False)
 
     def _applied(self, apply: Callable[[AnyArray], AnyArray], full: AnyArray) -> AnyArray:
         return apply(full.reshape(self._response.grid.shape)).reshape(-1)
