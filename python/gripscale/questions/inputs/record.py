@@ -115,11 +115,12 @@ def inputs(
     # what the measurement does not carry stands in `cut_off_beyond_measurement`
     findings = [*further, *case.findings(surfaces, loads, extrapolated=False)]
     series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
-    data = dict(series)
+    data: Variables = {}
     if files := case.origin.files:
-        data["file_bytes"] = ("file", np.array([file.size for file in files]))
         for part in ("role", "name", "sha256"):
             data[f"file_{part}"] = ("file", _texts([getattr(file, part) for file in files]))
+        data["file_bytes"] = ("file", np.array([file.size for file in files]))
+    data |= series
     sines = surface.sines
     low, high = sines.lag_range or (None, None)
     attrs: Variables = {
