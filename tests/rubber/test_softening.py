@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.rubber.softening import Kraus, SofteningTable, softened, softening_from_dict
+from gripscale.conditions import Conditions
+from gripscale.core import InputError
+from gripscale.rubber.softening import (
+    Kraus,
+    SofteningFactors,
+    SofteningTable,
+    softened,
+    softening_from_dict,
+)
 
 KRAUS = Kraus(
     storage_ratio=0.25,
@@ -160,3 +168,23 @@ def test_a_wrong_law_is_one_sentence(values, word):
     with pytest.raises(gs.InputError, match=word) as caught:
         softening_from_dict(values)
     assert "\n" not in str(caught.value)
+
+
+class Halved:
+    """A law of its own, of no class of gripscale: half the moduli at every strain."""
+
+    kind = "halved"
+
+    def factors(self, strain, temperature=None):
+        half = np.full(np.shape(strain), 0.5)
+        return SofteningFactors(half, half, np.zeros(half.shape, dtype=bool))
+
+    def to_dict(self):
+        return {"kind": self.kind}
+
+
+def test_a_law_needs_its_methods_and_no_base():
+    law = Halved()
+    assert Conditions(softening=law).softening is law
+    with pytest.raises(InputError, match="must be a law of"):
+        Conditions(softening=0.5)

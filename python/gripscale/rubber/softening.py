@@ -28,11 +28,10 @@ It is taken from strain sweeps, of which instruments print the single amplitude 
 from __future__ import annotations
 
 import re
-from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -63,13 +62,14 @@ class SofteningFactors:
     outside: Mask
 
 
-class SofteningLaw(Checked, ABC):
+@runtime_checkable
+class SofteningLaw(Protocol):
     """Factors of both moduli against the strain; a frozen dataclass of plain numbers."""
 
-    kind: ClassVar[str]
-    """Word for it in case files and results."""
+    @property
+    def kind(self) -> str:
+        """Word for it in case files and results."""
 
-    @abstractmethod
     def factors(self, strain: ArrayLike, temperature: float | None = None) -> SofteningFactors:
         """Return f and g at uniaxial strain amplitudes `strain` [-] and a temperature [K].
 
@@ -78,7 +78,6 @@ class SofteningLaw(Checked, ABC):
 
     def to_dict(self) -> dict[str, Any]:
         """Return kind and parameters as plain values."""
-        return {"kind": self.kind, **self.__dict__}
 
 
 @dataclass(frozen=True)
@@ -138,7 +137,7 @@ def _multiplied(rubber: Rubber, multiplier: Array) -> Rubber:
     )
 
 
-class Kraus(SofteningLaw):
+class Kraus(Checked):
     """Kraus' law of the Payne effect, in the strain of the sweep it was fitted to.
 
     Raises `InputError` if a value is out of its range.
@@ -167,6 +166,10 @@ class Kraus(SofteningLaw):
         storage, loss = (soft / hard for soft, hard in zip(softer, measured, strict=True))
         return SofteningFactors(storage, loss, np.zeros(amplitude.shape, dtype=bool))
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return kind and parameters."""
+        return {"kind": self.kind, **self.__dict__}
+
     def _moduli(self, strain: Array) -> tuple[Array, Array]:
         """Return G'/G'_0 and G''/G''_m [-]."""
         power = (strain / self.critical_strain) ** self.exponent
@@ -194,7 +197,7 @@ def rows_of_sweeps(name: str, values: Any) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(checks.positive_vector(name, row).tolist()) for row in rows)
 
 
-class SofteningTable(SofteningLaw):
+class SofteningTable(Checked):
     """Moduli of strain sweeps, interpolated in the logarithms of strain and modulus.
 
     Beyond the largest strain the last moduli are held and flagged; between two temperatures the
@@ -272,6 +275,10 @@ class SofteningTable(SofteningLaw):
                 factors[which] += weights[sweep] * np.exp(np.interp(at, *logs) - measured)
         outside = (amplitude > largest) | beyond
         return SofteningFactors(factors[0, ...], factors[1, ...], outside)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return kind and numbers."""
+        return {"kind": self.kind, **self.__dict__}
 
 
 AMPLITUDES = {"single": 1.0, "peak-to-peak": 0.5}
@@ -417,9 +424,10 @@ def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) ->
     return SofteningTable(strain, storage, loss, measured_at, deformation, temperatures)
 
 
-SOFTENING_LAWS: dict[str, type[SofteningLaw]] = {law.kind: law for law in (Kraus, SofteningTable)}
+SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable)}
 
 
 def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
     """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
-    return checks.of_kind(SOFTENING_LAWS, "softening", values)
+    law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
+    return law
