@@ -158,9 +158,11 @@ def propose(
     else:
         measurement = {"temperature": kelvin, "shift": shift, "layout": layout}
         rubber = _one_rubber(rubbers, [names[file] for file in rubbers], **measurement)
-    for name in () if shift is not None else (names[file] for file in shifts):
-        unused = f'{name} holds shift factors and is not used: shift = "{name}" in [rubber] takes'
-        rubber.findings.append(assumption(BY_A_FACTOR, f"{unused} them"))
+    if shift is None:
+        for name in (names[file] for file in shifts):
+            cure = f'shift = "{name}" in [rubber] takes them'
+            unused = f"{name} holds shift factors and is not used: {cure}"
+            rubber.findings.append(assumption(BY_A_FACTOR, unused))
     if thickness is None:
         rubber.findings.append(assumption(TENS_OF_PERCENT, _WITHOUT_END))
     else:

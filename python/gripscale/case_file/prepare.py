@@ -289,8 +289,11 @@ def _superposed(
     single = len(sweeps) == 1
     reference = None if single and reading["titles_first"] else source.reference_temperature
     if reference is None and not single:
-        words = f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures to be '
-        raise unstated(f"{path}: ", "reference_temperature", f"{words}shifted to")
+        words = (
+            f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures to be '
+            "shifted to"
+        )
+        raise unstated(f"{path}: ", "reference_temperature", words)
     try:
         master, report = superpose_report(
             sweeps,
@@ -313,8 +316,11 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
         return rubber
     if rubber.reference_temperature is None:
         where = source.name or source.measured_files[0]
-        words = ' must be given with shift, such as "20 C": the master curve does not state what '
-        raise unstated(f"{where}: ", "reference_temperature", f"{words}it holds for")
+        words = (
+            ' must be given with shift, such as "20 C": the master curve does not state what it '
+            "holds for"
+        )
+        raise unstated(f"{where}: ", "reference_temperature", words)
     return replace(rubber, shift=shift)
 
 

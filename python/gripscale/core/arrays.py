@@ -1,4 +1,4 @@
-"""The types of arrays that all rooms hand to one another."""
+"""The types of arrays that all rooms hand to one another, and runs of marks."""
 
 from __future__ import annotations
 
@@ -26,3 +26,9 @@ else:
     Quantity = float | str
     """A number in the SI unit, or a text with its unit such as "3 bar"."""
     Vector = Array
+
+
+def runs(marked: Mask) -> list[tuple[int, int]]:
+    """Return where each run of marks begins and ends, the end not included."""
+    ends = np.flatnonzero(np.diff(np.concatenate(([0], marked.astype(np.int8), [0])))).tolist()
+    return list(zip(ends[::2], ends[1::2], strict=True))

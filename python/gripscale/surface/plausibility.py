@@ -13,10 +13,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gripscale.core import Array, Finding, InputError, Severity, Topic, checks, doubt, in_mm
+from gripscale.core.arrays import runs
 from gripscale.surface.height_difference import HeightDifference
 from gripscale.surface.profile import Profile
 from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineStack
-from gripscale.surface.supports import road_between, runs, support_plates
+from gripscale.surface.supports import road_between, support_plates
 
 _SPIKE_SLOPE = 3.0  # height change per step that is steep (ISO 13473-1:2019, section 7.5)
 

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gripscale.core import Array, Mask, checks, in_mm
+from gripscale.core.arrays import runs
 from gripscale.surface.profile import Profile
 
 _OFF_THE_LINE = 6.0  # distance from the line, in robust standard deviations, that no road reaches
@@ -100,12 +101,6 @@ def road_between(profile: Profile) -> tuple[float, float] | None:
     first = first if first == starts[0] else float(np.ceil(first / grain) * grain)
     last = last if last == stops[-1] else float(np.floor(last / grain) * grain)
     return (first, last) if last - first > 0.25 * profile.length else None
-
-
-def runs(marked: Mask) -> list[tuple[int, int]]:
-    """Return where each run of marks begins and ends."""
-    ends = np.flatnonzero(np.diff(np.concatenate(([0], marked.astype(np.int8), [0])))).tolist()
-    return list(zip(ends[::2], ends[1::2], strict=True))
 
 
 def _runs_of(marked: Mask, least: int) -> Mask:

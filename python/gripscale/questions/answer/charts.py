@@ -193,9 +193,9 @@ def _word(name: str) -> str:
     return re.sub(r"\W+", "-", name)
 
 
-def _along(trace: xr.Dataset, label: str = "distance $x$ [{}]") -> chart.PlotAxis:
+def _along(trace: xr.Dataset) -> chart.PlotAxis:
     low, high = (float(trace.x[at]) for at in (0, -1))
-    return chart.PlotAxis(label.format(trace.unit), low=low, high=high)
+    return chart.PlotAxis(f"distance $x$ [{trace.unit}]", low=low, high=high)
 
 
 def _around_contact(trace: xr.Dataset, length: float | None = None) -> xr.Dataset:
@@ -235,7 +235,7 @@ def _stretch(trace: xr.Dataset) -> xr.Dataset:
 
 def _line_panels(trace: xr.Dataset) -> list[chart.Panel]:
     """Return heights, pressure, and running friction and load along the whole line."""
-    x, inside = trace.x.values, trace.pressure_high.values > 0.0
+    x, inside, along = trace.x.values, trace.pressure_high.values > 0.0, _along(trace)
     start, end = float(trace.stretch_start), float(trace.stretch_end)
     shade = chart.CrossLine(start, SKY, "", upright=True, to=end)
 
@@ -259,7 +259,7 @@ def _line_panels(trace: xr.Dataset) -> list[chart.Panel]:
     )
     return [
         chart.Panel(
-            _along(trace, "distance $x$ [{}]" if number == len(rows) else ""),
+            along if number == len(rows) else replace(along, label=""),
             chart.PlotAxis(label, low=None if number == 1 else 0.0),
             [shade, *marks],
             height=250 if number == 1 else 190,

@@ -137,10 +137,14 @@ def answer_number(data: xr.Dataset, name: str) -> AnswerNumber:
     return AnswerNumber(*(numbers or [math.nan] * 3))
 
 
-def headline(data: xr.Dataset, name: str) -> AnswerNumber:
-    """Return `friction` or `contact_fraction` of an answer as every face states it.
+def headline_name(data: xr.Dataset, name: str) -> str:
+    """Return which number of an answer every face states as `friction` or `contact_fraction`.
 
     With an area term the friction is that of hysteresis and area term together.
     """
-    with_term = name == "friction" and TOTAL in data
-    return answer_number(data, "total_friction" if with_term else name)
+    return TOTAL.removeprefix("answer_") if name == "friction" and TOTAL in data else name
+
+
+def headline(data: xr.Dataset, name: str) -> AnswerNumber:
+    """Return `friction` or `contact_fraction` of an answer as every face states it."""
+    return answer_number(data, headline_name(data, name))

@@ -24,9 +24,9 @@ from gripscale.questions.words import JUDGE, OF_THE_PAPER
 def background_figures(run: ChainRun, figures: Figures) -> Iterator[OnEvent]:
     """Draw the figures of a case while it is being solved.
 
-    Gives a function to be called with the events of `gripscale.cli.run_case`: with the
-    first wave the folder of results is ready and the direct contact solved, with the end of a
-    prediction its blocks are complete. On leaving, what went wrong is raised.
+    Gives a function to be called with the events of `ChainRun.solve`: with the first wave the
+    folder of results is ready and the direct contact solved, with the end of a prediction its
+    blocks are complete. On leaving, what went wrong is raised.
     """
     last = list(planned(run.case))[-1]
     with ThreadPoolExecutor(1, thread_name_prefix="figures") as pool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import astuple, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -143,8 +143,9 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     data = comparison.transpose(axis, ...)
     failed = flawed(data)
     beyond = data[model.FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
-    words, (unit, divisor, zero) = axis.replace("_", " "), astuple(axis_shown(comparison, axis))
-    columns = [Column(axis, data[axis].values, words, unit, divisor, zero, "{:.3g}".format)]
+    words, unit = axis.replace("_", " "), axis_shown(comparison, axis)
+    look = unit.unit, unit.divisor, unit.zero, "{:.3g}".format
+    columns = [Column(axis, data[axis].values, words, *look)]
     for at, member in enumerate(data.model.values):
         flags = zip(failed[:, at], beyond[:, at], strict=True)
         marks = [("!" if bad else "") + ("*" if far else "") for bad, far in flags]

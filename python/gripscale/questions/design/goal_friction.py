@@ -23,7 +23,7 @@ import numpy as np
 
 from gripscale.core import Array, Checked, ComplexArray, checked, checks
 from gripscale.core.errors import ConvergenceError, InputError
-from gripscale.core.parallel import in_threads
+from gripscale.core.parallel import all_results
 from gripscale.core.units import celsius
 from gripscale.half_space.model import smallest_wavelength
 from gripscale.half_space.result import RoughContact
@@ -201,6 +201,4 @@ class GoalFriction:
 
     def _each(self, work: Callable[[int, object], _T]) -> list[_T]:
         """Return the work of each part, on all threads; the parts are independent."""
-        jobs = [partial(work, index) for index in range(len(self.parts))]
-        done = dict(in_threads(jobs, self.workers))
-        return [done[index] for index in range(len(jobs))]
+        return all_results([partial(work, i) for i in range(len(self.parts))], self.workers)

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from gripscale.core.arrays import runs
 from gripscale.io.table import significant
 from gripscale.questions.design.compound_design import FRUITLESS
 from gripscale.questions.design.compound_search import ROLLING_LEVEL
@@ -45,13 +46,9 @@ def rolling_at_todays_friction(data: xr.Dataset) -> float:
 def changed_frequencies(data: xr.Dataset, point: xr.Dataset) -> list[tuple[float, float]]:
     """Return the ranges of frequency [Hz] in which E' or E'' of a point is not today's."""
     ratios = np.stack([point[name] / data[f"today_{name}"] for name in ("storage", "loss")])
-    flags = np.concatenate([[False], (np.abs(ratios - 1.0) > LEAST_CHANGE).any(axis=0), [False]])
-    ends = np.flatnonzero(np.diff(flags.astype(int)))
+    changes = np.asarray((np.abs(ratios - 1.0) > LEAST_CHANGE).any(axis=0))
     frequency = data.frequency.values
-    return [
-        (float(frequency[first]), float(frequency[last - 1]))
-        for first, last in zip(ends[::2], ends[1::2], strict=True)
-    ]
+    return [(float(frequency[low]), float(frequency[end - 1])) for low, end in runs(changes)]
 
 
 def design_lines(data: xr.Dataset) -> Iterator[str]:

@@ -148,14 +148,18 @@ def files_table(record: InputRecord) -> Table:
 def cleaning_tables(record: InputRecord) -> Iterator[Table]:
     """Yield for each profile what each step of its cleaning did."""
     data = record.data
-    names = ("points", "removed", "made_missing", "missing")
-    headings = ("points left", "cut off", "made missing", "missing now")
+    headings = {
+        "points": "points left",
+        "removed": "cut off",
+        "made_missing": "made missing",
+        "missing": "missing now",
+    }
     for i, profile in enumerate(data["profile_name"].values):
         part = data.isel(profile=i)
         columns = [Column("step", data["cleaning_step_name"].values)]
         columns += [
             Column(name, part[f"cleaning_{name}"].values, heading, format=whole_number)
-            for name, heading in zip(names, headings, strict=True)
+            for name, heading in headings.items()
         ]
         columns.append(Column("note", part["cleaning_note"].values, "what was done", words=True))
         ends = (part[f"profile_{end}"] for end in ("step", "length"))

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
@@ -32,8 +32,8 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.conditions import Conditions
-from gripscale.core import Array, ComplexArray, InputError, RubberWarning, in_threads, worker_count
-from gripscale.core.parallel import Job
+from gripscale.core import Array, ComplexArray, InputError, RubberWarning, worker_count
+from gripscale.core.parallel import Job, all_results
 from gripscale.half_space import sensitivity
 from gripscale.half_space.grid import periodic_heights
 from gripscale.half_space.model import DirectContact
@@ -98,8 +98,7 @@ class ContactTangent:
         if any(inputs.rubber is not self.usual.rubber for inputs in drawn):
             changes = np.array([self._log_ratio(inputs.rubber) for inputs in drawn])
             along, directions = _directions(changes, np.abs(self.adjoint.weight))
-            differences = sensitivity.ContactFractionDifferences(self.contact)
-            parts += along @ [differences.by_modulus(each) for each in directions]
+            parts += along @ [self._differences.by_modulus(each) for each in directions]
         return np.asarray(parts + [self._by_conditions(inputs, 1) for inputs in drawn])
 
     def _log_ratio(self, rubber: Rubber) -> ComplexArray:
@@ -117,9 +116,13 @@ class ContactTangent:
         return float(self._by_pressure_and_kelvin[quantity] @ change) if any(change) else 0.0
 
     @cached_property
+    def _differences(self) -> sensitivity.ContactFractionDifferences:
+        return sensitivity.ContactFractionDifferences(self.contact)
+
+    @cached_property
     def _by_pressure_and_kelvin(self) -> Array:
         """Derivatives of ln mu and ln A_r/A_0 by ln p_0 and T [1/K], shape (2, 2)."""
-        differences = sensitivity.ContactFractionDifferences(self.contact)
+        differences = self._differences
         change = sensitivity.scalar_changes(self.contact).get("temperature", np.zeros(1, complex))
         by_kelvin = float(self.adjoint.by_modulus(change).sum())
         friction = np.array([self.adjoint.by_log_pressure, by_kelvin])
@@ -240,31 +243,30 @@ def first_order(
         every = (each.inputs for each in draws(tangent.usual, [source], count, seed))
         return [inputs for inputs in every if inputs is not None]
 
-    def scatter(source: Source) -> Array:
+    def scatter(source: Source, _: object) -> Array:
         inputs = few = inputs_of(source, count)
         if source.name in OF_RUBBER:
             few = inputs_of(source, FEW_DRAWS)
         friction, area = [tangent.change(each) for each in inputs], tangent.area_changes(few)
         return np.array([np.std(friction), np.std(area)])
 
-    def job(change: Callable[[], Array]) -> Job[Array]:
-        return lambda _: change()
+    def solved_change(inputs: Inputs, _: object) -> Array:
+        return tangent.solved_change(inputs)
 
     names: list[str] = []
-    changes: list[Callable[[], Array]] = []
+    jobs: list[Job[Array]] = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         # the draws that are solved come last, so that all threads are busy to the end
         for source in sorted(sources, key=lambda source: source.name in SOLVED):
-            of_source = [partial(scatter, source)]
+            of_source: list[Job[Array]] = [partial(scatter, source)]
             if source.name in SOLVED:
                 every = inputs_of(source, SOLVED[source.name])
-                of_source = [partial(tangent.solved_change, inputs) for inputs in every]
+                of_source = [partial(solved_change, inputs) for inputs in every]
             names += [source.name] * len(of_source)
-            changes += of_source
-        done = dict(in_threads([job(change) for change in changes], worker_count(None)))
+            jobs += of_source
+        squares = np.square(all_results(jobs, worker_count(None)))
     # of a single scatter itself, of solved draws their rms change
-    squares = np.array([done[at] for at in range(len(changes))]) ** 2
     errors = {
         source.name: np.sqrt(squares[np.array(names) == source.name].mean(axis=0))
         for source in sources

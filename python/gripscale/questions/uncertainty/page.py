@@ -15,12 +15,13 @@ from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Topic
 from gripscale.io.table import Column, Table, percent
 from gripscale.questions.answer import page as answer
-from gripscale.questions.answer.estimate import DIRECT, TOTAL
+from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.answer.intervals import LEVEL, interval_ends
 from gripscale.questions.answer.reliance import (
     AnswerNumber,
     has_answer,
     headline,
+    headline_name,
     is_measured,
     is_moving,
 )
@@ -65,10 +66,11 @@ def model_places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 def loads_of(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield what each load is called, with its part; without a name if there is one load."""
     axis = axis_of(data)
-    for at in range(data.sizes[axis]) if axis else ():
-        yield f"{axis} {name_of(data, axis, at)}", data.isel({axis: at})
     if not axis:
         yield "", data
+        return
+    for at in range(data.sizes[axis]):
+        yield f"{axis} {name_of(data, axis, at)}", data.isel({axis: at})
 
 
 def answer_table(data: xr.Dataset, axis: str) -> Table:
@@ -101,7 +103,7 @@ def interval_sentence(data: xr.Dataset) -> str:
         text += f", but for {', '.join(missing)}"
     ranges = []
     for name, symbol in HEADS.items() if not axis_of(data) else ():
-        best = TOTAL if name == "friction" and TOTAL in data else f"answer_{name}"
+        best = f"answer_{headline_name(data, name)}"
         ends = interval_ends(data[best], data[f"{best}_{OF_RUN}"])
         if interval := AnswerNumber(math.nan, *map(float, ends)).interval:
             ranges.append(f"{symbol} {interval}")
@@ -133,7 +135,7 @@ def part_table(part: xr.Dataset, title: str) -> Table:
     for name in names:
         sigma = part[f"answer_{name}_part_error"].values
         share = sigma**2 / float(part[f"answer_{name}_uncertainty"]) ** 2
-        of_sum = name == "friction" and TOTAL in part
+        of_sum = headline_name(part, name) != name
         group = f"{HEADS[name]} of hysteresis" if of_sum else HEADS[name]
         columns += [
             Column(f"{name}_error", sigma, "±", group=group, format=percent),
