@@ -76,6 +76,18 @@ def test_map_marks_what_was_solved_by_what_it_rests_on(study: xr.Dataset) -> Non
     assert area.get_xscale() == "log"
 
 
+def test_map_takes_axes_in_any_order(study: xr.Dataset) -> None:
+    whole = study.drop_sel(speed=study.speed[3])
+    turned = map_figure(whole.isel(temperature=[2, 0, 1], speed=slice(None, None, -1)))
+    images = [
+        [np.asarray(one.get_array()) for one in figure.axes[0].collections]
+        for figure in (map_figure(whole), turned)
+    ]
+    assert len(images[0]) > 0
+    for first, other in zip(*images, strict=True):
+        np.testing.assert_array_equal(first, other)
+
+
 def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
     friction = friction_master_figure(study).axes[0]
     assert len(friction.lines) == 3

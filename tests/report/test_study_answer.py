@@ -14,8 +14,7 @@ from gripscale.questions import Study
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts import totals_figure
-from gripscale.questions.vary.page import study_table
-from gripscale.questions.vary.page_of_answer import course, study_cards, study_lines
+from gripscale.questions.vary.page import course, study_cards, study_lines, study_table
 from gripscale.surface import Profile, self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_road
 

@@ -58,10 +58,10 @@ from .vary.effects import case_effects as case_effects
 from .vary.effects import effect_tasks as effect_tasks
 from .vary.effects import effects as effects
 from .vary.effects import stored_effects as stored_effects
+from .vary.page_side_by_side import Compounds as Compounds
+from .vary.page_side_by_side import Surfaces as Surfaces
 from .vary.question import Variation as Variation
 from .vary.ranking import at_one_temperature as at_one_temperature
 from .vary.ranking import compare_compounds as compare_compounds
 from .vary.ranking import compare_surfaces as compare_surfaces
-from .vary.side_by_side import Compounds as Compounds
-from .vary.side_by_side import Surfaces as Surfaces
 from .vary.study import Study as Study

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from gripscale.questions.vary.speed_and_temperature import friction_by_decade, in_decades
+from gripscale.questions.vary.friction_parts import friction_by_decade, in_decades
 from gripscale.rubber import Rubber
 
 RUBBER = Rubber(2e6, [3e6, 4e6], [2e-2, 5e-4])

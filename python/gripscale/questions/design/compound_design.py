@@ -49,7 +49,7 @@ from gripscale.questions.design.compound_search import (
     nearest_design,
 )
 from gripscale.questions.vary.friction_ratio import series_error
-from gripscale.questions.vary.inputs import at_temperature, identity, model_of
+from gripscale.questions.vary.inputs import at_temperature, model_of
 from gripscale.questions.vary.ranking import at_one_temperature
 from gripscale.questions.words import believed
 from gripscale.rubber import Rubber
@@ -285,8 +285,8 @@ def design_key(
         canonical_json(list(problem.friction.goals)),
         canonical_json(problem.limits),
         canonical_json([float(level) for level in levels]),
-        {road: identity(problem.roads[road]) for road in sorted(roads)},
-        {name: identity(value) for name, value in rubbers.items()},
+        {road: canonical_json(problem.roads[road]) for road in sorted(roads)},
+        {name: canonical_json(value) for name, value in rubbers.items()},
     ]
     return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:32]
 

@@ -5,15 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from gripscale.core import InputError, checks
 from gripscale.core.units import (
     GIVEN,
     KEYS,
+    UNITS,
     ZERO_CELSIUS,
     DisplayUnit,
     display_unit,
@@ -22,51 +24,68 @@ from gripscale.core.units import (
 )
 from gripscale.experiment.design import named_values
 from gripscale.model import MOST_CLASSES
-from gripscale.surface.cut_off import CutOffRule, RmsSlope, cut_off_rule
+from gripscale.surface.cut_off import RmsSlope, cut_off_rule
 from gripscale.surface.sine_fit import MOST_SINE_WAVES
 
-# Axes of numbers, with the kind of quantity.
-_QUANTITIES = {
-    "speed": "speed",
-    "pressure": "pressure",
-    "temperature": "temperature",
-    "smallest_wavelength": "length",
-    "cut_off": "length",
-    "thickness": "length",
-}
+
+class VariedInput(NamedTuple):
+    """One input that a study can vary."""
+
+    long_name: str
+    quantity: str = ""  # kind of quantity; empty for plain numbers and for names
+    example: str = "1:10:log5"  # of a range
+    label: str = ""  # what figures call it, where not by its long name
+    words: str = ""  # what figures call it where its values are names
+    display: DisplayUnit | None = None  # how it is shown, whatever was given
+    most: int = 0  # largest of whole numbers
+
+    @property
+    def numeric(self) -> bool:
+        """Whether its values are numbers; a cut-off may also be a rule in words."""
+        return bool(self.quantity or self.display)
+
+    @property
+    def unit(self) -> str:
+        """SI unit of its values."""
+        return next(iter(UNITS[self.quantity])) if self.quantity else "1"
+
+
+VARIED_INPUTS = {
+    "speed": VariedInput("sliding speed", "speed", "0.01 m/s:10 m/s:log7", "sliding speed $v$"),
+    "pressure": VariedInput(
+        "nominal pressure", "pressure", "1 bar:5 bar:lin5", "nominal pressure $p$"
+    ),
+    "temperature": VariedInput(
+        "temperature of the rubber before the contact", "temperature", "0 C:60 C:lin7",
+        "temperature $T$", display=DisplayUnit("°C", zero=ZERO_CELSIUS),
+    ),
+    "smallest_wavelength": VariedInput("smallest wavelength", "length", "0.1 mm:1 mm:log4"),
+    "thickness": VariedInput("thickness of the rubber", "length", "1 mm:8 mm:log4"),
+    "cut_off": VariedInput(
+        "shortest wavelength of the roughness", "length", "0.1 mm:1 mm:log4",
+        words="where the roughness ends",
+    ),
+    "top_height_fraction": VariedInput(
+        "fraction of the heights, from the top, that counts", display=DisplayUnit("of the heights")
+    ),
+    "waves": VariedInput("number of waves", display=DisplayUnit("waves"), most=MOST_SINE_WAVES),
+    "pressure_classes": VariedInput(
+        "number of pressure classes", display=DisplayUnit("pressure classes"), most=MOST_CLASSES
+    ),
+    "factors": VariedInput(
+        "magnification factors of wavelength and amplitude",
+        words="magnification factors $s_\\lambda/s_A$",
+    ),
+    "effects": VariedInput("effects of the conditions on the rubber", words="effects"),
+    "rubber": VariedInput("rubber", words="rubber"),
+    "surface": VariedInput("surface", words="surface"),
+}  # fmt: skip
 
 COLDEST = 100.0  # temperature [K] below which a number without a unit is taken for degrees
-# Axes of whole numbers, with the largest.
-COUNTS = {"waves": MOST_SINE_WAVES, "pressure_classes": MOST_CLASSES}
-_NUMBERS = (*_QUANTITIES, *COUNTS, "top_height_fraction")  # axes whose values are numbers
+MOST_VALUES = 1000
+MOST_AXES = 2
 
-# All axes.
-LONG_NAMES = {
-    "speed": "sliding speed",
-    "pressure": "nominal pressure",
-    "temperature": "temperature of the rubber before the contact",
-    "smallest_wavelength": "smallest wavelength",
-    "thickness": "thickness of the rubber",
-    "cut_off": "shortest wavelength of the roughness",
-    "top_height_fraction": "fraction of the heights, from the top, that counts",
-    "waves": "number of waves",
-    "pressure_classes": "number of pressure classes",
-    "factors": "magnification factors of wavelength and amplitude",
-    "effects": "effects of the conditions on the rubber",
-    "rubber": "rubber",
-    "surface": "surface",
-}
-
-_SI = {"speed": "m/s", "pressure": "Pa", "temperature": "K", "length": "m"}
-# All axes, with the units of their values.
-AXIS_UNITS = {name: _SI.get(_QUANTITIES.get(name, ""), "1") for name in LONG_NAMES}
-
-# Numeric axes by name, and what they are called in tables and figures.
-AXIS_LABELS = {name: LONG_NAMES[name] for name in _NUMBERS} | {
-    "speed": "sliding speed $v$",
-    "pressure": "nominal pressure $p$",
-    "temperature": "temperature $T$",
-}
+_RANGE = re.compile(r"\s*([^:]+?)\s*:\s*([^:]+?)\s*:\s*(lin|log)(\d+)\s*")
 
 
 @dataclass(frozen=True)
@@ -78,17 +97,37 @@ class Axis:
     labels: tuple[str, ...]
     unit: str = ""  # the unit the values were given in; empty for plain numbers
 
-    @property
-    def numeric(self) -> bool:
-        """Whether the values are numbers, in the unit of `AXIS_UNITS`."""
-        return self.name in _NUMBERS and not any(
-            isinstance(value, str | RmsSlope) for value in self.values
-        )
+    @classmethod
+    def of(cls, name: str, value: Any) -> Axis:
+        """Return the axis of an input from its values, or a text as on the command line.
+
+        Raises `InputError` if a value cannot be used, or two are equal.
+        """
+        checks.one_of("vary", name, VARIED_INPUTS)
+        if name in ("rubber", "surface"):
+            values, labels = named_values(name, value)
+        else:
+            values = tuple(axis_value(name, entry) for entry in _entries(name, value))
+            worded = any(isinstance(value, RmsSlope | str) for value in values)
+            unit = f" {VARIED_INPUTS[name].unit}" if worded else ""
+            labels = tuple(_label(name, value, unit) for value in values)
+        if not 1 <= len(values) <= MOST_VALUES:
+            raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
+        twice = {label for label in labels if labels.count(label) > 1}
+        if twice:
+            raise InputError(f"{name} must have different values; got {min(twice)} more than once")
+        units: Iterable[str | None] = ()
+        if name in KEYS:
+            texts = re.split("[,:]", value) if isinstance(value, str) else _entries(name, value)
+            units = (unit_of(text, VARIED_INPUTS[name].quantity) for text in texts)
+        return cls(name, values, labels, next(filter(None, units), ""))
 
     @property
-    def coordinate(self) -> list[Any]:
-        """Values along the axis of a Dataset: numbers, or labels."""
-        return list(self.values) if self.numeric else list(self.labels)
+    def numeric(self) -> bool:
+        """Whether the values are numbers, in SI units."""
+        return VARIED_INPUTS[self.name].numeric and not any(
+            isinstance(value, str | RmsSlope) for value in self.values
+        )
 
     def display_unit(self, units: Mapping[str, str]) -> DisplayUnit | None:
         """Return how its values are shown in a study of a case that states `units`.
@@ -110,10 +149,26 @@ def axis_value(name: str, value: Any) -> Any:
 
     Raises `InputError` if it cannot be used.
     """
-    if name in _QUANTITIES:
-        return _cut_off(name, value) if name == "cut_off" else _quantity(name, value)
-    if name in COUNTS:
-        return checks.whole(name, plain_number(value), least=1, most=COUNTS[name])
+    number, kind = plain_number(value), VARIED_INPUTS[name]
+    if kind.quantity:
+        if name == "temperature" and isinstance(value, str) and not isinstance(number, str):
+            raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
+        try:
+            if name == "cut_off" and isinstance(number, str | dict | RmsSlope):
+                return cut_off_rule(value)
+            if isinstance(number, str):
+                number = parse_quantity(number, kind.quantity)
+        except ValueError as error:
+            raise InputError(f"{name} = {value!r}: {error}") from error
+        check = checks.not_negative if name == "speed" else checks.positive
+        si = check(name, number, unit=kind.unit)
+        if name == "temperature" and si < COLDEST:
+            raise InputError(
+                f'temperature must be in kelvin or have a unit, such as "20 C"; got {si:g} K'
+            )
+        return si
+    if kind.most:
+        return checks.whole(name, number, least=1, most=kind.most)
     if name == "factors":
         parts = value.split("/") if isinstance(value, str) else value
         try:
@@ -127,7 +182,7 @@ def axis_value(name: str, value: Any) -> Any:
     if name == "effects":
         # which of them there are, only the conditions of a model tell
         return checks.instance(name, value, str).replace("_", " ")
-    share = checks.positive(name, plain_number(value))
+    share = checks.positive(name, number)
     if share > 1.0:
         raise InputError(f"{name} must be at most 1; got {share:g}")
     return share
@@ -141,108 +196,6 @@ def plain_number(value: Any) -> Any:
         return value
 
 
-def _quantity(name: str, value: Any) -> float:
-    number = plain_number(value)
-    if isinstance(number, str):
-        try:
-            number = parse_quantity(number, _QUANTITIES[name])
-        except ValueError as error:
-            raise InputError(f"{name} = {value!r}: {error}") from error
-    elif isinstance(value, str) and name == "temperature":
-        raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
-    check = checks.not_negative if name == "speed" else checks.positive
-    si = check(name, number, unit=AXIS_UNITS[name])
-    if name == "temperature" and si < COLDEST:
-        raise InputError(
-            f'temperature must be in kelvin or have a unit, such as "20 C"; got {si:g} K'
-        )
-    return si
-
-
-def _cut_off(name: str, value: Any) -> CutOffRule:
-    if not isinstance(plain_number(value), str | dict | RmsSlope):
-        return _quantity(name, value)
-    try:
-        return cut_off_rule(value)
-    except ValueError as error:
-        raise InputError(f"{name} = {value!r}: {error}") from error
-
-
-# Numeric axes that are shown in one way whatever was given, and their units in words.
-FIXED = {
-    "temperature": DisplayUnit("°C", zero=ZERO_CELSIUS),
-    "top_height_fraction": DisplayUnit("of the heights"),
-    "pressure_classes": DisplayUnit("pressure classes"),
-    "waves": DisplayUnit("waves"),
-}
-
-# Axes that may have names for values.
-WORDS = {
-    "cut_off": "where the roughness ends",
-    "effects": "effects",
-    "factors": "magnification factors $s_\\lambda/s_A$",
-    "rubber": "rubber",
-    "surface": "surface",
-}
-
-MODELS = {"chain": "chain", "direct": "direct contact"}  # what models that know effects are called
-# What selections of effects are called where nothing else says what they are of.
-EFFECTS = {"all": "all effects", "none": "no effects"}
-
-
-def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> DisplayUnit:
-    """Return how the values of a numeric axis are shown: in the unit they were given in."""
-    if axis in FIXED:
-        return FIXED[axis]
-    unit = result[axis].attrs.get(GIVEN, "") if axis in result.coords else ""
-    return display_unit(axis, {axis: str(unit)})
-
-
-def axis_label(result: xr.Dataset, axis: str) -> str:
-    """Return what a figure calls a numeric axis, with its unit."""
-    unit = axis_shown(result, axis).unit if axis in (*KEYS, "temperature") else "-"
-    return f"{AXIS_LABELS[axis]} [{unit}]"
-
-
-def dimensions(result: xr.Dataset) -> list[str]:
-    """Return the axes that were varied, in order."""
-    return [str(name) for name in result.total_friction.dims]
-
-
-def places(result: xr.Dataset) -> Iterator[dict[str, int]]:
-    """Yield the place of every prediction on the axes."""
-    names = dimensions(result)
-    for index in np.ndindex(*(result.sizes[name] for name in names)):
-        yield dict(zip(names, index, strict=True))
-
-
-def points(result: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield what each place is called, such as "0.3 m/s", and what holds there."""
-    for at in places(result):
-        yield ", ".join(name_of(result, axis, i) for axis, i in at.items()), result.isel(at)
-
-
-def numeric(result: xr.Dataset) -> list[str]:
-    """Return the varied axes of numbers with at least two values, longest first."""
-    axes = [n for n in dimensions(result) if result.sizes[n] > 1 and of_numbers(result, n)]
-    return sorted(axes, key=lambda name: -result.sizes[name])
-
-
-def of_numbers(result: xr.Dataset, axis: str) -> bool:
-    """Return whether an axis has numbers for values; a cut-off may be a rule in words."""
-    return axis in AXIS_LABELS and bool(np.issubdtype(result[axis].dtype, np.number))
-
-
-def name_of(result: xr.Dataset, axis: str, i: int) -> str:
-    """Return what value `i` of an axis is called, with its unit."""
-    value = result[axis].values[i]
-    if axis == "effects":
-        return EFFECTS.get(str(value), str(value))
-    if not of_numbers(result, axis):
-        return str(value).replace("_", " ")
-    return axis_shown(result, axis).text(value, digits=3)
-
-
 # Axes with their values, from Python or from a text such as one of these.
 #
 # - speed=0.003:30:log9: nine speeds [m/s], evenly spaced in their logarithm (lin9: evenly)
@@ -254,21 +207,6 @@ def name_of(result: xr.Dataset, axis: str, i: int) -> str:
 #   conditions of the model counts
 # - rubber=case,dma.txt: the case's own, a master curve, a rubber known by name
 
-MOST_VALUES = 1000
-MOST_AXES = 2
-
-# Ranges of the quantities.
-_EXAMPLES = {
-    "speed": "0.01 m/s:10 m/s:log7",
-    "pressure": "1 bar:5 bar:lin5",
-    "temperature": "0 C:60 C:lin7",
-    "smallest_wavelength": "0.1 mm:1 mm:log4",
-    "cut_off": "0.1 mm:1 mm:log4",
-    "thickness": "1 mm:8 mm:log4",
-}
-
-_RANGE = re.compile(r"\s*([^:]+?)\s*:\s*([^:]+?)\s*:\s*(lin|log)(\d+)\s*")
-
 
 def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
     """Return the axes of `vary`: values, or a text as on the command line, by name.
@@ -276,11 +214,13 @@ def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
     Raises `InputError` if there are none or more than two, or a value cannot be used.
     """
     if not 1 <= len(vary) <= MOST_AXES:
-        raise InputError(f"a study varies one or two of {', '.join(AXIS_UNITS)}; got {len(vary)}")
-    return tuple(_axis(name, values) for name, values in vary.items())
+        raise InputError(
+            f"a study varies one or two of {', '.join(VARIED_INPUTS)}; got {len(vary)}"
+        )
+    return tuple(Axis.of(name, values) for name, values in vary.items())
 
 
-def parse_vary(text: str, names: Iterable[str] = AXIS_UNITS) -> tuple[str, str]:
+def parse_vary(text: str, names: Iterable[str] = VARIED_INPUTS) -> tuple[str, str]:
     """Return name and values of `name=values`, with one of `names`.
 
     Raises `InputError` if it is not that.
@@ -291,7 +231,7 @@ def parse_vary(text: str, names: Iterable[str] = AXIS_UNITS) -> tuple[str, str]:
     return checks.one_of("vary", name.strip(), [*names]), values
 
 
-def parse_axes(texts: Sequence[str], names: Iterable[str] = AXIS_UNITS) -> dict[str, Any]:
+def parse_axes(texts: Sequence[str], names: Iterable[str] = VARIED_INPUTS) -> dict[str, Any]:
     """Return the values of inputs by name from texts such as `speed=0.1,1`.
 
     Raises `InputError` if two texts name one input, or one is no such text.
@@ -300,27 +240,6 @@ def parse_axes(texts: Sequence[str], names: Iterable[str] = AXIS_UNITS) -> dict[
     if len(dict(pairs)) < len(pairs):
         raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
     return dict(pairs)
-
-
-def _axis(name: str, value: Any) -> Axis:
-    checks.one_of("vary", name, AXIS_UNITS)
-    if name in ("rubber", "surface"):
-        values, labels = named_values(name, value)
-    else:
-        values = tuple(axis_value(name, entry) for entry in _entries(name, value))
-        worded = any(isinstance(value, RmsSlope | str) for value in values)
-        unit = f" {AXIS_UNITS[name]}" if worded else ""
-        labels = tuple(_label(name, value, unit) for value in values)
-    if not 1 <= len(values) <= MOST_VALUES:
-        raise InputError(f"{name} must have 1 to {MOST_VALUES} values; got {len(values)}")
-    twice = {label for label in labels if labels.count(label) > 1}
-    if twice:
-        raise InputError(f"{name} must have different values; got {min(twice)} more than once")
-    units: Iterable[str | None] = ()
-    if name in KEYS:
-        texts = re.split("[,:]", value) if isinstance(value, str) else _entries(name, value)
-        units = (unit_of(text, _QUANTITIES[name]) for text in texts)
-    return Axis(name, values, labels, next(filter(None, units), ""))
 
 
 def _label(name: str, value: Any, unit: str) -> str:
@@ -351,13 +270,13 @@ def _entries(name: str, value: Any) -> Iterable[Any]:
         wrong = f"it has {len(parts)} parts, or an empty one"
     raise InputError(
         f"{name} must be a range of first value, last value and spacing with the number of values, "
-        f'such as "{_EXAMPLES.get(name, "1:10:log5")}"; {wrong} in {value!r}'
+        f'such as "{VARIED_INPUTS[name].example}"; {wrong} in {value!r}'
     )
 
 
 def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[float]:
     """Return evenly spaced values between two ends in SI units, the ends exactly."""
-    if name not in _NUMBERS:
+    if not VARIED_INPUTS[name].numeric:
         raise InputError(f"{name} must be a list, not a range; got {first}:{last}")
     if isinstance(plain_number(first), str) != isinstance(plain_number(last), str):
         raise InputError(f"{name} must have a unit at both ends or none; got {first}:{last}")
@@ -370,6 +289,88 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     else:
         checks.positive(f"{name} of a log range", low)
         values = np.geomspace(low, high, number)
-    if name in COUNTS:
+    if VARIED_INPUTS[name].most:
         return [float(value) for value in np.unique(np.rint(values))]
     return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
+
+
+# The table of points that a study is, read by its axes.
+
+MODELS = {"chain": "chain", "direct": "direct contact"}  # what models that know effects are called
+# What selections of effects are called where nothing else says what they are of.
+EFFECTS = {"all": "all effects", "none": "no effects"}
+
+
+def dimensions(result: xr.Dataset) -> list[str]:
+    """Return the axes that were varied, in order."""
+    return [str(name) for name in result.total_friction.dims]
+
+
+def places(result: xr.Dataset) -> Iterator[dict[str, int]]:
+    """Yield the place of every prediction on the axes."""
+    names = dimensions(result)
+    for index in np.ndindex(*(result.sizes[name] for name in names)):
+        yield dict(zip(names, index, strict=True))
+
+
+def points(result: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield what every prediction is called, and the Dataset there."""
+    for at in places(result):
+        yield names_at(result, at), result.isel(at)
+
+
+def several(result: xr.Dataset) -> list[str]:
+    """Return the varied axes with at least two values."""
+    return [name for name in dimensions(result) if result.sizes[name] > 1]
+
+
+def numeric(result: xr.Dataset) -> list[str]:
+    """Return the varied axes of numbers with at least two values, longest first."""
+    axes = [name for name in several(result) if of_numbers(result, name)]
+    return sorted(axes, key=lambda name: -result.sizes[name])
+
+
+def of_numbers(result: xr.Dataset, axis: str) -> bool:
+    """Return whether an axis has numbers for values; a cut-off may be a rule in words."""
+    if axis not in VARIED_INPUTS or not VARIED_INPUTS[axis].numeric:
+        return False
+    return bool(np.issubdtype(result[axis].dtype, np.number))
+
+
+def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> DisplayUnit:
+    """Return how the values of a numeric axis are shown: in the unit they were given in."""
+    display = VARIED_INPUTS[axis].display
+    if display is not None:
+        return display
+    unit = result[axis].attrs.get(GIVEN, "") if axis in result.coords else ""
+    return display_unit(axis, {axis: str(unit)})
+
+
+def axis_label(result: xr.Dataset, axis: str) -> str:
+    """Return what a figure calls a numeric axis, with its unit."""
+    unit = axis_shown(result, axis).unit if VARIED_INPUTS[axis].quantity else "-"
+    return f"{VARIED_INPUTS[axis].label or VARIED_INPUTS[axis].long_name} [{unit}]"
+
+
+def name_of(result: xr.Dataset, axis: str, i: int) -> str:
+    """Return what value `i` of an axis is called, with its unit."""
+    value = result[axis].values[i]
+    if axis == "effects":
+        return EFFECTS.get(str(value), str(value))
+    if not of_numbers(result, axis):
+        return str(value).replace("_", " ")
+    return axis_shown(result, axis).text(value, digits=3)
+
+
+def names_at(result: xr.Dataset, at: Mapping[str, int]) -> str:
+    """Return what a place on the axes is called; of an axis without values its number."""
+    return ", ".join(
+        name_of(result, axis, i) if axis in result.coords else f"{axis.replace('_', ' ')} {i + 1}"
+        for axis, i in at.items()
+    )
+
+
+def of_points(result: xr.Dataset, name: str) -> NDArray[Any]:
+    """Return a number or a text of every prediction, in the order of `places`."""
+    whole = result[name].broadcast_like(result.total_friction)
+    return np.ravel(whole.transpose(*dimensions(result)).values)

@@ -24,19 +24,22 @@ from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 from gripscale.io.table import significant
 from gripscale.questions.vary.axis import (
-    WORDS,
+    VARIED_INPUTS,
     axis_label,
     axis_shown,
     dimensions,
     name_of,
+    names_at,
     numeric,
     of_numbers,
+    several,
 )
 from gripscale.questions.vary.schema import (
     PER_WAVE,
     VARIABLES,
     Role,
     label_of,
+    per_prediction,
     rest_name,
     telling,
     variable_of,
@@ -64,23 +67,18 @@ def varied_axis(data: xr.Dataset, name: str) -> tuple[PlotAxis, Array]:
 
 def study_charts(data: xr.Dataset) -> list[Chart]:
     """Return a chart for each total over each numeric axis, and for each number per wave."""
-    axes = [axis for axis in dimensions(data) if of_numbers(data, axis) and data.sizes[axis] > 1]
+    axes = [axis for axis in several(data) if of_numbers(data, axis)]
     best = [name for name in map(partial(believed, data), _ESTIMATED) if name in data]
     answered = is_estimated(data, "contact_fraction")
-    totals = [name for name in best if telling(data[name])]
-    for name, values in data.data_vars.items():
-        variable = variable_of(data, str(name))
-        replaced = answered and variable.role == Role.NUMBER and variable.measures
-        if (
-            values.dims
-            and set(values.dims) <= set(dimensions(data))
-            and values.dtype.kind in "fi"
-            and telling(values)
-            and variable.role in (Role.ANSWER, Role.NUMBER)
-            and name not in best
-            and not replaced
-        ):
-            totals.append(str(name))
+    others = [
+        name
+        for name, variable in per_prediction(data, dimensions(data))
+        if variable.role in (Role.ANSWER, Role.NUMBER)
+        and not (answered and variable.role == Role.NUMBER and variable.measures)
+        and name not in best
+        and data[name].dtype.kind in "fi"
+    ]
+    totals = [name for name in (*best, *others) if telling(data[name])]
     panels = [
         _total_panel(data, name, axis)
         for axis in axes
@@ -89,7 +87,7 @@ def study_charts(data: xr.Dataset) -> list[Chart]:
     ]
     panels += stacked_panels(data).values()
     if REDUCED_SPEED in data.coords:
-        panels += [_reduced_panel(data, believed(data, name)) for name in reversed(AXIS_TITLES)]
+        panels += _reduced_panels(data)
     for name in PER_WAVE if "wavelength" in data else ():
         if name in data and "scale" in data[name].dims and np.isfinite(data[name].values).any():
             panels.append(_wave_panel(data, name, thinned=True))
@@ -109,11 +107,7 @@ def _curves(
         colours = style.shades(len(points), "Plasma")
     for point, colour in zip(points, colours, strict=True):
         at = dict(zip(over, point, strict=True))
-        names = [
-            name_of(data, name, i) if name in data.coords else f"{name.replace('_', ' ')} {i + 1}"
-            for name, i in at.items()
-        ]
-        yield at, colour, ", ".join(names)
+        yield at, colour, names_at(data, at)
 
 
 def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
@@ -123,11 +117,12 @@ def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
     return xr.broadcast(flags if covered else xr.DataArray(False), variable)[0]
 
 
-def _label(data: xr.Dataset, name: str) -> str:
-    unit = str(data[name].attrs.get("units", "1")) if name in data.coords else "1"
+def _ordinate(data: xr.Dataset, name: str) -> PlotAxis:
+    """Return the axis of a number of a study: of areas logarithmic, of friction from zero."""
     variable = variable_of(data, name)
     words = AXIS_TITLES.get(variable.measures if name in VARIABLES else "", variable.label)
-    return f"{words} [{'-' if unit == '1' else unit}]"
+    low = 0.0 if variable.measures == "friction" else None
+    return PlotAxis(f"{words} [-]", log=variable.measures == "contact_fraction", low=low)
 
 
 def _sentence(data: xr.Dataset, name: str) -> str:
@@ -147,46 +142,41 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
         stars = flags.any([dim for dim in variable.dims if dim != axis]).values
         names = [f"{name_of(data, axis, i)}{' *' * bool(star)}" for i, star in enumerate(stars)]
         x = np.arange(len(names), dtype=float)
-        abscissa = PlotAxis(f"{WORDS[axis]} [-]", ticks=dict(enumerate(names)), margin=0.3)
+        abscissa = PlotAxis(
+            f"{VARIED_INPUTS[axis].words} [-]", ticks=dict(enumerate(names)), margin=0.3
+        )
     others = [str(dim) for dim in variable.dims if dim != axis]
+    ends = [data[f"{name}_{end}"] for end in ("low", "high") if f"{name}_{end}" in data]
+    drawn: dict[str, Any] = {"dash": "", "size": 4.5}
+    if numbers:
+        drawn = {"dash": "solid", "size": 3.0, "clip": False}
     marks: list[Mark] = []
     curves = list(_curves(data, others, thinned=numbers and len(others) > 1))
     for at, colour, label in curves:
         only = colour if others else BLUE
-        y, beyond = (part.isel(at).transpose(axis).values for part in (variable, flags))
-        ends = _interval(data, name, at, axis)
+        y, beyond, *interval = (
+            part.isel(at).transpose(axis).values for part in (variable, flags, *ends)
+        )
         bars: dict[str, Any] = {}
-        if ends is not None and numbers and len(curves) <= MOST_BANDS:
-            marks.append(ShadedBand(x, *ends, only, "" if others else INTERVAL, 0.15))
-        elif ends is not None and not numbers:
-            bars = dict(zip(("low", "high"), ends, strict=True))
-        marks.append(Series(x, y, only, label or "sliding", "solid" if numbers else "", marker="o",
-                            size=3.0 if numbers else 4.5, beyond=beyond if numbers else False,
-                            clip=not numbers, **bars))  # fmt: skip
+        if interval and np.isfinite(interval[0]).any():
+            if not numbers:
+                bars = dict(zip(("low", "high"), interval, strict=True))
+            elif len(curves) <= MOST_BANDS:
+                low, high = interval
+                marks.append(ShadedBand(x, low, high, only, "" if others else INTERVAL, 0.15))
+        marks.append(
+            Series(x, y, only, label or "sliding", marker="o", beyond=numbers & beyond, **drawn,
+                   **bars)
+        )  # fmt: skip
     words, over = label_of(data, name), label_of(data, axis)
-    measures = variable_of(data, name).measures
     return Panel(
         abscissa,
-        PlotAxis(
-            _label(data, name),
-            log=measures == "contact_fraction",
-            low=0.0 if measures == "friction" else None,
-        ),
+        _ordinate(data, name),
         marks,
         name=f"{name}-over-{axis}",
         caption=f"{_sentence(data, name)}, over {over}.",
         alt=f"{words} against {over}.",
     )
-
-
-def _interval(
-    data: xr.Dataset, name: str, at: dict[str, int], axis: str
-) -> tuple[Array, Array] | None:
-    if f"{name}_low" not in data:
-        return None
-    ends = (data[f"{name}_{end}"].isel(at).transpose(axis).values for end in ("low", "high"))
-    low, high = ends
-    return (low, high) if np.isfinite(low).any() else None
 
 
 def totals_figure(result: xr.Dataset) -> Figure:
@@ -201,38 +191,31 @@ def totals_figure(result: xr.Dataset) -> Figure:
     axis = (numeric(result) or names)[0]
     area, friction = (_total_panel(result, believed(result, name), axis) for name in AXIS_TITLES)
     keys = []
-    if _at_rest(result) in result:
-        area = area.with_marks(_rest(result, axis, [name for name in names if name != axis]))
-        if len(names) > 1:
-            numbers = of_numbers(result, axis)
-            dash, marker = ("dotted", "") if numbers else ("", "o")
-            keys.append(Series([], [], INK, "at rest", dash, 1.1, marker, filled=False))
+    at_rest = rest_name(believed(result, "contact_fraction"))
+    if at_rest in result:
+        # without a speed: a level, or over the same axis
+        numbers, others = of_numbers(result, axis), [name for name in names if name != axis]
+        x = varied_axis(result, axis)[1] if numbers else np.arange(result.sizes[axis], dtype=float)
+        drawn: dict[str, Any] = {"dash": "dotted"} if numbers else {"dash": "", "marker": "o"}
+        rest: list[Mark] = []
+        for at, colour, _ in _curves(result, others, thinned=False):
+            piece = result[at_rest].isel(at, missing_dims="ignore")
+            label, colour = ("", colour) if others else ("at rest", INK)
+            if axis in piece.dims:
+                rest.append(
+                    Series(x, piece.values, colour, label, width=1.1, filled=False, **drawn)
+                )
+            else:
+                rest.append(CrossLine(float(piece), colour, label, "dotted", 1.1))
+        area = area.with_marks(rest)
+        if others:
+            keys.append(Series([], [], INK, "at rest", width=1.1, filled=False, **drawn))
     if any(name.endswith(" *") for name in (area.x.ticks or {}).values()):
         keys.append(Series([], [], GREY, BEYOND_LABEL, dash="", marker="$*$"))
-    several = len(area.marks) > 1 or len(friction.marks) > 1 or bool(keys)
-    several |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
-    legend = "above" if several else ""
+    named = len(area.marks) > 1 or len(friction.marks) > 1 or bool(keys)
+    named |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
+    legend = "above" if named else ""
     return Sheet([area, friction], legend=legend, legend_columns=4, keys=keys).on_paper()
-
-
-def _at_rest(result: xr.Dataset) -> str:
-    """Return the name of the contact of rubber at rest."""
-    return rest_name(believed(result, "contact_fraction"))
-
-
-def _rest(result: xr.Dataset, axis: str, others: list[str]) -> Iterator[Mark]:
-    """Yield contact at rest, which has no speed: a dotted level, or over the same axis."""
-    rest = result[_at_rest(result)]
-    numbers = of_numbers(result, axis)
-    x = varied_axis(result, axis)[1] if numbers else np.arange(result.sizes[axis], dtype=float)
-    for at, colour, _ in _curves(result, others, thinned=False):
-        piece = rest.isel({name: i for name, i in at.items() if name in rest.dims})
-        label, colour = ("", colour) if others else ("at rest", INK)
-        if axis not in piece.dims:
-            yield CrossLine(float(piece), colour, label, "dotted", 1.1)
-        else:
-            yield Series(x, piece.values, colour, label, "dotted" if numbers else "", 1.1,
-                         "" if numbers else "o", filled=False)  # fmt: skip
 
 
 def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
@@ -263,17 +246,6 @@ def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
     )
 
 
-def wavelength_figure(result: xr.Dataset, axis: str) -> Figure:
-    """Draw running contact area and running friction against wavelength over one axis.
-
-    Dashed is what rests on the rubber beyond its measured band.
-    """
-    assert axis in result.dims
-    names = [name for name, variable in PER_WAVE.items() if variable.running]
-    panels = [_wave_panel(result, name, thinned=False) for name in names]
-    return Sheet(panels, legend="beside").on_paper()
-
-
 _AREA = "real contact area $A_r/A_0$"
 # Octaves and decades that never reach this share of the friction are not drawn.
 _LEAST_SHARE = 0.005
@@ -299,13 +271,12 @@ def _stacked(
     ]
     total = Series(x, upper[-1], INK, width=1.2, clip=False,
                    beyond=style.predictions_beyond(result))  # fmt: skip
-    name = "friction_by_decade" if parts.name is None else str(parts.name)
-    words = label_of(result, name)
+    words = label_of(result, str(parts.name))
     return Panel(
         abscissa,
         ordinate,
         [*bands[::-1], total],
-        name=f"{name}-over-{axis}",
+        name=f"{parts.name}-over-{axis}",
         caption=f"{words}, stacked.",
         alt=f"{words}, stacked against {label_of(result, axis)}.",
     )
@@ -318,7 +289,7 @@ def map_figure(result: xr.Dataset) -> Figure:
     measured band, crosses where the temperature lies beyond those the shift rests on. What did not
     converge is left white.
     """
-    result = result.transpose("temperature", "speed", ...)
+    result = result.sortby(["temperature", "speed"]).transpose("temperature", "speed", ...)
     (abscissa, speeds), (ordinate, celsius) = (
         varied_axis(result, name) for name in ("speed", "temperature")
     )
@@ -337,21 +308,12 @@ def map_figure(result: xr.Dataset) -> Figure:
         for rows, label, marker, colour, size in kinds
         if rows.any()
     ]  # fmt: skip
-    panels = [
-        Panel(
-            replace(abscissa, grid=False),
-            replace(ordinate, grid=False),
-            [
-                chart.ValueMap(
-                    *_finer(abscissa.log, speeds, celsius, result[name].values),
-                    _label(result, name),
-                    levels=9,
-                ),
-                *points,
-            ],
-        )
-        for name in (believed(result, quantity) for quantity in reversed(AXIS_TITLES))
-    ]
+    panels = []
+    for name in (believed(result, quantity) for quantity in reversed(AXIS_TITLES)):
+        fine = _finer(abscissa.log, speeds, celsius, result[name].values)
+        values = chart.ValueMap(*fine, _ordinate(result, name).label, levels=9)
+        frame = replace(abscissa, grid=False), replace(ordinate, grid=False)
+        panels.append(Panel(*frame, [values, *points]))
     return Sheet(panels, height=3.3, layout={"sharey": True}).on_paper()
 
 
@@ -383,55 +345,59 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     celsius = axis_shown(result, "temperature").of(result.temperature)
     label = axis_label(result, "temperature")
     bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
-    panels = [
-        _reduced_panel(result, believed(result, quantity)) for quantity in reversed(AXIS_TITLES)
-    ]
-    return Sheet(panels, height=3.3, colour_bar=bar).on_paper()
+    return Sheet(_reduced_panels(result), height=3.3, colour_bar=bar).on_paper()
 
 
-def _reduced_panel(data: xr.Dataset, name: str) -> Panel:
+def _reduced_panels(data: xr.Dataset) -> list[Panel]:
+    """Return friction and A_r/A_0 over the reduced speed, a curve for each temperature."""
     speeds = axis_shown(data, "speed")
     celsius = axis_shown(data, "temperature").of(data.temperature)
     shares = (celsius - celsius.min()) / max(float(np.ptp(celsius)), 1e-9)
     scale = style.shades(256, "Plasma")
-    flags = _beyond(data, data[name])
-    marks: list[Mark] = []
-    for i, share in enumerate(shares):
-        x, y, beyond = (
-            part.isel(temperature=i) for part in (data[REDUCED_SPEED], data[name], flags)
+    panels = []
+    for name in (believed(data, quantity) for quantity in reversed(AXIS_TITLES)):
+        flags = _beyond(data, data[name])
+        marks: list[Mark] = []
+        for i, share in enumerate(shares):
+            x, y, beyond = (
+                part.isel(temperature=i).values for part in (data[REDUCED_SPEED], data[name], flags)
+            )
+            marks.append(Series(speeds.of(x), y, scale[round(255 * float(share))],
+                                name_of(data, "temperature", i), width=1.0, marker="o", size=2.6,
+                                beyond=beyond, listed=False))  # fmt: skip
+        words = label_of(data, name)
+        panels.append(
+            Panel(
+                PlotAxis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7),
+                _ordinate(data, name),
+                marks,
+                name=f"{name}-over-{REDUCED_SPEED}",
+                caption=f"{words}, over the reduced speed a_T v: one curve where temperature does "
+                "nothing but shift the relaxation times of the rubber.",
+                alt=f"{words} against a_T v at every temperature.",
+            )
         )
-        marks.append(Series(speeds.of(x), y.values, scale[round(255 * float(share))],
-                            name_of(data, "temperature", i), width=1.0, marker="o", size=2.6,
-                            beyond=beyond.values, listed=False))  # fmt: skip
-    words, area = label_of(data, name), variable_of(data, name).measures == "contact_fraction"
-    return Panel(
-        PlotAxis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7),
-        PlotAxis(_label(data, name), log=area, low=None if area else 0.0),
-        marks,
-        name=f"{name}-over-{REDUCED_SPEED}",
-        caption=f"{words}, over the reduced speed a_T v: one curve where temperature does nothing "
-        "but shift the relaxation times of the rubber.",
-        alt=f"{words} against a_T v at every temperature.",
-    )
+    return panels
 
 
 def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
     """Return what makes the friction over a single axis of numbers, by the name of its figure."""
-    several = [name for name in dimensions(data) if data.sizes[name] > 1]
-    if several != numeric(data) or len(several) != 1:
+    if several(data) != numeric(data) or len(several(data)) != 1:
         return {}
-    data = data.isel({name: 0 for name in dimensions(data) if name not in several})
+    (axis,) = several(data)
+    data = data.isel({name: 0 for name in dimensions(data) if name != axis})
     panels = {}
     if "octave_friction" in data:
         parts = data.octave_friction.sortby("octave", ascending=False)
         names = [f"from {significant(end, 2)} mm" for end in parts.octave.values / MILLI]
         ordinate = PlotAxis("friction coefficient $\\mu$, octave upon octave [-]", low=0.0)
-        panels["stacked"] = _stacked(data, several[0], parts, names, ordinate, "Viridis")
+        panels["stacked"] = _stacked(data, axis, parts, names, ordinate, "Viridis")
     if "friction_by_decade" in data:
         parts = data.friction_by_decade / data[believed(data, "friction")]
+        parts = parts.rename("friction_by_decade")
         names = [f"from {style.power_of_ten(round(math.log10(t)))} s" for t in parts.decade.values]
         ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
-        panels["decades"] = _stacked(data, several[0], parts, names, ordinate, "Cividis")
+        panels["decades"] = _stacked(data, axis, parts, names, ordinate, "Cividis")
     return panels
 
 
@@ -442,11 +408,13 @@ def study_figures(result: xr.Dataset) -> Iterator[tuple[str, Figure]]:
         yield "friction_master_curve", friction_master_figure(result)
         if min(result.sizes["speed"], result.sizes["temperature"]) > 1:
             yield "map", map_figure(result)
-    several = [name for name in dimensions(result) if result.sizes[name] > 1]
+    axes = several(result)
     if not (result.prediction_status == "converged").any():
         return
-    if len(several) == 1 and "wavelength" in result:
-        first = {name: 0 for name in dimensions(result) if name not in several}
-        yield "wavelength", wavelength_figure(result.isel(first), several[0])
+    if len(axes) == 1 and "wavelength" in result:
+        alone = result.isel({name: 0 for name in dimensions(result) if name not in axes})
+        running = [name for name, variable in PER_WAVE.items() if variable.running]
+        panels = [_wave_panel(alone, name, thinned=False) for name in running]
+        yield "wavelength", Sheet(panels, legend="beside").on_paper()
     for name, panel in stacked_panels(result).items():
         yield name, Sheet([panel], 1, NARROW, 3.6, gap=0.02, legend="beside").on_paper()

@@ -71,35 +71,27 @@ def road_pictures(data: xr.Dataset) -> Iterator[Picture]:
 
 def ranking_figure(data: xr.Dataset, dim: str) -> Figure:
     """Draw the ratios to the first, friction down to each wavelength, and by relaxation time."""
-    panels = [_ratios_panel(data, dim)]
+    names = data[dim].values.tolist()
+    ratios, lows, highs = (
+        data[f"friction_ratio{end}"].transpose(dim, "over").values[:, :1]
+        for end in ("", "_low", "_high")
+    )
+    marks: list[Mark] = [CrossLine(1.0, width=0.7)]
+    for at, (name, colour) in enumerate(zip(names, COLOURS, strict=False)):
+        marks.append(
+            Series([at], ratios[at], colour, name, "", marker="o", size=6.0, low=lows[at],
+                   high=highs[at], listed=False)
+        )  # fmt: skip
+    friction = data[believed(data, "friction")].values
+    ticks = {float(at): significant(mu, 2) for at, mu in enumerate(friction)}
+    abscissa = PlotAxis("$\\mu$ [-]", ticks=ticks, low=-0.5, high=len(names) - 0.5)
+    ordinate = PlotAxis("$\\mu$ over that of the first [-]", margin=0.1)
+    panels = [Panel(abscissa, ordinate, marks)]
     if "octave_friction" in data:
         panels.append(_octaves_panel(data, dim))
     if dim == "rubber" and "friction_by_decade" in data:
         panels.append(_decades_panel(data))
     return Sheet(panels, len(panels), height=3.2).on_paper()
-
-
-def _ratios_panel(data: xr.Dataset, dim: str) -> Panel:
-    """Return the friction of each over that of the first, with its interval."""
-    marks: list[Mark] = [CrossLine(1.0, width=0.7)]
-    names = data[dim].values.tolist()
-    for at, (name, colour) in enumerate(zip(names, COLOURS, strict=False)):
-        ratio, *ends = (
-            [float(data[f"friction_ratio{end}"].transpose(dim, "over")[at, 0])]
-            for end in ("", "_low", "_high")
-        )
-        low, high = ends
-        marks.append(
-            Series([at], ratio, colour, name, "", marker="o", size=6.0, low=low, high=high,
-                   listed=False)
-        )  # fmt: skip
-    friction = data[believed(data, "friction")].values
-    ticks = {float(at): significant(mu, 2) for at, mu in enumerate(friction)}
-    return Panel(
-        PlotAxis("$\\mu$ [-]", ticks=ticks, low=-0.5, high=len(names) - 0.5),
-        PlotAxis("$\\mu$ over that of the first [-]", margin=0.1),
-        marks,
-    )
 
 
 def _octaves_panel(data: xr.Dataset, dim: str) -> Panel:
@@ -154,26 +146,16 @@ def roads_statistics_figure(data: xr.Dataset) -> Figure:
 
     `data` is that of `gripscale.questions.Surfaces`.
     """
-    correlation: list[Mark] = []
-    spectrum: list[Mark] = []
-    for name, colour in zip(data.surface.values.tolist(), COLOURS, strict=False):
-        road = data.sel(surface=name)
-        if "correlation" in road:
-            value = road.correlation.values / SQUARE_MM
-            correlation.append(Series(road.lag.values / MILLI, value, colour, name))
-        if "spectrum" in road:
-            value = road.spectrum.values / CUBIC_MM
-            spectrum.append(Series(road.wavenumber.values * MILLI, value, colour, name))
-    panels = [
-        Panel(
-            PlotAxis("lag $l$ [mm]", log=True),
-            PlotAxis("height difference $C_z$ [mm$^2$]", log=True),
-            correlation,
-        ),
-        Panel(
-            PlotAxis("wavenumber $q$ [rad/mm]", log=True),
-            PlotAxis("spectrum $C_1$ [mm$^3$]", log=True),
-            spectrum,
-        ),
-    ]
+    panels = []
+    for name, places, size, area, x, y in (
+        ("correlation", "lag", MILLI, SQUARE_MM, "lag $l$ [mm]",
+         "height difference $C_z$ [mm$^2$]"),
+        ("spectrum", "wavenumber", 1.0 / MILLI, CUBIC_MM, "wavenumber $q$ [rad/mm]",
+         "spectrum $C_1$ [mm$^3$]"),
+    ):  # fmt: skip
+        curves: list[Mark] = []
+        for road, colour in zip(data.surface.values, COLOURS, strict=False) if name in data else ():
+            value = data[name].sel(surface=road).values / area
+            curves.append(Series(data[places].values / size, value, colour, str(road)))
+        panels.append(Panel(PlotAxis(x, log=True), PlotAxis(y, log=True), curves))
     return Sheet(panels, height=3.2).on_paper()

@@ -116,14 +116,9 @@ def compare_surfaces_command(
 
     work = terminal.CaseCommand(case_of(surfaces, case, "the rubber and the load"))
     work.open_results(output, "surfaces")
-    ranking = compare_surfaces(
-        work.case,
-        {
-            name: read_surface(value, work.file)
-            for name, value in zip(names_of(surfaces), surfaces, strict=True)
-        },
-        **work.solving(workers),
-    )
+    read = [read_surface(value, work.file) for value in surfaces]
+    roads = dict(zip(names_of(surfaces), read, strict=True))
+    ranking = compare_surfaces(work.case, roads, **work.solving(workers))
     work.finish(ranking, "tables and figures", drawings="")
 
 
@@ -154,13 +149,8 @@ def compare_rubbers(
     kelvin = si_value("--temperature", temperature, "K")
     work = terminal.CaseCommand(chosen)
     work.open_results(output, "rubbers")
-    compounds = compare_compounds(
-        work.case,
-        {
-            name: read_rubber(value, work.file, modulus)
-            for name, value in zip(names_of(rubbers), rubbers, strict=True)
-        },
-        temperature=kelvin,
-        **work.solving(workers),
-    )
-    work.finish(compounds, "table and figures", text="compounds.txt", drawings="")
+    read = [read_rubber(value, work.file, modulus) for value in rubbers]
+    compounds = dict(zip(names_of(rubbers), read, strict=True))
+    solving = work.solving(workers)
+    ranking = compare_compounds(work.case, compounds, temperature=kelvin, **solving)
+    work.finish(ranking, "table and figures", text="compounds.txt", drawings="")

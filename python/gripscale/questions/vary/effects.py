@@ -77,30 +77,21 @@ def effects(
 ) -> xr.Dataset:
     """Return what each effect of the conditions of a model is worth.
 
+    Over `effect`: "all", "no" each effect that was asked for, "none": the totals of the model,
+    friction with the area term if there is one, `prediction_status`, and the changes by what was
+    left out [-], which are NaN for "all" and where one of both did not converge.
+
     `model` has conditions, such as `Chain(conditions=...)` or `DirectContact(conditions=...)`. A
     `folder` keeps the finished predictions, and shares them with a study or a comparison there.
-    Other arguments are those of `Model.predict` and `gripscale.experiment.Bench`.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over `effect`: "all", "no" each effect that was asked for, "none": the totals of the model,
-        friction with the area term if there is one, `prediction_status`, and the changes by what
-        was left out [-], which are NaN for "all" and where one of both did not converge.
-
-    Raises
-    ------
-    InputError
-        As `effect_tasks`, and for an input that cannot be used.
-    FileError
-        If a result cannot be written.
+    Other arguments are those of `Model.predict` and `gripscale.experiment.Bench`. Raises
+    `InputError` as `effect_tasks`, and for an input that cannot be used; `FileError` if a result
+    cannot be written.
     """
     tasks = effect_tasks(model, rubber, surface, load)
-    points = [Point((at,), selection, task) for at, (selection, task) in enumerate(tasks.items())]
+    points = [Point((at,), *task) for at, task in enumerate(tasks.items())]
     coords = {"effect": ("effect", list(tasks), variable_attributes("effects that count"))}
-    design = Design({"effect": len(tasks)}, points, coords)
-    store = None if folder is None else Store(folder)
-    data = solve_design(design, Bench(store, workers, client, on_task))
+    bench = Bench(None if folder is None else Store(folder), workers, client, on_task)
+    data = solve_design(Design({"effect": len(tasks)}, points, coords), bench)
     data = data[[name for name in _KEPT if name in data]]
     if ADHESIVE_FRICTION in data:
         both = data.total_friction + data[ADHESIVE_FRICTION]
@@ -108,13 +99,10 @@ def effects(
         data = data.assign({WITH_AREA_TERM: both.assign_attrs(variable_attributes(words))})
     for name, change in CHANGES.items():
         if name in data:
-            relative = (
-                data[name].sel(effect=inputs.ALL_EFFECTS, drop=True) / data[name] - 1.0
-            ).transpose()
+            relative = data[name].sel(effect=inputs.ALL_EFFECTS, drop=True) / data[name] - 1.0
             words = f"what the effects left out change in {data[name].attrs['long_name']}"
-            data[change] = relative.where(data.effect != inputs.ALL_EFFECTS).assign_attrs(
-                variable_attributes(words)
-            )
+            relative = relative.where(data.effect != inputs.ALL_EFFECTS)
+            data[change] = relative.assign_attrs(variable_attributes(words))
     return data.assign_attrs(
         {
             "title": "What each effect of the conditions is worth",
@@ -147,23 +135,14 @@ def case_effects(
 ) -> xr.Dataset | None:
     """Return what each effect is worth in a sliding case, and write it into `folder`.
 
-    `model` has the conditions of the case; `folder` gets `effects_<model>.nc`, `store` keeps the
-    finished predictions. `dynamic` is the chain of the sliding case, where it is solved already.
-
-    Returns
-    -------
-    xarray.Dataset or None
-        As `effects`; None of a case at rest, or whose conditions do nothing to the rubber.
-
-    Raises
-    ------
-    FileError
-        If a result cannot be written.
+    As `effects`; None of a case at rest, or whose conditions do nothing to the rubber. `model` has
+    the conditions of the case; `folder` gets `effects_<model>.nc`, `store` keeps the finished
+    predictions. `dynamic` is the chain of the sliding case, where it is solved already. Raises
+    `FileError` if a result cannot be written.
     """
-    asked, load = inputs.effects_asked(model), case.load
-    if not asked or load.speed == 0.0:
+    if not inputs.effects_asked(model) or case.load.speed == 0.0:
         return None
-    setup = (model, case.rubber, case.surface, load)
+    setup = (model, case.rubber, case.surface, case.load)
     if model == case.chain and dynamic is not None and dynamic.converged:
         key = effect_tasks(*setup)[inputs.ALL_EFFECTS].key
         solved = dynamic.to_dataset().assign_attrs(prediction_key=key)

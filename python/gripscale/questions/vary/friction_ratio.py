@@ -174,6 +174,11 @@ RATIO_BASIS = {
 }
 
 
+def ratio_basis(answer: xr.Dataset) -> xr.Dataset:
+    """Return what an answer, or samples, hold of `RATIO_BASIS`."""
+    return answer[[name for name in RATIO_BASIS if name in answer]]
+
+
 class ComparedContact(DirectContact):
     """Direct contact of one profile or map whose answer holds what a ratio needs."""
 
@@ -188,20 +193,18 @@ class ComparedContact(DirectContact):
             return answer
         piece = PIECE * float(surface.sines.wavelength[0])
         before = rubber if self.conditions is None else self.conditions.before(rubber)
-        values: Sequence[tuple[Sequence[str], Array | float]] = (
-            ((), contact.friction_from_dissipation),
-            ((), contact.friction),
-            ((), coarse_friction(contact)),
-            ((), pieces_that_carry(contact, piece)),
-            (("piece",), friction_residuals(contact, piece)),
-            (("series",), series_changes(contact, before)),
-        )
-        return answer.assign(
-            {
-                name: labelled(*value, "1", text, self.name)
-                for (name, text), value in zip(RATIO_BASIS.items(), values, strict=True)
-            }
-        )
+        values: dict[str, Array | float] = {
+            "profile_friction_from_dissipation": contact.friction_from_dissipation,
+            "profile_friction": contact.friction,
+            "profile_coarse_friction": coarse_friction(contact),
+            "carrying_pieces": pieces_that_carry(contact, piece),
+            "piece_residual": friction_residuals(contact, piece),
+            "series_change": series_changes(contact, before),
+        }
+        dims = {"piece_residual": ("piece",), "series_change": ("series",)}
+        for name, value in values.items():
+            answer[name] = labelled(dims.get(name, ()), value, "1", RATIO_BASIS[name], self.name)
+        return answer
 
 
 def scatter_of_pieces(residuals: Sequence[Array], carrying: Sequence[float]) -> tuple[float, float]:
@@ -217,16 +220,29 @@ def scatter_of_pieces(residuals: Sequence[Array], carrying: Sequence[float]) -> 
     return math.hypot(*(error for error in errors if math.isfinite(error))), freedom
 
 
+NORMAL = 1.645  # half width of a 90 % interval over a standard error
+
+
+def answer_ratio(over: xr.Dataset, under: xr.Dataset, friction: str) -> FrictionRatio:
+    """Return the friction, a variable of both, of one answer over that of another."""
+    if "piece_residual" in over:  # of compounds on one surface
+        return compound_ratio(over, under)
+    widths = [float(each.get(f"{friction}_half_width", math.nan)) for each in (over, under)]
+    sigma = math.hypot(*(math.asinh(width) / NORMAL for width in widths))
+    return FrictionRatio(math.log(float(over[friction]) / float(under[friction])), sigma)
+
+
 def compound_ratio(over: xr.Dataset, under: xr.Dataset) -> FrictionRatio:
     """Return the friction of one compound over that of another on the same surface.
 
     Of answers with `RATIO_BASIS` over `sample`; without an error if one has none.
     """
     pair = over, under
-    frictions, areas = (
-        [float(d[f"answer_{name}"]) for d in pair] for name in ("friction", "contact_fraction")
-    )
-    log_ratio = math.log(frictions[0] / frictions[1])
+
+    def log_ratio(name: str) -> float:
+        high, low = (float(each[name].sum()) for each in pair)
+        return math.log(high / low)
+
     lost = [each["profile_friction_from_dissipation"] for each in pair]
     shares = [friction / friction.sum() for friction in lost]
     over_pieces, under_pieces = (
@@ -237,17 +253,13 @@ def compound_ratio(over: xr.Dataset, under: xr.Dataset) -> FrictionRatio:
         [row[np.isfinite(row)] for row in over_pieces - under_pieces],
         np.minimum(*(each["carrying_pieces"].values for each in pair)).tolist(),
     )
-
-    def of_friction(name: str) -> float:
-        high, low = (float(each[f"profile_{name}"].sum()) for each in pair)
-        return math.log(high / low)
-
     changes = [
         (share * each["series_change"]).sum("sample", skipna=False).dropna("series").values
         for share, each in zip(shares, pair, strict=True)
         if "series_change" in each
     ]
     rubbers = [series_error(change) for change in changes if change.size]
-    largest = grid_error(of_friction), LOAD_SENSITIVITY * abs(math.log(areas[0] / areas[1]))
+    area = LOAD_SENSITIVITY * abs(log_ratio("answer_contact_fraction"))
+    largest = grid_error(lambda name: log_ratio(f"profile_{name}")), area
     even = [error / math.sqrt(3.0) for error in largest]
-    return FrictionRatio.of_sources(log_ratio, sampling, *even, *rubbers)
+    return FrictionRatio.of_sources(log_ratio("answer_friction"), sampling, *even, *rubbers)

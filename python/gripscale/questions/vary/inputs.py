@@ -11,7 +11,6 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
 from gripscale.core import checks
 from gripscale.experiment.design import OF_THE_CASE
-from gripscale.experiment.task import canonical_json
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import Model
 from gripscale.questions.vary.answer_model import AnswerModel
@@ -39,7 +38,8 @@ def surface_of(value: Any, case: Case) -> Surface:
         return Surface(value, "sine waves given by the caller")
     if value == OF_THE_CASE:
         return case.surface
-    return synthetic_surface(_name("surface", value, SYNTHETIC_SURFACES))
+    names = [OF_THE_CASE, *SYNTHETIC_SURFACES]
+    return synthetic_surface(checks.one_of("surface", value, names))
 
 
 def measured_rubber_of(value: Any, case: Case) -> MeasuredRubber:
@@ -50,26 +50,17 @@ def measured_rubber_of(value: Any, case: Case) -> MeasuredRubber:
     """
     if isinstance(value, MeasuredRubber):
         return value
-    if isinstance(value, Rubber):
-        return MeasuredRubber(value, value.source)
     if value == OF_THE_CASE:
         return case.measured_rubber
-    rubber = _NAMED_RUBBERS[_name("rubber", value, _NAMED_RUBBERS)]()
-    return MeasuredRubber(rubber, rubber.source)
-
-
-def _name(kind: str, value: Any, names: Iterable[str]) -> str:
-    return checks.one_of(kind, value, [OF_THE_CASE, *names])
+    if not isinstance(value, Rubber):
+        names = [OF_THE_CASE, *_NAMED_RUBBERS]
+        value = _NAMED_RUBBERS[checks.one_of("rubber", value, names)]()
+    return MeasuredRubber(value, value.source)
 
 
 def reading_notes(values: Iterable[Any]) -> tuple[str, ...]:
     """Return what was assumed when surfaces or rubbers were read from files, a sentence each."""
     return tuple(filter(None, (getattr(value, "note", "") for value in values)))
-
-
-def identity(value: Any) -> Any:
-    """Return what decides a varied surface or rubber: its name, or everything it holds."""
-    return value if isinstance(value, str) else canonical_json(value)
 
 
 # What conditions do to the contact; the area term does nothing to it.

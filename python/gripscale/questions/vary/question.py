@@ -15,12 +15,13 @@ from gripscale.core.finding import Finding
 from gripscale.experiment.solve import OnTask
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io.table import Table
-from gripscale.model import Model
+from gripscale.model import STATUS, Model
 from gripscale.questions.result import Result
-from gripscale.questions.vary import page, page_of_answer
+from gripscale.questions.vary import page
+from gripscale.questions.vary.schema import rest_name
 from gripscale.questions.vary.study import Study
 from gripscale.report.elements import Page
-from gripscale.report.failures import first_of
+from gripscale.report.failures import failures_in, first_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,8 +33,13 @@ class Variation(Result):
     kind = "study"
 
     @property
+    def noun(self) -> str:
+        """What one of its predictions is called."""
+        return "prediction"
+
+    @property
     def lines(self) -> Sequence[str]:
-        return tuple(page_of_answer.study_lines(self.data))
+        return tuple(page.study_lines(self.data))
 
     @property
     def findings(self) -> Sequence[Finding]:
@@ -41,11 +47,15 @@ class Variation(Result):
 
     @property
     def failure(self) -> str:
-        failed, total = page.failed_predictions(self.data)
-        return first_of(failed, total, "predictions")
+        states = [name for name in (STATUS, rest_name(STATUS)) if name in self.data]
+        failed = [failure for name in states for failure in failures_in(self.data, name)]
+        total = sum(self.data[name].size for name in states)
+        return first_of(failed, total, f"{self.noun}s")
 
     def parts(self) -> Iterator[str | Table]:
-        yield from page.study_parts(self.data)
+        yield page.study_table(self.data)
+        for words, text in page.collapse_sentences(self.data):
+            yield f"Over a_T v, {words}: {text}."
 
     def table(self) -> Table:
         return page.study_table(self.data)

@@ -22,7 +22,7 @@ from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.model import input_doubts
 from gripscale.questions.vary.answer_model import AnswerModel
-from gripscale.questions.vary.friction_ratio import FrictionRatio, compound_ratio
+from gripscale.questions.vary.friction_ratio import FrictionRatio, answer_ratio
 from gripscale.questions.vary.inputs import (
     READING_NOTES,
     TEMPERATURE,
@@ -32,7 +32,7 @@ from gripscale.questions.vary.inputs import (
     reading_notes,
     surface_of,
 )
-from gripscale.questions.vary.side_by_side import Compounds, Surfaces
+from gripscale.questions.vary.page_side_by_side import Compounds, Surfaces
 from gripscale.questions.vary.study import Study, study_numbers
 from gripscale.questions.words import believed
 from gripscale.rubber import Rubber, temperature_doubts
@@ -43,7 +43,6 @@ from gripscale.surface.texture import textures
 _SAME = 0.5  # temperatures that differ by less are one [K]: 20 °C and 293 K
 _PER_DECADE = 12  # lags and wavenumbers at which roads are drawn together
 FEWEST_COMPARED, MOST_COMPARED = 2, 6
-NORMAL = 1.645  # half width of a 90 % interval over a standard error
 # Names and meanings of what is said of each pair.
 RANKED = {
     "friction_ratio": "friction over that of `over`",
@@ -64,13 +63,20 @@ def compare_compounds(
 ) -> Compounds:
     """Rank several compounds on the road of a case by the friction of their answers.
 
+    Returns over `rubber` the numbers of the answer; over `rubber` and `over` the ratio of their
+    frictions and so on (`gripscale.questions.vary.ranking.RANKED`); friction by octave of
+    wavelength, `octave_friction`, and by decade of relaxation time, `friction_by_decade`.
+
+    Raises `InputError` if there are fewer than two or more than six compounds, or they cannot be
+    brought to one temperature.
+
     Parameters
     ----------
     case : Case
         Surface, load and conditions; without a measured surface also the solver of the chain.
     rubbers
-        Two to six compounds by what they are called: a `Rubber`, a `MeasuredRubber`, "case", or a
-        rubber known by name.
+        The compounds by what they are called: a `Rubber`, a `MeasuredRubber`, "case", or a rubber
+        known by name.
     folder : path, optional
         Keeps each answer as soon as it is there: what was interrupted resumes.
     temperature : float, optional
@@ -78,19 +84,6 @@ def compare_compounds(
         all of them have or can be shifted to.
     workers, on_task
         As for `gripscale.experiment.Bench`.
-
-    Returns
-    -------
-    Compounds
-        Over `rubber` the numbers of the answer; over `rubber` and `over` the ratio of their
-        frictions and so on (`gripscale.questions.vary.ranking.RANKED`); friction by octave of
-        wavelength, `octave_friction`, and by decade of relaxation time, `friction_by_decade`.
-
-    Raises
-    ------
-    InputError
-        If there are fewer than two or more than six compounds, or they cannot be brought to one
-        temperature.
     """
     require_some("rubbers", rubbers, "compounds")
     measured = {name: measured_rubber_of(value, case) for name, value in rubbers.items()}
@@ -104,14 +97,13 @@ def compare_compounds(
     study = Study(case, {"rubber": together}, static=False, model=model)
     data = ranked_answers(study, folder, workers, on_task)
     loads = [point.task.load for point in study.points]
+    kelvins = [rubber.reference_temperature for rubber in together.values()]
     data = data.assign_attrs(
         input_doubts([*study.surfaces, *measured.values()], loads, case.units),
         title="Compounds on one surface, by friction",
         **{READING_NOTES: "\n".join([*reading_notes(rubbers.values()), *notes])},
+        **({TEMPERATURE: kelvins[0]} if None not in kelvins and len({*kelvins}) == 1 else {}),
     )
-    kelvins = [rubber.reference_temperature for rubber in together.values()]
-    if kelvins[0] is not None and len({*kelvins}) == 1:
-        data = data.assign_attrs({TEMPERATURE: kelvins[0]})
     return Compounds(data)
 
 
@@ -125,30 +117,21 @@ def compare_surfaces(
 ) -> Surfaces:
     """Rank several surfaces under the rubber of a case by the friction of their answers.
 
+    Returns over `surface` the numbers of the answer and the texture (`gripscale.surface.texture`);
+    ratios of friction and `octave_friction` as `compare_compounds`; `correlation` over `lag` and
+    `spectrum` over `wavenumber`.
+
+    Raises `InputError` if there are fewer than two or more than six surfaces, or one is not known.
+
     Parameters
     ----------
     case : Case
         Rubber, load and conditions; without measured surfaces also the solver of the chain.
     surfaces
-        Two to six surfaces by what they are called: a `Surface`, a `SineStack`, "case", or one
-        known by name.
-    folder : path, optional
-        Keeps each answer as soon as it is there: what was interrupted resumes.
-    workers, on_task
-        As for `gripscale.experiment.Bench`.
-
-    Returns
-    -------
-    Surfaces
-        Over `surface` the numbers of the answer and the texture (`gripscale.surface.texture`); over
-        `surface` and `over` the ratio of their frictions and so on
-        (`gripscale.questions.vary.ranking.RANKED`); friction by octave of wavelength,
-        `octave_friction`; `correlation` over `lag` and `spectrum` over `wavenumber`.
-
-    Raises
-    ------
-    InputError
-        If there are fewer than two or more than six surfaces, or one is not known.
+        The surfaces by what they are called: a `Surface`, a `SineStack`, "case", or one known by
+        name.
+    folder, workers, on_task
+        As for `compare_compounds`.
     """
     require_some("surfaces", surfaces, "surfaces")
     roads = {
@@ -158,19 +141,15 @@ def compare_surfaces(
         else surface_of(value, case)
         for name, value in surfaces.items()
     }
-    study = Study(case, {"surface": roads}, static=False)
-    data = ranked_answers(study, folder, workers, on_task)
+    data = ranked_answers(Study(case, {"surface": roads}, static=False), folder, workers, on_task)
     waves = [f"{name} was not measured" for name, road in roads.items() if road.measured is None]
     heights = {
         name: road.measured.heights if road.measured else None for name, road in roads.items()
     }
     data = data.assign(textures(heights, "surface")).assign(_measured(roads))
-    return Surfaces(
-        data.assign_attrs(
-            title="Surfaces under one rubber, by friction",
-            **{READING_NOTES: "\n".join([*reading_notes(surfaces.values()), *waves])},
-        )
-    )
+    notes = "\n".join([*reading_notes(surfaces.values()), *waves])
+    title = "Surfaces under one rubber, by friction"
+    return Surfaces(data.assign_attrs(title=title, **{READING_NOTES: notes}))
 
 
 def at_one_temperature(
@@ -190,34 +169,29 @@ def at_one_temperature(
         for name, rubber in rubbers.items()
         if rubber.reference_temperature is not None
     }
-    wanted = temperature
-    if wanted is None:
+    if temperature is None:
         fixed = {name: t for name, t in temperatures.items() if rubbers[name].shift is None}
         if fixed and max(fixed.values()) - min(fixed.values()) > _SAME:
-            each = ", ".join(
-                f"{name} for {celsius(kelvin, '.1f')}" for name, kelvin in fixed.items()
-            )
+            each = [f"{name} for {celsius(kelvin, '.1f')}" for name, kelvin in fixed.items()]
             raise InputError(
                 "compounds must hold for one temperature, or have a shift to it; got "
-                f"{each} without one"
+                f"{', '.join(each)} without one"
             )
-        wanted = next(iter((fixed or temperatures).values()), None)
-    if wanted is None:
+        temperature = next(iter((fixed or temperatures).values()), None)
+    if temperature is None:
         return dict(rubbers), temperature_doubts(rubbers)
-    together, shifted = {}, []
-    for name, rubber in rubbers.items():
-        before = temperatures.get(name)
-        if before is None or abs(before - wanted) <= _SAME:
-            together[name] = rubber
+    together, shifted, target = dict(rubbers), [], celsius(temperature, ".1f")
+    for name, kelvin in temperatures.items():
+        if abs(kelvin - temperature) <= _SAME:
             continue
-        if rubber.shift is None:
+        before = celsius(kelvin, ".1f")
+        if rubbers[name].shift is None:
             raise InputError(
-                f"{name} holds for {celsius(before, '.1f')} and cannot be brought to "
-                f"{celsius(wanted, '.1f')}: "
-                "give it a shift, or leave it out"
+                f"{name} holds for {before} and cannot be brought to {target}: give it a shift, or "
+                "leave it out"
             )
-        together[name] = rubber.at(wanted)
-        shifted.append(f"{name} shifted from {celsius(before, '.1f')} to {celsius(wanted, '.1f')}")
+        together[name] = rubbers[name].at(temperature)
+        shifted.append(f"{name} shifted from {before} to {target}")
     return together, (*shifted, *temperature_doubts(together))
 
 
@@ -238,31 +212,20 @@ def ranked_answers(
         data = study.assemble(bench.solve(study.design.tasks, study_numbers))
     (dim,) = study.design.sizes
     names = data[dim].values
-    pairs = [[_ratio(data, dim, i, j) for j in range(names.size)] for i in range(names.size)]
-    numbers = [[(r.log_ratio, *r.interval, r.confidence) for r in row] for row in pairs]
-    values = np.moveaxis(np.array(numbers), -1, 0)
-    values[0] = np.exp(values[0])
+    friction = believed(data, "friction")
+    numbers = data[friction].transpose(dim).values
+    values = np.full((len(RANKED), names.size, names.size), np.nan)
+    for i, j in np.ndindex(names.size, names.size):
+        if numbers[i] > 0.0 and numbers[j] > 0.0:
+            over, under = data.isel({dim: i}), data.isel({dim: j})
+            ratio = FrictionRatio(0.0, 0.0) if i == j else answer_ratio(over, under, friction)
+            values[:, i, j] = math.exp(ratio.log_ratio), *ratio.interval, ratio.confidence
     columns = {
         name: ((dim, "over"), part, variable_attributes(text))
         for (name, text), part in zip(RANKED.items(), values, strict=True)
     }
     data = data.assign_coords(over=("over", names)).assign(columns)
     return data.assign_attrs(case_file=study.case.origin.name)
-
-
-def _ratio(data: xr.Dataset, dim: str, i: int, j: int) -> FrictionRatio:
-    over, under = (data.isel({dim: at}) for at in (i, j))
-    friction = believed(data, "friction")
-    high, low = (float(each[friction]) for each in (over, under))
-    if not (high > 0.0 and low > 0.0):
-        return FrictionRatio(math.nan, math.nan)
-    if i == j:
-        return FrictionRatio(0.0, 0.0)
-    if dim == "rubber" and "piece_residual" in data:
-        return compound_ratio(over, under)
-    widths = [float(each.get(f"{friction}_half_width", math.nan)) for each in (over, under)]
-    sigma = math.hypot(*(math.asinh(width) / NORMAL for width in widths))
-    return FrictionRatio(math.log(high / low), sigma)
 
 
 def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:

@@ -6,7 +6,7 @@ variable of another model is a plain number that is called by its `long_name`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -21,8 +21,8 @@ from gripscale.model import (
     STATUS_WORD,
     WHY_NO_EXPONENT,
 )
-from gripscale.questions.answer.estimate import AREA_TERM, BASIS_SHARES, ESTIMATED, TOTAL
-from gripscale.questions.vary.axis import AXIS_LABELS
+from gripscale.questions.answer.estimate import AREA_TERM, BASIS_SHARES
+from gripscale.questions.vary.axis import VARIED_INPUTS
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
 from gripscale.questions.words import HEADINGS, SYMBOLS
 
@@ -49,38 +49,41 @@ class StudyVariable(NamedTuple):
     at_rest: bool = True  # whether rubber at rest has it
 
 
-_WORDS = {name: f"{HEADINGS[name]} {SYMBOLS[name]}" for name in ESTIMATED} | {
-    "friction": "friction μ"
+# Numbers of an answer by the number they are of: what each is called, and its role.
+_INTERVAL = {
+    "answer_{}": ("{}, answer", Role.ANSWER),
+    "answer_{}_low": ("its 90 %, from", Role.END),
+    "answer_{}_high": ("to", Role.END),
+    "answer_{}_half_width": ("relative half width of the {}", Role.EVIDENCE),
+    "answer_{}_uncertainty": ("relative uncertainty of the {}", Role.EVIDENCE),
 }
-
-
-_ENDS = ("low", "its 90 %, from"), ("high", "to")
-
-
-def _of_answer() -> Iterator[tuple[str, StudyVariable]]:
-    """Yield the numbers of the answer with their intervals and errors."""
-    total = StudyVariable("friction μ with the area term, answer", Role.ANSWER, "friction")
-    yield TOTAL, total._replace(at_rest=False)
-    for end, label in _ENDS:
-        yield f"{TOTAL}_{end}", StudyVariable(label, Role.END, at_rest=False)
-    for end in ("half_width", "uncertainty"):
-        label = f"relative {end.replace('_', ' ')} of the friction μ with the area term"
-        yield f"{TOTAL}_{end}", StudyVariable(label, Role.EVIDENCE, at_rest=False)
-    for name, words in _WORDS.items():
-        rest = name != "friction"
-        yield f"answer_{name}", StudyVariable(f"{words}, answer", Role.ANSWER, name, at_rest=rest)
-        for end, label in _ENDS:
-            yield f"answer_{name}_{end}", StudyVariable(label, Role.END, at_rest=rest)
-        for end in ("half_width", "uncertainty", "sampling_error", "grid_error"):
-            label = f"relative {end.replace('_', ' ')} of the {words}"
-            yield f"answer_{name}_{end}", StudyVariable(label, Role.EVIDENCE, at_rest=rest)
-        for end in ("factor", "factor_uncertainty"):
-            label = f"{end.replace('_', ', ')}, on the {words} of the direct contact"
-            yield f"answer_{name}_{end}", StudyVariable(label, Role.EVIDENCE, at_rest=rest)
-        yield f"total_{name}", StudyVariable(words, Role.NUMBER, name, at_rest=rest)
-        for end in ("error", "sampling_error"):
-            label = f"{end.replace('_', ' ')} of the {words}"
-            yield f"total_{name}_{end}", StudyVariable(label, Role.EVIDENCE, at_rest=rest)
+_PARTS = {
+    "answer_{}_sampling_error": ("relative sampling error of the {}", Role.EVIDENCE),
+    "answer_{}_grid_error": ("relative grid error of the {}", Role.EVIDENCE),
+    "answer_{}_factor": ("factor, on the {} of the direct contact", Role.EVIDENCE),
+    "answer_{}_factor_uncertainty": (
+        "factor, uncertainty, on the {} of the direct contact",
+        Role.EVIDENCE,
+    ),
+    "total_{}": ("{}", Role.NUMBER),
+    "total_{}_error": ("error of the {}", Role.EVIDENCE),
+    "total_{}_sampling_error": ("sampling error of the {}", Role.EVIDENCE),
+}
+_AREA = f"{HEADINGS['contact_fraction']} {SYMBOLS['contact_fraction']}"
+_ANSWERED = {
+    pattern.format(name): StudyVariable(
+        label.format(words),
+        role,
+        measures if role in (Role.ANSWER, Role.NUMBER) else "",
+        at_rest=measures != "friction",
+    )
+    for name, measures, words, patterns in (
+        ("contact_fraction", "contact_fraction", _AREA, _INTERVAL | _PARTS),
+        ("friction", "friction", "friction μ", _INTERVAL | _PARTS),
+        ("total_friction", "friction", "friction μ with the area term", _INTERVAL),
+    )
+    for pattern, (label, role) in patterns.items()
+}
 
 
 # Further numbers of rubber that slides.
@@ -102,14 +105,6 @@ _OF_A_SLIDING_WAVE = (
     *("outside_band", "decades_below_band", "decades_above_band"),
 )
 
-_MOVING = {name: StudyVariable(label, at_rest=False) for name, label in _NUMBERS.items()}
-_MOVING |= {
-    AREA_TERM: StudyVariable("μ of the area term, answer", Role.ANSWER, at_rest=False),
-    ADHESIVE_FRICTION: StudyVariable("μ of the area term", Role.NUMBER, ADHESIVE_FRICTION),
-}
-_MOVING |= {
-    name: StudyVariable(name.replace("_", " "), at_rest=False) for name in _OF_A_SLIDING_WAVE
-}
 # Numbers of each wave that are drawn.
 PER_WAVE = {
     "running_contact_fraction": StudyVariable(
@@ -121,20 +116,25 @@ PER_WAVE = {
     "contact_fraction": StudyVariable("contact fraction of each wave", measures="contact_fraction"),
     "friction": StudyVariable("friction μ of each wave", measures="friction", at_rest=False),
 }
-_COMMON = {
+# All variables that a study knows, of rubber that slides.
+VARIABLES = {
+    **_ANSWERED,
+    **PER_WAVE,
+    **{name: StudyVariable(label, at_rest=False) for name, label in _NUMBERS.items()},
+    **{name: StudyVariable(name.replace("_", " "), at_rest=False) for name in _OF_A_SLIDING_WAVE},
+    **{name: StudyVariable(text, Role.EVIDENCE) for name, text in BASIS.items()},
+    **{
+        f"answer_{name}": StudyVariable(name.replace("_", " "), Role.EVIDENCE, at_rest=False)
+        for name in BASIS_SHARES
+    },
+    AREA_TERM: StudyVariable("μ of the area term, answer", Role.ANSWER, at_rest=False),
+    ADHESIVE_FRICTION: StudyVariable("μ of the area term", Role.NUMBER, ADHESIVE_FRICTION),
     "total_contact_fraction_cut_off_exponent": StudyVariable("d ln(A_r/A_0) / d ln λ_min"),
     STATUS: StudyVariable("status", Role.STATUS),
     STATUS_WORD: StudyVariable("word of the status", Role.RECORD),
     "prediction_key": StudyVariable("key of the prediction", Role.RECORD),
     "factor_label": StudyVariable("factors of the answer", Role.RECORD, at_rest=False),
 }
-_BASIS = {name: StudyVariable(text, Role.EVIDENCE) for name, text in BASIS.items()}
-_BASIS |= {
-    f"answer_{name}": StudyVariable(name.replace("_", " "), Role.EVIDENCE, at_rest=False)
-    for name in BASIS_SHARES
-}
-# All variables that a study knows, of rubber that slides.
-VARIABLES = dict(_of_answer()) | _MOVING | PER_WAVE | _COMMON | _BASIS
 
 
 def rest_name(name: str) -> str:
@@ -163,18 +163,22 @@ _PLAIN = StudyVariable("")
 
 def variable_of(data: xr.Dataset, name: str) -> StudyVariable:
     """Return what a study holds under a name."""
-    declared = VARIABLES.get(name) or _AT_REST.get(name)
-    if declared is not None:
-        return declared
-    plain = name.replace("_", " ")
-    if name in AXIS_LABELS or name not in data.variables:
-        return StudyVariable(plain)
-    return StudyVariable(str(data[name].attrs.get("long_name", plain)))
+    label, numeric = name.replace("_", " "), name in VARIED_INPUTS and VARIED_INPUTS[name].numeric
+    if name in data.variables and not numeric:
+        label = str(data[name].attrs.get("long_name", label))
+    return VARIABLES.get(name) or _AT_REST.get(name) or StudyVariable(label)
 
 
 def label_of(data: xr.Dataset, name: str) -> str:
     """Return what a page calls a variable or an axis."""
     return variable_of(data, name).label
+
+
+def per_prediction(data: xr.Dataset, axes: Sequence[str]) -> Iterator[tuple[str, StudyVariable]]:
+    """Yield names and meanings of what has a number or a text at each point of the axes."""
+    for name, variable in data.data_vars.items():
+        if variable.dims and set(variable.dims) <= {*axes}:
+            yield str(name), variable_of(data, str(name))
 
 
 def telling(variable: xr.DataArray) -> bool:

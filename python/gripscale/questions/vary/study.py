@@ -40,20 +40,22 @@ from gripscale.io import netcdf
 from gripscale.model import Model, input_doubts
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
-from gripscale.questions.vary.answer_model import OCTAVE_UNIT, AnswerModel
-from gripscale.questions.vary.axis import AXIS_UNITS, LONG_NAMES, Axis, axes_of
-from gripscale.questions.vary.schema import VARIABLES, Role, at_rest, rest_name
-from gripscale.questions.vary.speed_and_temperature import (
-    beyond_shift,
+from gripscale.questions.vary.answer_model import AnswerModel
+from gripscale.questions.vary.axis import VARIED_INPUTS, Axis, axes_of
+from gripscale.questions.vary.friction_parts import (
     friction_by_decade,
-    with_master_curve,
+    over_decades,
+    waves_by_octave,
+    with_decades,
 )
+from gripscale.questions.vary.schema import VARIABLES, Role, at_rest, rest_name
+from gripscale.questions.vary.speed_and_temperature import beyond_shift, with_master_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import Surface
 
 _RENAMED = {"temperature": "wave_temperature"}  # variables over waves that have the name of an axis
-_OF_THE_LOAD = ("nominal_pressure", "nominal_speed", "footprint", "thickness")
+_LOAD = ("nominal_pressure", "nominal_speed", "footprint", "thickness")
 # Ends of the roughness, which are stated once where all predictions have them in common.
 _COMMON = ("cutoff_wavelength", CONTINUED_TO)
 
@@ -64,7 +66,7 @@ def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
     These are by wave and of the whole surface, and what they rest on with its estimated errors.
     """
     if isinstance(task.model, AnswerModel):
-        return answer.drop_vars(_OF_THE_LOAD, errors="ignore")
+        return answer.drop_vars(_LOAD, errors="ignore")
     names = [
         name
         for name, variable in answer.data_vars.items()
@@ -73,51 +75,16 @@ def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
     ]
     kept = answer[names].rename({old: new for old, new in _RENAMED.items() if old in names})
     kept = kept.assign(basis_numbers(answer))
-    parts = friction_by_decade(answer, task.rubber)
-    if not parts:
-        return kept
-    return kept.assign(friction_by_decade=xr.DataArray([*parts.values()], {"decade": [*parts]}))
-
-
-def with_decades(data: xr.Dataset) -> xr.Dataset:
-    """Return a study with the friction of all decades of relaxation time from first to last."""
-    if "friction_by_decade" not in data:
-        return data
-    first, last = int(data.decade[0]), int(data.decade[-1])
-    data = data.reindex(decade=range(first, last + 1))
-    parts = data.friction_by_decade.transpose(..., "decade")
-    parts = parts.fillna(0.0).where(parts.notnull().any("decade"))
-    text = "friction coefficient by relaxation time, split as at small strain"
-    data = data.assign(friction_by_decade=parts.assign_attrs(variable_attributes(text)))
-    time = [10.0**n for n in data.decade.values.tolist()]
-    described = variable_attributes("shortest relaxation time of the decade", "s")
-    return data.assign_coords(decade=xr.Variable("decade", time, described))
-
-
-def waves_by_octave(data: xr.Dataset) -> dict[str, Any]:
-    """Return the friction of the waves of a chain by octave of wavelength."""
-    friction = data["friction"].transpose(..., "scale").values
-    number = np.log2(np.broadcast_to(data["wavelength"].values, friction.shape) / OCTAVE_UNIT)
-    octave = np.floor(number + 1e-9)
-    every = np.unique(octave[np.isfinite(octave)])
-    parts = [np.where(octave == n, friction, 0.0).sum(axis=-1) for n in every]
-    dims = tuple(dim for dim in data["friction"].dims if dim != "scale")
-    ends = variable_attributes("shortest wavelength of the octave", "m")
-    about = variable_attributes("friction coefficient of the octave")
-    return {
-        "octave": ("octave", OCTAVE_UNIT * 2.0**every, ends),
-        "octave_friction": ((*dims, "octave"), np.stack(parts, -1), about),
-    }
+    return kept.assign(over_decades(friction_by_decade(answer, task.rubber)))
 
 
 def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.Variable]:
     """Return the coordinates of the axes of a study of a case that states `units`."""
     coords = {}
     for axis in axes:
-        values = np.array(axis.coordinate, dtype=None if axis.numeric else object)
-        attrs = variable_attributes(
-            LONG_NAMES[axis.name], AXIS_UNITS[axis.name] if axis.numeric else "1"
-        )
+        kind, numeric = VARIED_INPUTS[axis.name], axis.numeric
+        values = np.array(axis.values) if numeric else np.array(axis.labels, dtype=object)
+        attrs = variable_attributes(kind.long_name, kind.unit if numeric else "1")
         display = axis.display_unit(units)
         if display is not None:
             attrs[GIVEN] = display.unit
@@ -130,6 +97,7 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
     return coords
 
 
+OF_THE_LOAD = ("pressure", "speed", "thickness")  # inputs that vary the load
 # Inputs that vary the waves of a surface.
 OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
 STUDY_FILE = "study.nc"  # the Dataset, in the folder of the study
@@ -211,17 +179,11 @@ class Study:
     @cached_property
     def key(self) -> str:
         """Hash of everything that the study depends on."""
-        named = {name: self._values(name) for name in ("surface", "rubber")}
         settings = {
             "software": software(),
             "case": [self.case.key, self.case.origin.text],
             "axes": {axis.name: axis.labels for axis in self.axes},
-            "values": {
-                axis.name: canonical_json(axis.values)
-                for axis in self.axes
-                if axis.name not in named
-            },
-            "named": {n: [inputs.identity(v) for v in vs] for n, vs in named.items()},
+            "values": {axis.name: canonical_json(axis.values) for axis in self.axes},
             "static": self.static,
             "model": canonical_json(self.model),
         }
@@ -271,8 +233,8 @@ class Study:
         ----------
         folder : path, optional
             Gets `study.nc`, and the predictions in `predictions`; has it that of just this study,
-            this is returned. Several studies may share one
-            folder for their predictions, one after the other; the last one's Dataset stays.
+            this is returned. Studies may share a folder, one after the other: the last Dataset
+            stays.
         workers, client, on_task
             As for `Bench`.
         """
@@ -316,53 +278,42 @@ class Study:
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
-        return result.assign_attrs(self._provenance())
+        return result.assign_attrs(self.attributes)
 
     def _design(self, axes: tuple[Axis, ...], *, static: bool) -> Design:
-        sizes, points = {axis.name: len(axis.values) for axis in axes}, []
+        """Return the points over the axes; nothing is solved if one of them is impossible."""
+        case, points, sizes = self.case, [], {axis.name: len(axis.values) for axis in axes}
         for index in np.ndindex(*sizes.values()) if self.static or not static else ():
             at = dict(zip(sizes, index, strict=True))
-            words = [f"{axis.name} {axis.called(at[axis.name], self.case.units)}" for axis in axes]
-            values = {axis.name: axis.values[at[axis.name]] for axis in axes}
+            values: dict[str, Any] = {axis.name: axis.values[at[axis.name]] for axis in axes}
+            model, rubber = self.model, self.rubbers[at.get("rubber", 0)]
+            if "pressure_classes" in values and isinstance(model, Chain):
+                model = replace(model, pressure_classes=values["pressure_classes"])
+            if "temperature" in values:
+                model = inputs.at_temperature(model, values["temperature"])
+            if "effects" in values:
+                model = inputs.with_effects(model, values["effects"])
+            if not model.takes_conditions and case.conditions is not None:
+                rubber = case.conditions.before(rubber)
+            inputs.rubber_before(rubber, model)
+            loads = {name: values[name] for name in OF_THE_LOAD if name in values}
+            load = replace(case.load, **loads | ({"speed": 0.0} if static else {}))
+            if load.speed == 0.0:
+                load = replace(load, load_time="passage")
+            # each choice of waves is fitted once
+            changes = {name: values[name] for name in sorted(values) if name in OF_A_SURFACE}
+            number = at.get("surface", 0)
+            key = (number, *changes.items())
+            if key not in self._varied:
+                self._varied[key] = self.surfaces[number].varied(**changes)
+            words = [f"{axis.name} {axis.called(at[axis.name], case.units)}" for axis in axes]
             label = ", ".join(["static"] * static + words)
-            points.append(Point(index, label, self._task(values, at, static=static)))
+            points.append(Point(index, label, Task(rubber, self._varied[key], load, model)))
         return Design(sizes, points)
 
-    def _task(self, values: dict[str, Any], at: dict[str, int], *, static: bool) -> Task:
-        load = self.case.load
-        pressure, speed, thickness = (
-            values.get(key, getattr(load, key)) for key in ("pressure", "speed", "thickness")
-        )
-        speed = 0.0 if static else speed
-        load_time = load.load_time if speed > 0.0 else "passage"
-        model, rubber = self._model(values), self.rubbers[at.get("rubber", 0)]
-        if not model.takes_conditions and self.case.conditions is not None:
-            rubber = self.case.conditions.before(rubber)
-        # nothing is solved if one point of the study is impossible
-        inputs.rubber_before(rubber, model)
-        load = replace(
-            load, pressure=pressure, speed=speed, load_time=load_time, thickness=thickness
-        )
-        return Task(rubber, self._surface(at.get("surface", 0), values), load, model)
-
-    def _model(self, values: dict[str, Any]) -> Model:
-        model = self.model
-        if "pressure_classes" in values and isinstance(model, Chain):
-            model = replace(model, pressure_classes=values["pressure_classes"])
-        if "temperature" in values:
-            model = inputs.at_temperature(model, values["temperature"])
-        return inputs.with_effects(model, values["effects"]) if "effects" in values else model
-
-    def _surface(self, number: int, values: dict[str, Any]) -> Surface:
-        """Return the surface of a point; each choice of waves is fitted once."""
-        changes = {name: value for name, value in values.items() if name in OF_A_SURFACE}
-        key = (number, *sorted(changes.items()))
-        if key not in self._varied:
-            self._varied[key] = self.surfaces[number].varied(**changes)
-        return self._varied[key]
-
-    def _provenance(self) -> dict[str, Any]:
-        """Return what the study is of; nothing in it depends on when or how often it was run."""
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """What the study is of; nothing in it depends on when or how often it was run."""
         load, model = self.case.load, self.model
         conditions = model.conditions if model.takes_conditions else self.case.conditions
         return {
