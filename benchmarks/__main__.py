@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import time
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -28,6 +29,7 @@ from benchmarks import (
     transient,
     waves,
 )
+from gripscale.core.errors import RubberWarning
 
 WIDTH = 150
 SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
@@ -61,6 +63,7 @@ def main() -> None:
     unknown = sorted(set(arguments.subjects) - set(SUBJECTS))
     if unknown:
         parser.error(f"unknown subject {unknown[0]!r}; expected one of {', '.join(SUBJECTS)}")
+    warnings.simplefilter("ignore", RubberWarning)  # fits of the shipped tread say the same
     console = Console(width=WIDTH, highlight=False)
     console.print(f"{machine.describe()}\n")
     start = time.perf_counter()

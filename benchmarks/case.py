@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
@@ -17,8 +18,9 @@ import gripscale as gs
 from benchmarks.measure import name
 from benchmarks.table import show
 from gripscale.case_file import read_case
+from gripscale.questions.chain.run import planned
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
-from tests.verification.families import ROOT
+from tests.samples import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
 FINE = Mesh(256, 30)
@@ -80,18 +82,17 @@ def _whole_command(console: Console) -> None:
 
 def _chains() -> list[Chain]:
     case = read_case(CASE)
-    load = case.file.case.load
     chains = []
-    for title, speed in case.planned():
+    for title, speed in planned(case).items():
         marks = [time.perf_counter()]
         default = gs.solve_chain(
-            case.rubber.rubber,
+            case.rubber,
             case.surface.sines,
-            pressure=load.pressure,
+            pressure=case.load.pressure,
             speed=speed,
-            footprint=load.footprint,
-            load_time=load.load_time,
-            on_scale=lambda _, marks=marks: marks.append(time.perf_counter()),
+            footprint=case.load.footprint,
+            load_time=case.load.load_time,
+            on_scale=partial(_mark, marks),
         )
         fine = [_again(scale) for scale in default.scales]
         seconds = [b - a for a, b in pairwise(marks)]
@@ -99,9 +100,14 @@ def _chains() -> list[Chain]:
     return chains
 
 
+def _mark(marks: list[float], _: gs.ChainResult) -> None:
+    marks.append(time.perf_counter())
+
+
 def _again(scale: gs.ScaleResult) -> gs.ScaleResult:
     """Solve the same wave under the same load on the fine mesh."""
     load = WaveLoad(scale.pressure_received, scale.speed, scale.load_time)
+    assert scale.rubber is not None
     wave = Sine(scale.wavelength, scale.amplitude)
     return FiniteStrainBlock(FINE).solve(WaveProblem(scale.rubber, wave, load))
 

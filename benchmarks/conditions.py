@@ -17,7 +17,7 @@ from gripscale.case_file import read_case
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties, fixed_point
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
-from tests.verification.families import ROOT
+from tests.samples import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
 POINTS = 16384
@@ -49,8 +49,8 @@ Solve = Callable[[Conditions | None], Any]
 def run(console: Console) -> None:
     """Print a table for the chain and one for the direct contact."""
     case = read_case(CASE)
-    rubber = replace(case.rubber.rubber, shift=SHIFT)
-    load = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
+    rubber = replace(case.rubber, shift=SHIFT)
+    load: dict[str, Any] = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
     line = road(POINTS)
 
     def chain(conditions: Conditions | None) -> gs.ChainResult:

@@ -23,7 +23,7 @@ import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
 from gripscale._kernel import Line
-from gripscale.half_space import RoughContact, response
+from gripscale.half_space import response
 from gripscale.surface import HeightMap, Profile, self_affine_profile
 
 DATA = Path(__file__).parents[1] / "examples/data"
@@ -40,8 +40,8 @@ def isotropic_map(points: int) -> HeightMap:
     )
     noise = np.random.default_rng(0).standard_normal((points, points))
     z = np.fft.ifft2(amplitude * np.fft.fft2(noise)).real
-    x = np.arange(points) * SPACING
-    return HeightMap(x, x, z * (3e-4 / z.std()))
+    x = SPACING * np.arange(points, dtype=float)
+    return HeightMap(x, x, z * float(3e-4 / z.std()))
 
 
 def road(points: int) -> Profile:
@@ -72,33 +72,19 @@ def run(console: Console, *, large: bool = False) -> None:
     rubber, rows = tread(), []
     gs.solve_rough_contact(rubber, road(1024), pressure=3e5, speed=0.3)  # imports
     for points, speed, tolerance in _maps(large):
-        surface = isotropic_map(points)
         cells = _measured(
-            lambda surface=surface, speed=speed, tolerance=tolerance: gs.solve_rough_contact(
-                rubber,
-                surface,
-                pressure=3e5,
-                speed=speed,
-                periodic=True,
-                tolerance=tolerance,
-                most_points=2**24,
-            )
-        )
+            rubber, isotropic_map(points), pressure=3e5, speed=speed, periodic=True,
+            tolerance=tolerance, most_points=2**24,
+        )  # fmt: skip
         rows.append([f"map, {speed:g} m/s, {tolerance or 'none'}", *cells])
     for tolerance in () if large else (None, 0.02):
-        line = road(32768)
-        cells = _measured(
-            lambda line=line, tolerance=tolerance: gs.solve_rough_contact(
-                rubber, line, pressure=3e5, speed=0.3, tolerance=tolerance
-            )
-        )
+        cells = _measured(rubber, road(32768), pressure=3e5, speed=0.3, tolerance=tolerance)
         rows.append([f"road, {tolerance or 'none'}", *cells])
-    for kind, surface in () if large else (("line", self_affine()), ("map", isotropic_map(512))):
-        cells = _measured(
-            lambda surface=surface: gs.solve_rough_contact(
-                lossy(), surface, pressure=2e5, speed=0.3, periodic=True, tolerance=None
-            )
-        )
+    surfaces: dict[str, Profile | HeightMap] = (
+        {} if large else {"line": self_affine(), "map": isotropic_map(512)}
+    )
+    for kind, surface in surfaces.items():
+        cells = _measured(lossy(), surface, pressure=2e5, speed=0.3, periodic=True, tolerance=None)
         rows.append([f"{kind}, loss angle 1.0, none", *cells])
     show(
         console,
@@ -121,13 +107,13 @@ def _maps(large: bool) -> list[tuple[int, float, float | None]]:
     return [(512, 0.3, None), (1024, 0.3, None), (1024, 0.3, 0.02), (1024, 0.0, None)]
 
 
-def _measured(solve: Callable[[], RoughContact]) -> list[str]:
-    """Return the cells of one row."""
+def _measured(rubber: gs.Rubber, surface: Profile | HeightMap, **options: Any) -> list[str]:
+    """Solve; return the cells of one row."""
     reset_peak()
     before = peak_since_reset()
     with _timed_transforms() as transforms:
         wall, processor = time.perf_counter(), time.process_time()
-        found = solve()
+        found = gs.solve_rough_contact(rubber, surface, **options)
         wall, processor = time.perf_counter() - wall, time.process_time() - processor
     memory = peak_since_reset() - before
     return [

@@ -6,6 +6,7 @@ import resource
 import time
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from typing import Any
 
 import numpy as np
 from rich.console import Console
@@ -14,7 +15,7 @@ import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
 from gripscale.case_file import read_case
-from tests.verification.families import ROOT
+from tests.samples import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
 TOLERANCE = 0.01
@@ -32,11 +33,10 @@ def run(console: Console) -> None:
 
 
 @cache
-def _case() -> tuple[gs.Rubber, gs.SineStack, dict[str, object]]:
+def _case() -> tuple[gs.Rubber, gs.SineStack, dict[str, Any]]:
     case = read_case(CASE)
-    load = case.file.case.load
-    loads = {"pressure": load.pressure, "footprint": load.footprint}
-    return case.rubber.rubber, case.surface.sines, loads
+    loads = {"pressure": case.load.pressure, "footprint": case.load.footprint}
+    return case.rubber, case.surface.sines, loads
 
 
 def _one_wave(console: Console) -> None:
@@ -51,7 +51,7 @@ def _one_wave(console: Console) -> None:
         cold_seconds, warm_seconds, cold_counts, warm_counts, meshes = [], [], [], [], []
         errors, fractions = [], []
         for scale in here.scales:
-            wave = {
+            wave: dict[str, Any] = {
                 "wavelength": scale.wavelength,
                 "amplitude": scale.amplitude,
                 "pressure": scale.pressure_received,
@@ -101,7 +101,7 @@ def _one_wave(console: Console) -> None:
 
 
 def _timed(
-    rubber: gs.Rubber, wave: dict[str, object], speed: float, start: gs.ScaleResult | None
+    rubber: gs.Rubber, wave: dict[str, Any], speed: float, start: gs.ScaleResult | None
 ) -> tuple[gs.ScaleResult, float, float]:
     """Solve a few times; return the result and the least CPU and wall seconds."""
     cpu, wall = [], []
@@ -123,7 +123,7 @@ def _chain_and_sweep(console: Console) -> None:
         (f"tolerance {TOLERANCE:g}", {"tolerance": TOLERANCE}),
     ):
 
-        def chain(speed: float, options: dict[str, float] = options) -> gs.ChainResult:
+        def chain(speed: float, options: dict[str, Any] = options) -> gs.ChainResult:
             return gs.solve_chain(rubber, sines, speed=speed, **loads, **options)
 
         for label, speeds, aim in (

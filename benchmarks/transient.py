@@ -34,8 +34,8 @@ def run(console: Console) -> None:
                 f"{iterations / steps:.1f}",
                 f"{cpu / len(CASES):.2f}",
                 f"{np.mean([seconds for *_, seconds in found]):.3f}",
-                f"{worst(np.array([_friction_error(*both) for *both, _, _ in found])):.3%}",
-                f"{worst(np.array([_area_error(*both) for *both, _, _ in found])):.4f}",
+                f"{worst(np.array([_friction_error(*each[:2]) for each in found])):.3%}",
+                f"{worst(np.array([_area_error(*each[:2]) for each in found])):.4f}",
             ]
         )
     show(

@@ -95,7 +95,14 @@ def _installed(wheel: Path, python: str, place: Path) -> Path:
 
 
 def _install(scripts: Path, what: str) -> None:
-    pip = [scripts / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    pip: list[str | Path] = [
+        scripts / "python",
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+    ]
     subprocess.run([*pip, what], check=True)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -40,7 +41,7 @@ class LoadCase:
         load = WaveLoad(self.pressure_ratio * MODULUS, SPEED, self.passages * WAVELENGTH / SPEED)
         return WaveProblem(self.rubber, Sine(WAVELENGTH, self.slope * WAVELENGTH), load)
 
-    def arguments(self) -> dict[str, float]:
+    def arguments(self) -> dict[str, Any]:
         """Keyword arguments for `gripscale.solve_scale`."""
         return {
             "wavelength": WAVELENGTH,
