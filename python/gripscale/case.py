@@ -24,7 +24,7 @@ from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, checks
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import Finding, Severity, Topic, doubt
-from gripscale.core.provenance import CASE_TITLE, COMMAND
+from gripscale.core.provenance import CASE_TITLE, COMMAND, version_attributes
 from gripscale.core.units import (
     DISPLAY_UNITS,
     DisplayUnit,
@@ -286,12 +286,13 @@ class Case(Described):
 
     @property
     def attributes(self) -> dict[str, str]:
-        """Attributes of every result: text and units of the case file, and the command."""
+        """Attributes of every result: the case file and its units, the command, versions."""
         command = {"command": COMMAND.get()} if COMMAND.get() else {}
         command |= {TESTER: self.tester} if self.tester else {}
         command |= {SURFACE_KIND: self.kind} if self.kind != "surface" else {}
-        text = {"case": self.origin.text, CASE_TITLE: self.title}
-        return text | {DISPLAY_UNITS: json.dumps(self.units)} | command
+        text = {"case": self.origin.text, "case_file": self.origin.name, CASE_TITLE: self.title}
+        units = {DISPLAY_UNITS: json.dumps(self.units)}
+        return text | units | command | version_attributes()
 
     @cached_property
     def key(self) -> str:

@@ -173,6 +173,17 @@ COMMANDS: dict[str, tuple[str, ...]] = {
         "compare-surfaces", "road.txt", "lane.txt", "--case", "plain.toml",
         "--output", "compare_surfaces",
     ),
+    "cut_off": ("cut-off", "plain.toml", "--down-to", "0.2 mm", "--output", "cut_off"),
+    "sensitivity": ("sensitivity", "plain.toml", "--bands", "2", "--output", "sensitivity"),
+    "sensitivity_conditions": (
+        "sensitivity", "warm.toml", "--vary", "speed=0.1,1", "--bands", "1", "--contact-fraction",
+        "--output", "sensitivity_conditions",
+    ),
+    "slip": ("slip", "warm.toml", "--output", "slip"),
+    "design": (
+        "design", "plain.toml", "--levels", "0.9,1", "--rubber", "styrene_butadiene",
+        "--output", "design",
+    ),
     "fit_surface": (
         "fit-surface", "road.txt", "lane.txt", "--scales", "4", "--smallest-wavelength", "1 mm",
         "--slopes", "--output", "fit_surface",

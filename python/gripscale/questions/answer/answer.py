@@ -17,7 +17,6 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.charts.draw import Sheet
-from gripscale.core import provenance
 from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
@@ -156,5 +155,4 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
 def answer_with_inputs(case: Case, data: xr.Dataset) -> Answer:
     """Return the numbers of an answer with the record of the inputs, and measured friction."""
     inputs = record.inputs(case, further=friction_doubts(case.friction, case.load.speed))
-    attrs = {"case_file": case.origin.name, **provenance.version_attributes()}
-    return Answer(data.assign(measured_at_load(case, case.friction)).assign_attrs(attrs), inputs)
+    return Answer(data.assign(measured_at_load(case, case.friction)), inputs)

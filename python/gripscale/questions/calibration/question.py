@@ -198,7 +198,7 @@ def calibrate(
             predicted = answers_at(friction, case, bench)
     fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
     data = fit.to_dataset().assign_attrs(
-        case.attributes, case_file=case.origin.name, model=model, notes="\n".join(page.notes(fit))
+        case.attributes, model=model, notes="\n".join(page.notes(fit))
     )
     if far := speed_doubts(friction, case.load.speed):
         data.attrs[INPUT_DOUBTS] = to_json(far)

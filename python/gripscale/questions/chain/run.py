@@ -117,7 +117,6 @@ class ChainRun:
     def dataset(self, name: str) -> xr.Dataset:
         """Return the prediction `name` with case, surface and rubber as attributes."""
         sources = {
-            "case_file": self.case.origin.name,
             "surface_source": self.case.surface.source,
             "rubber_source": self.case.measured_rubber.source,
         }

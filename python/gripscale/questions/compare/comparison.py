@@ -16,7 +16,7 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
-from gripscale.core import Array, Described, InputError, checks, labelled, provenance
+from gripscale.core import Array, Described, InputError, checks, labelled
 from gripscale.experiment.design import Design, Point, surface_numbers
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import Bench, OnTask, Progress
@@ -385,11 +385,9 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
             "title": "Contact and friction by model",
             **comparison.case.attributes,
             **model.input_doubts(subjects, loads, comparison.case.units),
-            "case_file": comparison.case.origin.name,
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,
             "tolerance": setups[0].tolerance,
             "measured_source": "" if measured is None else measured.source,
-            **provenance.version_attributes(),
         },
     )

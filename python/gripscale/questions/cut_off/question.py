@@ -16,7 +16,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.charts import draw
 from gripscale.charts.draw import Sheet
-from gripscale.core import Finding, Severity, provenance
+from gripscale.core import Finding, Severity
 from gripscale.core.units import MILLI, display_unit_of, in_mm, si_value
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask, bench_in
@@ -233,9 +233,5 @@ def cut_off(
 
 def cut_off_result(data: xr.Dataset, case: Case) -> CutOff:
     """Return the curves of a case as the result of the question."""
-    attrs = {
-        "title": "Contact and friction against the cut-off",
-        "case_file": case.origin.name,
-        **provenance.version_attributes(),
-    }
-    return CutOff(data.assign_attrs(case.attributes, **attrs), record.inputs(case))
+    data = data.assign_attrs(case.attributes, title="Contact and friction against the cut-off")
+    return CutOff(data, record.inputs(case))

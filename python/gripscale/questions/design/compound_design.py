@@ -114,7 +114,6 @@ def todays_compound(
             "largest_factor": problem.limits.largest_factor,
             "factor_per_decade": problem.limits.factor_per_decade,
             "tolerance": DESIGN_TOLERANCE,
-            **provenance.version_attributes(),
         },
     )
 

@@ -204,7 +204,6 @@ def design(
     base = todays_compound(problem, reference.contacts, now).merge(others)
     base = base.assign_attrs(
         case.attributes,
-        case_file=case.origin.name,
         kind=CompoundDesign.kind,
         design_key=key,
         rubber_parameters=json.dumps(problem.rubber.to_dict()),

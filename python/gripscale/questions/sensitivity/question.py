@@ -15,7 +15,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.charts import draw
-from gripscale.core import Finding, InputError, Quantity, Severity, Topic, checks, doubt, provenance
+from gripscale.core import Finding, InputError, Quantity, Severity, Topic, checks, doubt
 from gripscale.core.units import display_unit_of
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
@@ -343,11 +343,9 @@ def sensitivity(
         data = with_rules_of_thumb(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
     attrs = {
         "title": "What decides the friction of a case",
-        "case_file": case.origin.name,
         "model": "direct",
         "bands_per_decade": bands,
         "iterated": int(conditions is not None and conditions.iterated),
-        **provenance.version_attributes(),
     }
     loads = [point.task.load for point in study.points]
     notes = [doubt(text, topic=Topic.RUBBER) for text in reading_notes(study.measured_rubbers)]

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from gripscale.case import Case
 from gripscale.charts import draw
 from gripscale.charts.draw import Sheet
-from gripscale.core import Array, Finding, InputError, Severity, Topic, checks, provenance
+from gripscale.core import Array, Finding, InputError, Severity, Topic, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm, si_value
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, on_page, significant
@@ -253,13 +253,11 @@ def slip_curve(
     data = _curves(brush, table, np.array(kelvins or [math.nan]), speeds, slips, (fast, slow))
     attrs: dict[str, Any] = {
         "title": "Braking force over slip",
-        "case_file": case.origin.name,
         "length": brush.length,
         "mean_pressure": brush.pressure,
         "stiffness": brush.stiffness,
         "braking": [fast, slow],
         **({} if effusivity is None else {"effusivity": effusivity}),
-        **provenance.version_attributes(),
     }
     return SlipCurve(data.assign_attrs(case.attributes, **attrs), record.inputs(case))
 

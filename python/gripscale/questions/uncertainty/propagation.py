@@ -21,7 +21,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.core import Array, InputError, RubberWarning, checks, provenance
+from gripscale.core import Array, InputError, RubberWarning, checks
 from gripscale.core.provenance import software
 from gripscale.experiment import design as designs
 from gripscale.experiment.design import CONVERGED, Design, Point
@@ -151,7 +151,6 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
         {
             "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
             "left_out": json.dumps(drawn.chosen.left_out),
-            **provenance.version_attributes(),
         },
     )
 
@@ -368,7 +367,6 @@ def solve_samples(
             data[FIRST_ORDER.format(name)] = carried[f"{name}_error"]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
         case.attributes | input_doubts([case.surface, case.measured_rubber], loads, case.units),
-        case_file=case.origin.name,
         **{_FILES: json.dumps(case.origin.digests)},
         seed=plan.seed,
         plan_key=plan.key,

@@ -224,8 +224,7 @@ def ranked_answers(
         name: ((dim, "over"), part, variable_attributes(text))
         for (name, text), part in zip(RANKED.items(), values, strict=True)
     }
-    data = data.assign_coords(over=("over", names)).assign(columns)
-    return data.assign_attrs(case_file=study.case.origin.name)
+    return data.assign_coords(over=("over", names)).assign(columns)
 
 
 def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:

@@ -22,7 +22,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.core import InputError, provenance
+from gripscale.core import InputError
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
 from gripscale.experiment.design import (
@@ -341,5 +341,4 @@ class Study:
             "study_key": self.key,
             "description": json.dumps(self.description()),
             "model": model.name,
-            **provenance.version_attributes(),
         }
