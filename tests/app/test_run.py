@@ -127,6 +127,7 @@ def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
     assert "table-texture" in run.write_page().read_text(encoding="utf-8")
 
 
+@pytest.mark.verification
 def test_the_area_term_of_stated_waves_is_fitted_to_the_end(tmp_path: Path) -> None:
     """Waves have no profile for a direct contact: the chain predicts, without being asked for."""
     state = CaseState(VisitFolder.new(tmp_path))

@@ -98,6 +98,7 @@ def test_load_and_area_are_kept(count: int) -> None:
         assert scale.pressure_received == pytest.approx(1.0 / np.mean(1.0 / pressures), rel=1e-9)
 
 
+@pytest.mark.verification
 def test_eight_classes_are_enough() -> None:
     found = {
         n: solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=n, **LOAD) for n in (1, 8, 32)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from gripscale.charts.figure_folder import FigureFolder
 from tests.samples import HALF_PLANE, case_text, three_waves, write_maxwell, write_road
 
 CASE = case_text(
@@ -40,3 +41,9 @@ def changed(inputs: Path, tmp_path: Path) -> Callable[..., Path]:
         return path
 
     return write
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Commands that write no pictures."""
+    monkeypatch.setattr(FigureFolder, "save", lambda *_: None)

@@ -24,6 +24,7 @@ from gripscale.questions.vary.inputs import default_model
 from tests.report.reading import Page
 from tests.samples import EXAMPLES, Shell
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 FOLDER = EXAMPLES / "measured_friction"
 FIGURES = {"measured_and_fitted", "residuals", "profiles"}
 

@@ -176,6 +176,7 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
     assert float(quick.friction.mean()) == pytest.approx(float(means.sel(model="direct")), rel=0.12)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
     changed: Callable[..., Path],
 ) -> None:
@@ -355,6 +356,7 @@ def test_model_that_failed_is_open_and_says_why(inputs: Path) -> None:
     assert "failed" in [text.get_text() for text in area.texts]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path: Path) -> None:
     result = shell("run", inputs / "case.toml", "--output", tmp_path)
     assert result.exit_code == 0, result.output
@@ -380,6 +382,7 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
     assert judged in " ".join((tmp_path / "report.txt").read_text().split())
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_measured_speeds_without_a_unit_are_the_first_doubt_of_each_command(
     shell: Shell, changed: Callable[..., Path]
 ) -> None:

@@ -11,6 +11,8 @@ import pytest
 
 from tests.samples import Shell
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 
 @dataclass(frozen=True)
 class Place:

@@ -21,6 +21,7 @@ from tests.samples import (
     write_road,
 )
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 SURFACE = (
     'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "0.8 mm"\n'
     'spikes = "iso13473"\nacross_gaps = true'

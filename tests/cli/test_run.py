@@ -219,8 +219,9 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
 
 
 def test_a_finished_run_is_shown_again_and_not_made_again(
-    shell: Shell, inputs: Path, tmp_path: Path
+    shell: Shell, inputs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(FigureFolder, "rendered", lambda *_: {"png": b"a picture"})
     case = tmp_path / "case.toml"
     case.write_text((inputs / "case.toml").read_text())
     for path in inputs.iterdir():

@@ -18,7 +18,6 @@ from rich.console import Console
 
 import gripscale as gs
 from gripscale.case_file.folder import CASE_NOTE
-from gripscale.charts.figure_folder import FigureFolder
 from gripscale.cli import app
 from gripscale.core.units import si_unit
 from gripscale.io.table import Column, Table, as_text, digits
@@ -34,12 +33,6 @@ QUESTIONS = {
     "cut_off": ("cut-off",),
     "sensitivity": ("sensitivity", "--bands", "1"),
 }
-
-
-@pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Commands that write no pictures."""
-    monkeypatch.setattr(FigureFolder, "save", lambda *_: None)
 
 
 def ask(shell: Shell, question: str, case: Path, *options: object) -> Any:

@@ -9,6 +9,7 @@ from gripscale.conditions import Conditions
 from gripscale.conditions.conditions import rubber_under
 from gripscale.half_space.conditions import strain_by_scale, temperature
 from gripscale.rubber.softening import Kraus
+from gripscale.theory import HalfPlane
 from tests.samples import KRAUS, THERMAL
 from tests.samples import SHIFTED_RUBBER as RUBBER
 from tests.samples import SHIFTED_SINES as SINES
@@ -54,7 +55,7 @@ def test_a_settled_chain_is_its_own_rubber(solver, options):
 
 def test_heat_and_softening_widen_the_contact():
     plain, hot, soft = (
-        gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=conditions, **LOAD)
+        gs.solve_chain(RUBBER, SINES, solver=HalfPlane(points=256), conditions=conditions, **LOAD)
         for conditions in (None, Conditions(heat=THERMAL), Conditions(softening=KRAUS))
     )
     assert abs(hot.friction / plain.friction - 1.0) > 0.01

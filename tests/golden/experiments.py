@@ -179,7 +179,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
         "sensitivity", "warm.toml", "--vary", "speed=0.1,1", "--bands", "1", "--contact-fraction",
         "--output", "sensitivity_conditions",
     ),
-    "slip": ("slip", "warm.toml", "--output", "slip"),
+    "slip": ("slip", "plain.toml", "--output", "slip"),
     "design": (
         "design", "plain.toml", "--levels", "0.9,1", "--rubber", "styrene_butadiene",
         "--output", "design",

@@ -130,6 +130,7 @@ def test_doubling_is_linear_between_points():
     np.testing.assert_allclose(map_[:5, :7], 0.25 * np.arange(5.0)[:, None] * np.arange(7.0))
 
 
+@pytest.mark.verification
 def test_area_of_a_map_hardly_depends_on_the_grid():
     """Four points in the smallest wave against sixteen: counted points fall by 3 to 10 %, the
     corrected fraction by less than 2 %, in the mean of four maps by less than 1 %."""

@@ -16,8 +16,8 @@ from tests.samples import Shell
 FRICTION = "friction.csv"
 QUESTIONS: dict[str, tuple[Callable[..., gs.Result], list[str], str]] = {
     "comparison": (
-        lambda case, **options: gs.compare(case, models=["waves", "measured"], **options),
-        ["compare", "--models", "waves,measured"],
+        lambda case, **options: gs.compare(case, models=["waves", "measured"], seeds=1, **options),
+        ["compare", "--models", "waves,measured", "--seeds", "1"],
         "comparison.nc",
     ),
     "study": (

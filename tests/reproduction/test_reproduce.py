@@ -47,6 +47,7 @@ def test_no_chain_is_solved_twice(inputs: Inputs) -> None:
     assert len(set(keys)) == 25
 
 
+@pytest.mark.verification
 def test_figure_with_chains_is_made_once_and_read_again(tmp_path: Path) -> None:
     told: list[Progress] = []
     statements = reproduce(["fig7a", "fig9b"], tmp_path, on_task=told.append)

@@ -53,6 +53,7 @@ def test_the_friction_of_the_drawn_wave_is_that_of_the_chain(shipped: Shipped) -
     assert friction == pytest.approx(float(shipped.chain.friction[1]), rel=2e-3)
 
 
+@pytest.mark.verification
 def test_the_table_of_models_has_their_answers(shipped: Shipped) -> None:
     """To a unit of the last digit: the friction of the direct contact is 0.1668."""
     table = rows("which-model.md")

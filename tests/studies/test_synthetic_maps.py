@@ -176,6 +176,7 @@ def test_lines_maps_are_alike_both_ways(matched):
     assert slopes[0] == pytest.approx(slopes[1], rel=0.1)
 
 
+@pytest.mark.verification
 def test_equal_seeds_give_equal_maps(matched, quick):
     told = []
     maps = isotropic_maps(

@@ -17,7 +17,7 @@ from gripscale.questions.uncertainty.page import part_tables
 from gripscale.questions.uncertainty.question import SampledAnswer
 from gripscale.questions.uncertainty.sampled_answer import OF_RUN, REST, sampled_error
 from gripscale.questions.uncertainty.sources import SOURCES
-from tests.samples import THREE_WAVES, case_text
+from tests.samples import HALF_PLANE, THREE_WAVES, case_text
 
 from .sampled import propagate
 
@@ -170,9 +170,7 @@ def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(
 
 def test_waves_by_hand_are_answered_by_the_chain(tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
-    case.write_text(
-        case_text("", solver='model = "half_plane"').replace("[surface]\n\n", THREE_WAVES)
-    )
+    case.write_text(case_text("", solver=HALF_PLANE).replace("[surface]\n\n", THREE_WAVES))
     data = propagate(read_case(case), samples=12)
     assert data.model.values.tolist() == ["chain"]
     assert float(data.answer_friction) == float(data.friction_case[0])

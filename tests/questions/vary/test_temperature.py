@@ -126,6 +126,7 @@ def test_a_vertical_shift_makes_them_several(case: Path) -> None:
     assert float(result.contact_fraction_collapse) > 0.02
 
 
+@pytest.mark.verification
 def test_any_temperatures_are_one_curve_by_interpolation(case: Path) -> None:
     result = over(case, Chain(HalfPlane(points=512)), "-5.5 C, -4 C", "0.1:1:log9")
     assert float(result.friction_collapse) < 1e-3
