@@ -65,7 +65,9 @@ def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
                 f"{checks.short_repr(text) if text else 'none'}"
             ) from error
         if not default and not 0.0 < value < math.inf:
-            raise FileError(f"{path}: expected {name} finite and above zero; got {text}")
+            raise FileError(
+                f"{path}: expected {name} finite and above zero; got {checks.short_repr(text)}"
+            )
         return value
 
     along, across = ("ncols", "nrows") if esri else ("NumPoints", "NumProfiles")
