@@ -28,6 +28,7 @@ from pathlib import Path
 import numpy as np
 
 from gripscale.core import Array, FileError, checks
+from gripscale.core.wording import shortened
 
 _LONGEST_HEADER = 2**16
 _PAIR = re.compile(r"^\s*([A-Za-z_]\w*)\s*[=:\s]\s*(.*?)\s*$")
@@ -65,9 +66,7 @@ def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
                 f"{checks.short_repr(text) if text else 'none'}"
             ) from error
         if not default and not 0.0 < value < math.inf:
-            raise FileError(
-                f"{path}: expected {name} finite and above zero; got {checks.short_repr(text)}"
-            )
+            raise FileError(f"{path}: expected {name} finite and above zero; got {shortened(text)}")
         return value
 
     along, across = ("ncols", "nrows") if esri else ("NumPoints", "NumProfiles")
