@@ -11,15 +11,14 @@ from typing import Any
 from rich.console import Console
 
 import gripscale as gs
+from benchmarks.case import CASE
 from benchmarks.rough_contact import road
 from benchmarks.table import show
 from gripscale.case_file import read_case
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties, fixed_point
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus
-from tests.samples import ROOT
 
-CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
 POINTS = 16384
 """Of the road in the direct contact."""
 SHIFT = WLF(c1=8.86, c2=101.6)

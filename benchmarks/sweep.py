@@ -12,12 +12,11 @@ import numpy as np
 from rich.console import Console
 
 import gripscale as gs
+from benchmarks.case import CASE
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.table import show
 from gripscale.case_file import read_case
-from tests.samples import ROOT
 
-CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
 TOLERANCE = 0.01
 SPEEDS = [float(v) for v in np.geomspace(0.003, 30.0, 20)]
 THREADS = 2

@@ -95,15 +95,8 @@ def _installed(wheel: Path, python: str, place: Path) -> Path:
 
 
 def _install(scripts: Path, what: str) -> None:
-    pip: list[str | Path] = [
-        scripts / "python",
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--disable-pip-version-check",
-    ]
-    subprocess.run([*pip, what], check=True)
+    pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.run([scripts / "python", *pip, what], check=True)
 
 
 def _environment() -> dict[str, str]:

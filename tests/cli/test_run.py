@@ -149,11 +149,11 @@ def lame(wave: int) -> Any:
     return lamed
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_wave_that_fails_keeps_what_was_solved(
     shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(HalfPlane, "solve", lame(2))
-    monkeypatch.setattr(FigureFolder, "save", lambda *_: None)
     case = changed()
     result = shell("run", case)
     assert result.exit_code == 3
@@ -171,6 +171,7 @@ def test_wave_that_fails_keeps_what_was_solved(
     assert rest.sizes["scale"] == 3
 
 
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(("save_every", "on_disk"), [(0.0, [0, 1, 2]), (60.0, [0, 0, 0])])
 def test_solved_waves_are_on_disk_after_some_time_and_after_an_interrupt(
     shell: Shell,
@@ -195,17 +196,16 @@ def test_solved_waves_are_on_disk_after_some_time_and_after_an_interrupt(
         return solve(self, problem, start)
 
     monkeypatch.setattr(HalfPlane, "solve", looking)
-    monkeypatch.setattr(FigureFolder, "save", lambda *_: None)
     result = shell("run", case)
     assert result.exit_code == 130
     assert seen == on_disk
     assert netcdf.load_dataset(case.parent / "results" / "dynamic.nc").sizes["scale"] == 2
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
-    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+    shell: Shell, changed: Callable[..., Path]
 ) -> None:
-    monkeypatch.setattr(FigureFolder, "save", lambda *_: None)
     case = changed("static = true", "static = false")
     figures = case.parent / "results" / "figures"
     figures.mkdir(parents=True)
@@ -252,10 +252,8 @@ def test_a_finished_run_is_shown_again_and_not_made_again(
     assert drawn()
 
 
-def test_waves_by_hand_and_a_named_rubber_need_no_files(
-    shell: Shell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(FigureFolder, "save", lambda *_: None)
+@pytest.mark.usefixtures("undrawn")
+def test_waves_by_hand_and_a_named_rubber_need_no_files(shell: Shell, tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(
         '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"\n'

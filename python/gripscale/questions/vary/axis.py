@@ -1,4 +1,4 @@
-"""What a study can vary: the inputs with their units, and one of them with its values."""
+"""What a study can vary: inputs with their units, one with its values, and the table of points."""
 
 from __future__ import annotations
 
