@@ -38,8 +38,12 @@ _HARMONICS = np.geomspace(1.0, 16.0, 12)
 ROWS_AT_ONCE = 50_000
 
 
+# In place of an effect: switched off on purpose, also where a case has it by default.
+OFF = "none"
+
+
 def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
-    if value is not None and not isinstance(value, kind):
+    if value is not None and value != OFF and not isinstance(value, kind):
         raise InputError(f"{name} must be {expected}; got {checks.short_repr(value)}")
     return value
 
@@ -82,6 +86,10 @@ class Conditions(Checked):
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
     """With it the rubber warms by its friction."""
+    counterface: ThermalProperties | None = checked(
+        _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
+    )
+    """What takes up heat through the contact, with heat; None: it is insulating."""
     shear_stress: InterfacialShearStress | None = checked(
         _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
     )
@@ -89,9 +97,15 @@ class Conditions(Checked):
     water: float | None = checked(lambda _, value: water_film(value) or None, default=None)
     """Water that contact can trap, on a map: "flooded" or True, or the thickness of a film [m].
     Only the direct contact has it, and not together with softening or heat."""
+    off: tuple[str, ...] = checked(lambda _, value: tuple(value), default=())
+    """Effects that are switched off on purpose, by the word "none" in their place: a case has none
+    of them by default either."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        for effect in ("softening", "heat"):
+            if getattr(self, effect) == OFF:
+                self._set(**{effect: None}, off=(*self.off, effect))
         if self.water is not None and self.iterated:
             effect = "heat" if self.softening is None else "softening"
             raise InputError(
@@ -114,6 +128,7 @@ class Conditions(Checked):
             "heat": self.heat and asdict(self.heat),
             "shear_stress": self.shear_stress and shear_stress_to_dict(self.shear_stress),
             "water": FLOODED if self.water == math.inf else self.water,
+            **({"off": list(self.off)} if self.off else {}),
         }
 
     @classmethod

@@ -41,7 +41,7 @@ def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) 
     out = []
     for largest in wavenumber:
         slope = scipy.fft.irfftn(np.where(grid.wavenumber <= largest, spectrum, 0.0), s=grid.shape)
-        out.append(0.5 * float(np.sqrt(np.mean(slope[active] ** 2))))
+        out.append(0.35 * float(np.sqrt(np.mean(slope[active] ** 2))))
     return np.maximum.accumulate(np.array(out))
 
 
