@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -126,6 +127,7 @@ class Conditions(Checked):
             "softening": self.softening and self.softening.to_dict(),
             "strain_norm": self.strain_norm,
             "heat": self.heat and asdict(self.heat),
+            "counterface": self.counterface and asdict(self.counterface),
             "shear_stress": self.shear_stress and shear_stress_to_dict(self.shear_stress),
             "water": FLOODED if self.water == math.inf else self.water,
             **({"off": list(self.off)} if self.off else {}),
@@ -137,7 +139,8 @@ class Conditions(Checked):
         effects = dict(values)
         laws = {
             "softening": softening_from_dict,
-            "heat": lambda heat: checks.from_mapping(ThermalProperties, "heat", heat),
+            "heat": partial(checks.from_mapping, ThermalProperties, "heat"),
+            "counterface": partial(checks.from_mapping, ThermalProperties, "counterface"),
             "shear_stress": shear_stress_from_dict,
         }
         for name, law in laws.items():
