@@ -29,7 +29,8 @@ from gripscale.conditions.area_term import (
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks, units
 from gripscale.rubber import Rubber
-from gripscale.rubber.softening import SofteningLaw, softened, softening_from_dict
+from gripscale.rubber.softening import Kraus, SofteningLaw, SofteningTable, softened
+from gripscale.rubber.typical_tread import TypicalTread
 
 StrainNorm = Literal["slope", "stretch"]
 STRAIN_NORMS = ("slope", "stretch")
@@ -65,6 +66,15 @@ def water_film(water: object) -> float:
             f'water must be True, False, "{FLOODED}" or the thickness of a film: {error}'
         ) from error
     return checks.positive("water", film, unit="m")
+
+
+SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable, TypicalTread)}
+
+
+def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
+    """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
+    law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
+    return law
 
 
 class Conditions(Checked):

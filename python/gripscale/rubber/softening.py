@@ -28,7 +28,7 @@ It is taken from strain sweeps, of which instruments print the single amplitude 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
@@ -422,12 +422,3 @@ def softening_of_sweeps(sweeps: Sequence[StrainSweep], *, measured_at: float) ->
     temperatures = sorted(kelvin for kelvin in kelvins if kelvin is not None) or None
     deformation: Deformation = "shear" if kinds[0] == "shear" else "tension"
     return SofteningTable(strain, storage, loss, measured_at, deformation, temperatures)
-
-
-SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable)}
-
-
-def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
-    """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
-    law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
-    return law
