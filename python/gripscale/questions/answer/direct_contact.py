@@ -24,7 +24,6 @@ from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavele
 from gripscale.half_space.result import TRAPPED_WATER
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.condition_factors import condition_factors, stress_error
 from gripscale.questions.answer.estimate import (
     DIRECT,
     ESTIMATED,
@@ -63,7 +62,9 @@ def direct_contact_design(
     profiles = each_measured(case.surface)
     if not profiles:
         return None
-    direct = DirectContact(tolerance=tolerance, conditions=case.conditions, traces=traces)
+    direct = DirectContact(
+        tolerance=tolerance, conditions=case.conditions, traces=traces, errors=True
+    )
     points = [
         Point((at,), f"{label}{name}", Task(case.rubber, surface, load, direct))
         for at, (name, surface) in enumerate(profiles)
@@ -182,9 +183,9 @@ def direct_contact_totals(
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
     best = answer_of_samples(
         samples.expand_dims(model=[DIRECT]),
-        [*condition_factors(case, load), *continuation_factors(case, curve)],
+        continuation_factors(case, curve),
         sampled=sampled,
-        stress_error=stress_error(case.conditions),
+        conditions=case.conditions,
     )
     if curve is not None and not any(refusals(curve)):
         best[CONTINUED_TO] = case.below_measurement.down_to

@@ -20,6 +20,9 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.dry_road import DRY_TREAD, STRESS_SCATTER
+from gripscale.conditions.strain_rule import AREA_SCATTER, FRICTION_SCATTER
 from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
@@ -93,14 +96,14 @@ def answer_of_samples(
     *,
     sampled: SampledErrors | None = None,
     solved_finite_strain: FactorNumbers | None = None,
-    stress_error: float = 0.0,
+    conditions: Conditions | None = None,
 ) -> xr.Dataset:
     """Return the answer of the solved models.
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
     known one replaces it, `solved_finite_strain` the assumed factor of finite strain.
-    `stress_error` is the standard error of the logarithm of the stress of an area term.
+    Typical laws among the `conditions` add their errors.
 
     `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
     ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
@@ -120,6 +123,7 @@ def answer_of_samples(
         heights = direct.get("upper_height")
         if heights is not None and bool(heights.notnull().any()):  # lines of a surface, no map
             factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
+        factors |= _of_conditions(direct, conditions, unknown)
         for factor in supplied:
             factors[factor.name] = factor.label, _numbers_of(factor, unknown)
     labels, solved = [label for label, _ in factors.values()], [n for _, n in factors.values()]
@@ -163,7 +167,7 @@ def answer_of_samples(
             data,
             term * data["answer_contact_fraction_factor"].prod("factor"),
             errors_of,
-            stress_error,
+            _stress_error(conditions),
         )
     return described(data)
 
@@ -172,7 +176,7 @@ def with_large_strain(
     answer: xr.Dataset,
     samples: xr.Dataset,
     supplied: Sequence[Factor] = (),
-    stress_error: float = 0.0,
+    conditions: Conditions | None = None,
 ) -> xr.Dataset:
     """Return an answer with what it becomes by the solved factor of finite strain.
 
@@ -192,7 +196,7 @@ def with_large_strain(
         changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
         factor[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
     large = answer_of_samples(
-        samples, supplied, solved_finite_strain=factor, stress_error=stress_error
+        samples, supplied, solved_finite_strain=factor, conditions=conditions
     )
     names = {name: name.replace(LARGE_STRAIN, "answer_") for name in LARGE_STRAIN_NUMBERS}
     numbers = {name: large[answered] for name, answered in names.items() if answered in large}
@@ -267,6 +271,35 @@ def _of_surface(direct: xr.Dataset) -> FactorNumbers:
         sigma = lines.copy(data=surface.uncertainty)
         numbers[name] = lines.copy(data=surface.ratio), LogError(sigma, freedom)
     return numbers
+
+
+def _of_conditions(
+    direct: xr.Dataset, conditions: Conditions | None, unknown: xr.DataArray
+) -> dict[str, tuple[str, FactorNumbers]]:
+    """Return factors of one with the errors of the strain rule and of what else is not known."""
+    factors: dict[str, tuple[str, FactorNumbers]] = {}
+    if conditions is not None and conditions.softening is not None:
+        values = LogNormalValue(1.0, AREA_SCATTER), LogNormalValue(1.0, FRICTION_SCATTER)
+        rule = Factor("strain_rule", "strain rule", *values)
+        factors[rule.name] = rule.label, _numbers_of(rule, unknown)
+    if "condition" not in direct.dims:
+        return factors
+    for at, label in enumerate(direct.condition.values):
+        numbers = {}
+        for name in ESTIMATED:
+            sigma = direct[f"{name}_condition_error"].isel(condition=at, drop=True).mean("sample")
+            numbers[name] = xr.ones_like(sigma), _certain(sigma)
+        factors[str(label)] = str(label), numbers
+    return factors
+
+
+def _stress_error(conditions: Conditions | None) -> float:
+    """Return the standard error of the logarithm of the shear stress of the area term [-].
+
+    That between compounds for the typical stress of a dry road; a stated stress is taken as it is.
+    """
+    typical = conditions is not None and conditions.shear_stress == DRY_TREAD
+    return STRESS_SCATTER if typical else 0.0
 
 
 def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:

@@ -84,7 +84,7 @@ class ComparisonSetup(Described):
     @property
     def direct(self) -> DirectContact:
         """The direct contact."""
-        return DirectContact(tolerance=self.tolerance, conditions=self.conditions)
+        return DirectContact(tolerance=self.tolerance, conditions=self.conditions, errors=True)
 
 
 class SampleSpec(NamedTuple):
