@@ -308,31 +308,24 @@ def fit_rubber(
     if law is not None:
         print_parts(console, page.softening_parts(law))
     if output is not None:
-        written = [] if law is None else [_softening_written(law, output)]
-        written += [] if prepared is None else [_written(prepared, output)]
-        print_parts(console, ["", *(f"{what} in {output}" for what in written)])
+        print_parts(console, ["", f"{_written(prepared, law, output)} in {output}"])
 
 
-def _softening_written(law: SofteningTable, output: Path) -> str:
-    from gripscale.charts.figure_folder import FigureFolder
-    from gripscale.io.folders import make_folder
-    from gripscale.questions.inputs.charts_of_rubber import softening_sheet
-    from gripscale.rubber.softening import write_softening_factors
-
-    make_folder(output)
-    FigureFolder(output, _FIGURES).save(softening_sheet(law), "softening")
-    write_softening_factors(output / "softening_factors.csv", law)
-    return "Figure and factors of the softening are"
-
-
-def _written(prepared: MeasuredRubber, output: Path) -> str:
+def _written(prepared: MeasuredRubber | None, law: SofteningTable | None, output: Path) -> str:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.io.folders import make_folder, write_text
-    from gripscale.questions.inputs.charts_of_rubber import rubber_figures
+    from gripscale.questions.inputs.charts_of_rubber import rubber_figures, softening_sheet
+    from gripscale.rubber.softening import write_softening_factors
 
     make_folder(output)
-    rubber_figures(prepared, (), FigureFolder(output, _FIGURES))
+    figures = FigureFolder(output, _FIGURES)
+    if law is not None:
+        figures.save(softening_sheet(law), "softening")
+        write_softening_factors(output / "softening_factors.csv", law)
+    if prepared is None:
+        return "Figure and factors of the softening are"
+    rubber_figures(prepared, (), figures)
     master, sweeps = prepared.master, prepared.sweeps
     if master is None or sweeps is None:
         return "The figure is"

@@ -1,16 +1,8 @@
 """Strain sweeps of filled rubber as laboratories deliver them.
 
-A file holds a sweep or several. Their temperatures and frequencies stand in columns, in lines above
-the tables, or of several files in the names. What the numbers mean is read from the titles:
-
-| question | in the titles | without a word |
-|---|---|---|
-| single or double amplitude, 2 in strain | single, SSA, 0-p; double, DSA, p-p | asked |
-| | amplitude alone: single, zero to peak, as mechanics has the word | assumed |
-| tension or shear, sqrt(3) in strain | shear, gamma, G', or tension, compression | open |
-| moduli or ratios | ratio, over, normalised, E'/E'_0, the unit - | moduli |
-
-No curve shows the first two. Young's moduli do not say tension: programs print E' = 3 G' too.
+Titles say what the numbers mean. Single or double amplitude, a factor of 2 in strain, is asked for
+without a word; "amplitude" alone is the single one, from zero to peak, as mechanics has the word.
+Tension or shear, a factor of sqrt(3), stays open: programs print E' = 3 G', too.
 """
 
 from __future__ import annotations
@@ -106,10 +98,7 @@ class StrainSweep(Checked, eq=False):
 
 
 def read_strain_sweep(path: str | Path, **options: Any) -> StrainSweep:
-    """Read one strain sweep; options and errors as those of `read_strain_sweeps`.
-
-    Raises `FileError` if the file holds several, too.
-    """
+    """Read one strain sweep as `read_strain_sweeps`; raises `FileError` if there are several."""
     sweeps = read_strain_sweeps(file_path(path), **options)
     if len(sweeps) > 1:
         conditions = "; ".join(sweep.condition for sweep in sweeps)
@@ -120,7 +109,6 @@ def read_strain_sweep(path: str | Path, **options: Any) -> StrainSweep:
 def read_strain_sweeps(
     path: str | Path | Sequence[str | Path],
     *,
-    modulus: str | None = None,
     amplitude: str | None = None,
     deformation: Deformation | None = None,
     temperature: Quantity | None = None,
@@ -131,43 +119,33 @@ def read_strain_sweeps(
 ) -> list[StrainSweep]:
     """Read strain sweeps at one or several temperatures and frequencies from text, CSV or Excel.
 
-    Rows whose temperatures follow each other within 1 K and whose frequencies within 2 % are one
-    sweep; moduli of equal strains are averaged. Temperature and frequency are None if neither
-    stated nor given. Titles are those `read_sweeps` knows; what the file states need not be given.
-    Raises `FileError` if a file cannot be read, or moduli at one condition are of several
-    specimens. Raises `InputError` if a unit, the kind of modulus or of amplitude, or a column is
-    neither stated nor given.
+    Rows within 1 K and 2 % of frequency of their neighbours are one sweep; moduli of equal strains
+    are averaged. Raises `FileError` if a file cannot be read, or moduli at one condition are of
+    several specimens. Raises `InputError` if a unit, the kind of modulus or of amplitude, or a
+    column is neither stated nor given.
 
     Parameters
     ----------
-    path : str, Path or sequence of them
-        The file, or several, such as one for each temperature, which then may stand in its name
-        with its unit: sweep_-20C.csv.
-    name, source, **options
-        As in `read_master_curve`; the options have `strain_unit`, too.
-    modulus : {"E", "G"}, optional
-        Whether the file holds Young's or shear moduli; needed unless its titles say so, or it holds
-        ratios to the moduli at small strain.
+    path, name, source, **options
+        As in `read_sweeps`, temperatures in the names of several files, too; the options have
+        `strain_unit` and `modulus`, which ratios to the moduli at small strain do not need.
     amplitude : {"single", "peak-to-peak"}, optional
         What the strain column holds, unless its title says so (peak-to-peak, double, DSA; single,
-        SSA). The peak-to-peak amplitude is halved; that of a title with the word amplitude alone is
-        single, with `amplitude_assumed`.
+        SSA). The peak-to-peak amplitude is halved.
     deformation : {"tension", "shear"}, optional
         What the strain is. Titles and shear moduli may say so; Young's moduli do not.
     temperature, frequency : float, optional
-        Temperature [K] and frequency [Hz], if no column states them.
+        Temperature [K] and frequency [Hz], if no column states them; None if nothing does.
     """
-    paths, layout = file_paths(path), FileLayout(modulus=modulus, **options)
-    conditions = temperature, frequency
+    paths, layout = file_paths(path), FileLayout(**options)
     if deformation is not None:
         checks.one_of("deformation", deformation, DEFORMATIONS)
     sweeps = []
     for file in paths:
-        blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)
-        title = file.stem if name is None else name
-        for block in blocks:
+        for block in read_blocks(file, layout, temperature_unit=layout.temperature_unit):
             block = with_named_temperature(block, file.stem, layout) if len(paths) > 1 else block
-            for sweep in _sweeps_in(block, layout, amplitude, conditions):
+            title = file.stem if name is None else name
+            for sweep in _sweeps_in(block, layout, amplitude, (temperature, frequency)):
                 kind = sweep.deformation if deformation is None else deformation
                 sweeps.append(replace(sweep, deformation=kind, name=title, source=source))
     return sweeps
@@ -213,7 +191,6 @@ def _sweeps_in(
     kind = _deformation_in(table, layout)
     for both in np.unique([colder, faster], axis=1).T:
         of_sweep = rows[:, (colder == both[0]) & (faster == both[1])]
-        # one strain measured again is no fault, moduli far apart there are
         apart = spread_of_repeats(of_sweep[0], of_sweep[1], of_sweep[2], 0.0 * of_sweep[0])
         if apart > APART:
             raise FileError(
@@ -233,22 +210,17 @@ def _sweeps_in(
 
 def _labels(values: Array, tolerance: float, table: TextTable, what: str) -> NDArray[np.intp]:
     """Return which temperature or frequency each row has, counted from the lowest."""
-    finite = np.isfinite(values)
-    labels = np.zeros(values.size, dtype=np.intp)
-    labels[finite] = neighbours_of(values[finite], tolerance) if finite.any() else 0
+    finite, labels = np.isfinite(values), np.zeros(values.size, dtype=np.intp)
+    if finite.any():
+        labels[finite] = neighbours_of(values[finite], tolerance)
     if labels.any() and not finite.all():
-        raise FileError(
-            f"{table.path}: expected a {what} in every row, because there are several; got none in "
-            f"{int((~finite).sum())} of {values.size} rows"
-        )
+        gaps = f"none in {int((~finite).sum())} of {values.size} rows"
+        raise FileError(f"{table.path}: expected a {what} in every row of several; got {gaps}")
     return labels
 
 
 def _for_ratios(table: TextTable, layout: FileLayout) -> FileLayout:
-    """Return the layout with which ratios of moduli, if a table holds these, are read as they are.
-
-    Only ratios of a sweep count for its softening, so that they may pass as moduli.
-    """
+    """Return the layout that takes ratios of moduli, if a table holds these, as they are."""
     at = [layout.column(table, name) for name in ("storage", "loss")]
     titles = [table.columns[column] for column in at if column is not None]
     ratios = [t.unit in ("-", "1") or (t.unit is None and _RATIO.search(t.name)) for t in titles]

@@ -401,13 +401,8 @@ def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
     return Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar)
 
 
-def softening_figure(law: SofteningTable) -> Figure:
-    """Draw both moduli of strain sweeps, over those of the master curve, against strain [%]."""
-    return softening_sheet(law).on_paper()
-
-
 def softening_sheet(law: SofteningTable) -> Sheet:
-    """Describe what `softening_figure` draws."""
+    """Draw both moduli of strain sweeps, over those of the master curve, against strain [%]."""
     count = len(law.strain)
     labels = [f"{kelvin - ZERO_CELSIUS:.1f} °C" for kelvin in law.temperature or ()] or [""]
     strain = PlotAxis(f"strain amplitude, {law.deformation or 'tension or shear'} [%]", log=True)
