@@ -146,7 +146,7 @@ SWEEPS = {
     "loss": [np.geomspace(1.3e6, 4e5, 9), [8e5, 7.7e5, 6.1e5]],
     "temperature": [293.2, 333.15],
 }
-WARM = Conditions(313.15, KRAUS, "slope", THERMAL, ConstantStress(1e6))
+WARM = Conditions(313.15, KRAUS, heat=THERMAL, shear_stress=ConstantStress(1e6))
 MASTER = gs.read_master_curve(MEASURED_DMA, reference_temperature=293.15, modulus="E")
 RUBBERS = {
     "master curve": (MASTER, None),

@@ -17,7 +17,7 @@ from gripscale.conditions import Conditions
 from gripscale.experiment import MeasuredFriction
 from gripscale.model import Load
 from gripscale.questions import fit_area_term
-from gripscale.rubber import softening
+from gripscale.rubber import softening, typical_tread
 
 SOLID = gs.Rubber(1e6, [4e6], [1e-2], name="solid")
 FREQUENCY = np.geomspace(1e-2, 1e6, 30)
@@ -145,6 +145,7 @@ def _conditions() -> Iterator[Door]:
     table = {name: [values] for name, values in sweep.items()}
     known = {"measured_at": 2e-3, "deformation": "tension", "temperature": [293.0]}
     yield Door(softening.SofteningTable, {**table, **known})
+    yield Door(typical_tread.TypicalTread, {"deviation": 0.5, "deformation": "shear"})
     words = {"temperature": 293.0, "frequency": 10.0, "name": "", "source": ""}
     yield Door(rubber.StrainSweep, {**sweep, "deformation": "shear", **words})
     one = rubber.StrainSweep(**sweep, deformation="shear")

@@ -341,10 +341,14 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
     softening: SofteningLaw | StrainSweeps | None = table.softening
     if isinstance(softening, StrainSweeps):
         softening = softening.softening(resolve)
+    effects = {name: getattr(table, name) for name in ("temperature", "shear_stress", "water")}
     norm = table.strain_norm or "slope"
-    return Conditions(
-        table.temperature, softening, norm, table.heat, table.shear_stress, table.water
-    )
+    return Conditions(softening=softening, strain_norm=norm, heat=table.heat, **effects)
+
+
+def _filled(source: RubberSource) -> bool | None:
+    """Return whether a rubber is filled: those known by name are not."""
+    return False if source.filled is None and source.name is not None else source.filled
 
 
 @about_keys("below_measurement")
@@ -432,8 +436,9 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 thickness=file.case.rubber.thickness,
                 static=load.static,
                 chain=chain,
-                conditions=chain.conditions,
-                water=file.case.conditions.water,
+                conditions=prepare_conditions(file.case.conditions, file.resolve),
+                filled=_filled(file.case.rubber),
+                interface=file.case.conditions.interface,
                 below_measurement=_below_measurement(file),
                 klueppel_heinrich=klueppel_heinrich,
                 friction=friction,

@@ -29,7 +29,8 @@ from gripscale.case_file.schema import (
     unit_of_file,
 )
 from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
-from gripscale.conditions.conditions import FLOODED
+from gripscale.conditions.conditions import FLOODED, OFF
+from gripscale.conditions.defaults import Interface
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core.units import parse_quantity
 from gripscale.io.text_table import MOST_LINES
@@ -45,7 +46,8 @@ SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable
 
 # Keys of [rubber] that a named rubber may have.
 OF_ANY_RUBBER = {
-    *("file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift", "thickness")
+    *("file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift", "thickness"),
+    "filled",
 }
 
 
@@ -116,6 +118,9 @@ class RubberSource(LayoutKeys):
     """Times the typical scatter beyond which a measured row is left out of the fit."""
     bulk_modulus: Pressure | None = None
     """Bulk modulus, which a DMA measurement does not give."""
+    filled: bool | None = None
+    """Whether the rubber is filled (carbon black, silica), as of every tread; without a word the
+    answer has both numbers. Filled rubber without softening of its own softens as a typical tread."""
     thickness: Length | None = None
     """Thickness of the rubber on a rigid base; without it the rubber has no end."""
     extrapolate: Annotated[Literal["warn", "refuse"], BeforeValidator(_warn_or_refuse)] = "warn"
@@ -180,25 +185,31 @@ def _film(value: Any) -> Any:
 
 
 class ConditionsTable(CaseTable):
-    """Effects beside the rubber as measured, each off unless asked for."""
+    """Effects beside the rubber as measured."""
 
     temperature: Temperature | None = None
     """Temperature of the rubber before the contact; that of the master curve by default."""
-    softening: Annotated[InstanceOf[Kraus] | StrainSweeps, by_kind(SOFTENING)] | None = None
-    """Softening by strain."""
+    softening: (
+        Annotated[InstanceOf[Kraus] | StrainSweeps | Literal["none"], by_kind(SOFTENING, off=OFF)]
+        | None
+    ) = None
+    """Softening by strain; that of a typical tread for filled rubber by default, or "none"."""
     strain_norm: Literal["slope", "stretch"] | None = None
     """Half the rms slope in the contact (the default), or the largest stretch less one."""
-    heat: Annotated[InstanceOf[ThermalProperties], stated_law(ThermalProperties)] | None = None
-    """The rubber warms by its own friction."""
+    heat: (
+        Annotated[
+            InstanceOf[ThermalProperties] | Literal["none"], stated_law(ThermalProperties, off=OFF)
+        ]
+        | None
+    ) = None
+    """The rubber warms by its own friction, with typical constants by default where it has a
+    temperature shift, or "none"."""
+    interface: Interface | None = None
+    """A dry interface: the real contact area is sheared at the stress of typical treads, unless
+    shear_stress states another. Without it the friction is that of the hysteresis alone."""
     shear_stress: Annotated[InstanceOf[InterfacialShearStress], by_kind(SHEAR_STRESSES)] | None = (
         None
     )
     """The area term: the real contact area sheared at this stress."""
     water: Annotated[Any, Reading('"flooded" or a length', _film)] = None
     """Water on a measured map that contact can trap: flooded, or a film of this thickness."""
-
-    @model_validator(mode="after")
-    def _norm_of_softening(self) -> ConditionsTable:
-        if self.strain_norm is not None and self.softening is None:
-            raise ValueError("strain_norm belongs to softening, which is not asked for")
-        return self

@@ -27,7 +27,7 @@ from gripscale.case_file.read import CaseFile, validate
 from gripscale.case_file.schema import kelvin_text, law_keys, toml_text
 from gripscale.case_file.tables import CaseTables, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
-from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.conditions import OFF, Conditions
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent
 from gripscale.core import Array, FileError, InputError, quantity_in_si
 from gripscale.core.provenance import version_of
@@ -141,12 +141,14 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         "surface": _surface_keys(case, inputs)
         | {"kind": None if case.kind == "surface" else case.kind},
         "rubber": _rubber_keys(case.measured_rubber, inputs)
-        | {"thickness": load.thickness, "extrapolate": case.chain.extrapolate},
+        | {"thickness": load.thickness, "extrapolate": case.chain.extrapolate}
+        | {"filled": case.filled},
         "load": {name: getattr(load, name) for name in ("pressure", "speed", "footprint")}
         | {"static": case.static, "load_time": load.load_time, "tester": case.tester or None},
         "solver": _solver_keys(case.chain),
         "chain": {"pressure_classes": case.chain.pressure_classes},
-        "conditions": _conditions_keys(case.conditions, inputs),
+        "conditions": _conditions_keys(case.stated_conditions, inputs)
+        | {"interface": case.interface},
         "below_measurement": below,
         "measured": measured,
         "compare": {} if case.klueppel_heinrich is None else law_keys(case.klueppel_heinrich),
@@ -282,6 +284,7 @@ def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str
         sweeps["amplitude"] = None if law.amplitude_assumed else "single"
         stating = {key: value for key, value in sweeps.items() if value is not None}
         keys["softening"] = {"kind": "table", "files": files, **stating}
+    keys |= dict.fromkeys(conditions.off, OFF)
     return {
         "temperature": None if kelvin is None else kelvin_text(kelvin),
         "softening": keys["softening"],

@@ -121,7 +121,7 @@ def solve_run(
 def _print_answer(console: Console, case: Case, answer: Answer) -> None:
     """Print an answer with its first findings, above the inputs of its case."""
     terminal.end_steps()
-    findings = warning_lines(answer.findings, terminal.RUN_REPORT)
+    findings = warning_lines(answer.findings, terminal.RUN_REPORT, answer.half_widths)
     terminal.print_parts(console, ["", *answer.lines, *findings, "", *_inputs(case)])
 
 

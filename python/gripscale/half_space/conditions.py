@@ -10,14 +10,17 @@ scale: the convention of B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:1
 The harmonics of an octave lose mu_b p_0 v per nominal area, and the pattern of
 `gripscale.conditions.flash_temperature` distributes this heat along the surface. Summed over
 octaves it is exactly the friction work. It is lost at a mean depth of 3/2 over the wavenumber,
-averaged over the octave by the loss, and moves over the rubber while the footprint passes. The road
-takes up none. The heat of an area term, lost in the interface, is left out.
+averaged over the octave by the loss, and moves over the rubber while the footprint passes. The heat
+of an area term is lost at the surface, evenly over the contact; through it a counterface takes up
+its part of all heat.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
 
 import numpy as np
 import scipy
@@ -41,7 +44,7 @@ def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) 
     out = []
     for largest in wavenumber:
         slope = scipy.fft.irfftn(np.where(grid.wavenumber <= largest, spectrum, 0.0), s=grid.shape)
-        out.append(0.5 * float(np.sqrt(np.mean(slope[active] ** 2))))
+        out.append(0.35 * float(np.sqrt(np.mean(slope[active] ** 2))))
     return np.maximum.accumulate(np.array(out))
 
 
@@ -96,52 +99,143 @@ def grid_temperature(
 
     `flux` is the heat per nominal area and unit of friction, p_0 v [W/m^2].
     """
-
-    def without_mean(density: Array) -> ComplexArray:
-        spectrum = scipy.fft.rfftn(density)
-        spectrum.flat[0] = 0.0
-        return np.asarray(spectrum)
-
-    m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, thermal)
-    m.flat[0] = 1.0
-    sources = [flux * heat.friction * without_mean(heat.density) for heat in heats]
+    m = _decay(grid, speed, thermal)
+    patterns = [_without_mean(heat.density) for heat in heats]
     uniform = [
         flux * heat.friction * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats
     ]
     surfaces = [
-        source * rise.passing_at_surface(m, time, heat.depth, thermal)
-        for source, heat in zip(sources, heats, strict=True)
+        flux * heat.friction * pattern * rise.passing_at_surface(m, time, heat.depth, thermal)
+        for pattern, heat in zip(patterns, heats, strict=True)
     ]
     surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
     octave = []
     for which, heat in enumerate(heats):
-        pattern = without_mean(heat.density)
+        strength = flux * heat.friction
         # the other octaves warm the depth of this one from the surface, its own heat where it is
         here = heat.depth.decay(m) * (surface - surfaces[which])
-        here += sources[which] * rise.passing_where_lost(m, time, heat.depth, thermal)
+        here += strength * patterns[which] * rise.passing_where_lost(m, time, heat.depth, thermal)
         level = sum(uniform) - uniform[which]
-        level += flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
-        mean_product = float((grid.weight * (here * pattern.conj()).real).sum() / grid.points**2)
-        octave.append(level + mean_product)
+        level += strength * rise.uniform_where_lost(time, heat.depth, thermal)
+        octave.append(level + _mean_over(grid, here, patterns[which]))
     field = scipy.fft.irfftn(surface, s=grid.shape) + sum(uniform)
     return GridTemperature(np.asarray(field), np.array(octave))
 
 
+def contact_source_temperature(
+    grid: Grid,
+    heats: list[OctaveHeat],
+    contact: Mask,
+    *,
+    flux: float,
+    speed: float,
+    time: float,
+    thermal: ThermalProperties,
+    counterface: ThermalProperties | None,
+) -> tuple[GridTemperature, float]:
+    """Return the rises of the rubber, and of the counterface's contact [K], by a unit of friction.
+
+    The heat is even over `contact` and at the surface; other arguments as for `grid_temperature`.
+    The counterface is at rest under the contact; insulating it would be infinitely hot.
+    """
+    pattern, at_surface = _without_mean(contact / contact.mean()), LossDepth(0.0)
+
+    def field(solid: ThermalProperties, passing: float) -> tuple[float, ComplexArray]:
+        """Return mean and harmonics of the surface of a solid that moves at a speed [m/s]."""
+        m = _decay(grid, passing, solid)
+        harmonics = rise.passing_at_surface(m, time, at_surface, solid)
+        return flux * rise.uniform_at_surface(time, at_surface, solid), flux * pattern * harmonics
+
+    mean, surface = field(thermal, speed)
+    m = _decay(grid, speed, thermal)
+    octave = [
+        # a source at the surface warms a depth as one at this depth warms the surface
+        flux * rise.uniform_at_surface(time, heat.depth, thermal)
+        + _mean_over(grid, heat.depth.decay(m) * surface, _without_mean(heat.density))
+        for heat in heats
+    ]
+    rises = GridTemperature(scipy.fft.irfftn(surface, s=grid.shape) + mean, np.array(octave))
+    if counterface is None:
+        return rises, np.inf
+    mean, surface = field(counterface, 0.0)
+    return rises, mean + _mean_over(grid, surface, pattern)
+
+
+def _decay(grid: Grid, speed: float, thermal: ThermalProperties) -> ComplexArray:
+    """Return the decay of the harmonics of a grid [1/m]; of the mean, which has none, one."""
+    m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, thermal)
+    m.flat[0] = 1.0
+    return m
+
+
+def _without_mean(density: Array) -> ComplexArray:
+    spectrum = scipy.fft.rfftn(density)
+    spectrum.flat[0] = 0.0
+    return np.asarray(spectrum)
+
+
+def _mean_over(grid: Grid, harmonics: ComplexArray, pattern: ComplexArray) -> float:
+    """Return the mean of a field without mean, weighted by a density of mean one."""
+    return float((grid.weight * (harmonics * pattern.conj()).real).sum() / grid.points**2)
+
+
 def temperature(
     contact: RoughContact, conditions: Conditions, time: float
-) -> tuple[Array, GridTemperature]:
-    """Return the wavenumbers of the octaves that lose energy [rad/m], and the temperature rise."""
+) -> tuple[list[OctaveHeat], GridTemperature]:
+    """Return the octaves that lose energy, and the temperature rise in a contact of `time` [s]."""
     assert conditions.heat is not None
-    heats = octave_heats(contact.grid, contact.pressure, contact.lost_by_harmonic())
-    rises = grid_temperature(
-        contact.grid,
-        heats,
-        flux=contact.nominal_pressure * contact.speed,
-        speed=contact.speed,
-        time=time,
-        thermal=conditions.heat,
+    grid, active = contact.grid, contact.active
+    heats = octave_heats(grid, contact.pressure, contact.lost_by_harmonic())
+    motion: dict[str, Any] = {
+        "flux": contact.nominal_pressure * contact.speed,
+        "speed": contact.speed,
+        "time": time,
+        "thermal": conditions.heat,
+    }
+    rises = grid_temperature(grid, heats, **motion)
+    if conditions.shear_stress is None and conditions.counterface is None:
+        return heats, rises
+    by_unit, counterface = contact_source_temperature(
+        grid, heats, active, counterface=conditions.counterface, **motion
     )
-    return np.array([heat.wavenumber for heat in heats]), rises
+    part = rise.Partition(
+        float(rises.surface[active].mean()), float(by_unit.surface[active].mean()), counterface
+    )
+    cold, unit = (
+        float(np.average(each.surface, weights=contact.pressure)) for each in (rises, by_unit)
+    )
+    friction = 0.0
+    if conditions.shear_stress is not None:
+        friction = rise.settled_interface(
+            partial(contact.adhesive_friction_at, conditions),
+            lambda friction: cold + part.net(friction) * unit,
+        )
+    net = part.net(friction)
+    return heats, GridTemperature(
+        rises.surface + net * by_unit.surface, rises.octave + net * by_unit.octave
+    )
+
+
+@dataclass(frozen=True)
+class MeanWarming:
+    """Mean temperature rises of a contact [K]."""
+
+    contact: float  # at the surface, weighted by the pressure
+    where_lost: float  # in the depth, weighted by the loss
+
+
+def warming_of(contact: RoughContact, conditions: Conditions, footprint: float) -> MeanWarming:
+    """Return the rise by the heat of `conditions` in a contact that was solved without.
+
+    The rubber needs no shift. `footprint` is the length of the nominal contact [m].
+    """
+    if contact.speed == 0.0:
+        return MeanWarming(0.0, 0.0)
+    heats, rises = temperature(contact, conditions, footprint / contact.speed)
+    return MeanWarming(
+        float(np.average(rises.surface, weights=contact.pressure)),
+        float(np.average(rises.octave, weights=[heat.friction for heat in heats])),
+    )
 
 
 @dataclass(frozen=True)
@@ -199,7 +293,8 @@ class _ContactEvaluation:
         number, surface = _octaves(contact), None
         warming, strain = np.zeros(number.size), np.ones(number.size)
         if self.conditions.heat is not None and contact.speed > 0.0:
-            at, rises = temperature(contact, self.conditions, self.time)
+            heats, rises = temperature(contact, self.conditions, self.time)
+            at = [heat.wavenumber for heat in heats]
             warming = np.interp(np.log(number), np.log(at), rises.octave)
             surface = rises.surface
         if self.conditions.softening is not None:

@@ -27,7 +27,7 @@ are in tension or shear, a strain is taken half-way, e = s / 3^(1/4), a factor o
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar, Protocol, runtime_checkable
@@ -347,41 +347,22 @@ def write_softening_factors(path: str | Path, law: SofteningTable) -> Path:
     amplitude = "" if law.amplitude_assumed else "single "
     titles = [f"{amplitude}{law.deformation or ''} strain amplitude [-]".lstrip()]
     titles += [f"{name} over that of the master curve [-]" for name in ("storage", "loss")]
-    columns = [
-        [*row]
-        for row in np.hstack(
-            [[strains, *law.of_sweep(at, strains)] for at, strains in enumerate(law.strain)]
-        )
-    ]
+    sweeps = [[strains, *law.of_sweep(at, strains)] for at, strains in enumerate(law.strain)]
+    rows = np.hstack(sweeps)
     if law.temperature is not None:
         titles.append("temperature [C]")
-        columns.append(np.repeat(law.temperature, [*map(len, law.strain)]) - ZERO_CELSIUS)
-    lines = (",".join(map("{:.6g}".format, row)) for row in zip(*columns, strict=True))
+        celsius = np.repeat(law.temperature, [*map(len, law.strain)]) - ZERO_CELSIUS
+        rows = np.vstack([rows, celsius])
+    lines = (",".join(map("{:.6g}".format, row)) for row in rows.T)
     return write_text(file_path(path), "\n".join([",".join(titles), *lines, ""]))
-
-
-def readings(law: SofteningLaw) -> tuple[SofteningLaw, ...]:
-    """Return a law read in tension and in shear if it does not state which, else the law alone."""
-    if getattr(law, "deformation", "tension") is not None:
-        return (law,)
-    return tuple(replace(law, deformation=kind) for kind in DEFORMATIONS)  # type: ignore[type-var]
 
 
 def assumptions(law: SofteningLaw) -> Iterator[str]:
     """Yield what is assumed about a law because nothing states it, as sentences of a result."""
-    if len(readings(law)) > 1:
+    if getattr(law, "deformation", "tension") is None:
         yield "strain taken half-way between tension and shear, a factor of 1.32 from either"
     if isinstance(law, SofteningTable) and law.measured_at is None:
         ends = sorted({law.reference(at) for at in range(len(law.strain))})
         yield f"moduli taken as measured at a strain of {' to '.join(f'{e:.2%}' for e in ends)}"
     if isinstance(law, SofteningTable) and law.amplitude_assumed:
         yield "strain amplitudes taken as single, from zero to peak"
-
-
-SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable)}
-
-
-def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
-    """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
-    law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
-    return law

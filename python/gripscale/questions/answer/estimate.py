@@ -93,12 +93,14 @@ def answer_of_samples(
     *,
     sampled: SampledErrors | None = None,
     solved_finite_strain: FactorNumbers | None = None,
+    stress_error: float = 0.0,
 ) -> xr.Dataset:
     """Return the answer of the solved models.
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
     known one replaces it, `solved_finite_strain` the assumed factor of finite strain.
+    `stress_error` is the standard error of the logarithm of the stress of an area term.
 
     `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
     ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
@@ -158,13 +160,19 @@ def answer_of_samples(
     if direct is not None and "adhesive_friction" in direct:
         term = reduce.mean(direct, "adhesive_friction")
         data = with_total_friction(
-            data, term * data["answer_contact_fraction_factor"].prod("factor"), errors_of
+            data,
+            term * data["answer_contact_fraction_factor"].prod("factor"),
+            errors_of,
+            stress_error,
         )
     return described(data)
 
 
 def with_large_strain(
-    answer: xr.Dataset, samples: xr.Dataset, supplied: Sequence[Factor] = ()
+    answer: xr.Dataset,
+    samples: xr.Dataset,
+    supplied: Sequence[Factor] = (),
+    stress_error: float = 0.0,
 ) -> xr.Dataset:
     """Return an answer with what it becomes by the solved factor of finite strain.
 
@@ -183,7 +191,9 @@ def with_large_strain(
             return answer
         changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
         factor[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
-    large = answer_of_samples(samples, supplied, solved_finite_strain=factor)
+    large = answer_of_samples(
+        samples, supplied, solved_finite_strain=factor, stress_error=stress_error
+    )
     names = {name: name.replace(LARGE_STRAIN, "answer_") for name in LARGE_STRAIN_NUMBERS}
     numbers = {name: large[answered] for name, answered in names.items() if answered in large}
     for name, number in numbers.items():
@@ -220,12 +230,13 @@ def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, 
 
 
 def with_total_friction(
-    data: xr.Dataset, term: xr.DataArray, errors: Mapping[str, LogError]
+    data: xr.Dataset, term: xr.DataArray, errors: Mapping[str, LogError], stress_error: float = 0.0
 ) -> xr.Dataset:
     """Return an answer with the friction of its area term, and the total friction of both.
 
     Unchanged where the term is NaN. Errors of hysteresis and contact area have common sources, such
-    as the surface: at worst they add up in full.
+    as the surface: at worst they add up in full. That of the stress, of the logarithm, has none in
+    common with them.
     """
     if not bool(term.notnull().any()):
         return data
@@ -233,6 +244,7 @@ def with_total_friction(
     share = term / total
     friction, area = errors["friction"], errors["contact_fraction"]
     sigma = (1.0 - share) * friction.sigma + share * area.sigma
+    sigma = (sigma**2 + (share * stress_error) ** 2) ** 0.5
     freedom = xr.apply_ufunc(np.minimum, friction.freedom, area.freedom)
     error = LogError(sigma, freedom)
     return data.assign({AREA_TERM: term} | with_interval("total_friction", total, error))

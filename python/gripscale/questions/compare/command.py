@@ -101,7 +101,7 @@ def compare_command(
     text = f"{Path(result.file).stem}.txt"
     terminal.end_steps()
     console.print()
-    terminal.print_parts(console, [*result.lines, *warning_lines(result.findings, text)])
+    terminal.print_parts(console, [*result.lines, *warning_lines(result.findings, text, result.half_widths)])
     parts = list(result.parts())
     worth: list[xr.Dataset] = []
     residuals: xr.Dataset | None = None

@@ -25,6 +25,7 @@ from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import Doubtful
 from gripscale.questions.answer import estimate as estimates
 from gripscale.questions.answer import samples as reduce
+from gripscale.questions.answer.condition_factors import condition_factors, stress_error
 from gripscale.questions.answer.estimate import Factor
 from gripscale.questions.answer.intervals import half_width
 from gripscale.questions.answer.waves import estimate_of_waves
@@ -77,8 +78,11 @@ class SolvedLadder(Described):
             chain = self.samples.isel(model=0, sample=0, drop=True)
             names = ["friction", "contact_fraction", "adhesive_friction"]
             return estimate_of_waves(chain[names].where(reduce.converged(chain)))
-        best = estimates.answer_of_samples(self.samples, self.factors)
-        return estimates.with_large_strain(best, self.samples, self.factors)
+        factors, stress = [*self.factors], stress_error(self.case.conditions)
+        if self.axis is None:
+            factors += condition_factors(self.case, self.case.load)
+        best = estimates.answer_of_samples(self.samples, factors, stress_error=stress)
+        return estimates.with_large_strain(best, self.samples, factors, stress)
 
     @property
     def octaves(self) -> Array:
@@ -384,7 +388,9 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         {
             "title": "Contact and friction by model",
             **comparison.case.attributes,
-            **model.input_doubts(subjects, loads, comparison.case.units),
+            **model.input_doubts(
+                subjects, loads, comparison.case.units, comparison.case.softening_doubts
+            ),
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,
             "tolerance": setups[0].tolerance,

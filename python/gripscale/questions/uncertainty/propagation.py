@@ -365,8 +365,9 @@ def solve_samples(
         carried = carried.reindex(source=data.source.values)
         for name in PROPAGATED_QUANTITIES:
             data[FIRST_ORDER.format(name)] = carried[f"{name}_error"]
+    inputs = [case.surface, case.measured_rubber]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
-        case.attributes | input_doubts([case.surface, case.measured_rubber], loads, case.units),
+        case.attributes | input_doubts(inputs, loads, case.units, case.softening_doubts),
         **{_FILES: json.dumps(case.origin.digests)},
         seed=plan.seed,
         plan_key=plan.key,

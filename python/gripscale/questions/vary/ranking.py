@@ -99,7 +99,9 @@ def compare_compounds(
     loads = [point.task.load for point in study.points]
     kelvins = [rubber.reference_temperature for rubber in together.values()]
     data = data.assign_attrs(
-        input_doubts([*study.surfaces, *measured.values()], loads, case.units),
+        input_doubts(
+            [*study.surfaces, *measured.values()], loads, case.units, case.softening_doubts
+        ),
         title="Compounds on one surface, by friction",
         **{READING_NOTES: "\n".join([*reading_notes(rubbers.values()), *notes])},
         **({TEMPERATURE: kelvins[0]} if None not in kelvins and len({*kelvins}) == 1 else {}),

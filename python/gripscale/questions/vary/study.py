@@ -323,6 +323,7 @@ class Study:
                 [*self.surfaces, *self.measured_rubbers],
                 [point.task.load for point in self.points],
                 self.case.units,
+                self.case.softening_doubts,
             ),
             "nominal_pressure": load.pressure,
             "nominal_speed": load.speed,

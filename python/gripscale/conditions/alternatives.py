@@ -1,0 +1,44 @@
+"""How far typical laws may be off: the conditions of a case with one of them a standard error away.
+
+A typical tread has the scatter between measured compounds, typical thermal constants that between
+rubbers. Whether a strain sweep was made in tension or in shear is as likely one as the other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.flash_temperature import THERMAL_SCATTER, ThermalProperties
+from gripscale.rubber.softening import DEFORMATIONS, Kraus, SofteningTable
+from gripscale.rubber.typical_tread import SOFTER_TREAD, TypicalTread
+
+
+LAWS = (Kraus, SofteningTable, TypicalTread)
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Conditions that may be true as well."""
+
+    label: str  # what is not known, in words
+    conditions: Conditions
+    # Standard error of the logarithm of a result over its change by these conditions [-].
+    share: float = 1.0
+
+
+def alternatives(conditions: Conditions) -> Iterator[Alternative]:
+    """Yield conditions that may be true as well, one for each thing that is not known."""
+    softening, heat = conditions.softening, conditions.heat
+    if isinstance(softening, TypicalTread):
+        softer = replace(conditions, softening=replace(softening, deviation=SOFTER_TREAD.deviation))
+        yield Alternative("scatter between treads", softer)
+    if isinstance(softening, LAWS) and softening.deformation is None:
+        tension = replace(conditions, softening=replace(softening, deformation=DEFORMATIONS[0]))
+        # either end is as likely, and the change is from the middle to one of them
+        yield Alternative("sweeps in tension or in shear", tension)
+    if heat == ThermalProperties():
+        hotter = replace(conditions, heat=heat.with_effusivity(math.exp(-THERMAL_SCATTER)))
+        yield Alternative("typical thermal constants", hotter)
