@@ -54,7 +54,7 @@ def sweeps(name: str) -> dict[float, StrainSweep]:
     celsius = np.round(rows[:, 0], -1)
     return {
         at: StrainSweep(
-            1e-2 * of[:, 2], of[:, 3], of[:, 4], "uniaxial", at + ZERO_CELSIUS, 1.0, name
+            1e-2 * of[:, 2], of[:, 3], of[:, 4], "tension", at + ZERO_CELSIUS, 1.0, name
         )
         for at in np.unique(celsius).tolist()
         for of in [rows[celsius == at]]

@@ -41,14 +41,13 @@ from gripscale.rubber import (
     fit_prony_report,
     read_master_curve,
     read_shift_table,
-    read_strain_sweep,
     read_sweeps,
     styrene_butadiene,
     superpose_report,
 )
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
-from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
+from gripscale.rubber.softening import SofteningLaw
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
@@ -341,9 +340,7 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
         return None
     softening: SofteningLaw | StrainSweeps | None = table.softening
     if isinstance(softening, StrainSweeps):
-        options = softening.model_dump(exclude={"kind", "files", "measured_at"})
-        sweeps = [read_strain_sweep(resolve(name), **options) for name in softening.files]
-        softening = softening_of_sweeps(sweeps, measured_at=softening.measured_at)
+        softening = softening.softening(resolve)
     effects = {name: getattr(table, name) for name in ("temperature", "shear_stress", "water")}
     norm = table.strain_norm or "slope"
     return Conditions(softening=softening, strain_norm=norm, heat=table.heat, **effects)

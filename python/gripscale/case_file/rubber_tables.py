@@ -7,6 +7,8 @@ those of the package: their fields say which keys a case states them with.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, InstanceOf, model_validator
@@ -33,8 +35,9 @@ from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core.units import parse_quantity
 from gripscale.io.text_table import MOST_LINES
 from gripscale.rubber.shift import SHIFTS, Shift, ShiftTable
-from gripscale.rubber.softening import Kraus
+from gripscale.rubber.softening import Kraus, SofteningTable, softening_of_sweeps
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
+from gripscale.rubber.strain_sweeps import read_strain_sweeps
 
 NAMED_RUBBERS = ("styrene_butadiene",)
 
@@ -151,12 +154,20 @@ class StrainSweeps(LayoutKeys):
     """Measured strain sweeps."""
     files: list[str] = Field(min_length=1)
     """Files of strain sweeps."""
-    measured_at: Strain
-    """Strain of the DMA measurement, where nothing is softened."""
+    measured_at: Strain | None = None
+    """Strain of the DMA measurement, where nothing is softened; 0.1 % by default."""
+    deformation: Literal["tension", "shear"] | None = None
+    """What the strain is, where its title does not say; half-way between by default."""
     amplitude: Literal["single", "peak-to-peak"] | None = None
     """What the strain column holds, where its title does not say."""
     strain_unit: Annotated[str, unit_of_file("strain")] | None = None
     """Unit of strains where the file does not name it."""
+
+    def softening(self, resolve: Callable[[str], Path] = Path) -> SofteningTable:
+        """Return the law of the sweeps; `resolve` turns the name of a file into its path."""
+        options = self.model_dump(exclude={"kind", "files", "measured_at"})
+        sweeps = read_strain_sweeps([resolve(name) for name in self.files], **options)
+        return softening_of_sweeps(sweeps, measured_at=self.measured_at)
 
 
 # How a case states softening: a law with its numbers, or where one was measured.

@@ -273,15 +273,17 @@ def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str
         files = []
         for at, strain in enumerate(law.strain):
             columns: dict[str, ArrayLike] = {
-                "strain [1]": strain,
+                "strain amplitude [1]": strain,
                 f"{letter}' [Pa]": np.array(law.storage[at]) / divisor,
                 f"{letter}'' [Pa]": np.array(law.loss[at]) / divisor,
             }
             if law.temperature is not None:
                 columns["temperature [K]"] = np.full(len(strain), law.temperature[at])
             files.append(inputs.add_table("strain_sweep", columns))
-        sweeps = {"files": files, "measured_at": law.measured_at, "amplitude": "single"}
-        keys["softening"] = {"kind": "table", **sweeps}
+        sweeps: dict[str, Any] = {"measured_at": law.measured_at, "deformation": law.deformation}
+        sweeps["amplitude"] = None if law.amplitude_assumed else "single"
+        stating = {key: value for key, value in sweeps.items() if value is not None}
+        keys["softening"] = {"kind": "table", "files": files, **stating}
     keys |= dict.fromkeys(conditions.off, OFF)
     return {
         "temperature": None if kelvin is None else kelvin_text(kelvin),
