@@ -160,7 +160,6 @@ def warming(
     on_surface = from_interface * rise.uniform_at_surface(time, _SURFACE, thermal)
     out, larger_waves = [], 0.0
     for i, wave in enumerate(waves):
-        others = sum(h * t for j, (h, t) in enumerate(zip(heats, top, strict=True)) if j != i)
         # by the harmonics of this wave: where it loses energy, and in its contact
         k, heat = wave.wavenumbers, speed * wave.pressure
         m = rise.harmonic_decay(k, k, speed, thermal)
@@ -175,8 +174,9 @@ def warming(
         own_pattern = _mean(where_lost, wave.lost)
         in_contact = loss * rise.harmonic_at_surface(m, wave.depth, thermal) + by_smaller
         contact = _mean(in_contact, wave.contact)
-        surface = others + heats[i] * top[i] + on_surface + larger_waves + contact
-        uniform = others + heats[i] * deep[i] + from_interface * top[i]
+        surface = float(np.dot(heats, top)) + on_surface + larger_waves + contact
+        uniform = rise.uniform_from_others(heats, top, i) + heats[i] * deep[i]
+        uniform += from_interface * top[i]
         out.append(Warming(uniform, larger_waves, own_pattern, surface))
         larger_waves += contact
     return out

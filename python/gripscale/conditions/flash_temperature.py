@@ -72,7 +72,7 @@ the contact, is in docs/conditions.md.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, Protocol
 
@@ -277,6 +277,19 @@ def uniform_where_lost(time: float, depth: DepthsOfLoss, thermal: ThermalPropert
         return 0.0
     mean = depth.spread(length, "difference") + depth.spread(length, "sum")
     return length * mean / (2.0 * thermal.conductivity)
+
+
+def uniform_from_others(
+    strength: Sequence[float], at_surface: Sequence[float], which: int
+) -> float:
+    """Return the temperature of uniform heat where `which` loses energy, by all others.
+
+    `strength` is the heat of each, `at_surface` the temperature that a unit of it has there. A
+    source warms another depth as a source at this depth would warm its own: where one lies at the
+    surface, the rise is that of the other at the surface, and of two depths the deeper one decides.
+    """
+    pairs = enumerate(zip(strength, at_surface, strict=True))
+    return sum(heat * min(top, at_surface[which]) for j, (heat, top) in pairs if j != which)
 
 
 def _diffusion_length(time: float, thermal: ThermalProperties) -> float:

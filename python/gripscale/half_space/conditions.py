@@ -101,9 +101,8 @@ def grid_temperature(
     """
     m = _decay(grid, speed, thermal)
     patterns = [_without_mean(heat.density) for heat in heats]
-    uniform = [
-        flux * heat.friction * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats
-    ]
+    uniform = [flux * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats]
+    strengths = [heat.friction for heat in heats]
     surfaces = [
         flux * heat.friction * pattern * rise.passing_at_surface(m, time, heat.depth, thermal)
         for pattern, heat in zip(patterns, heats, strict=True)
@@ -111,14 +110,14 @@ def grid_temperature(
     surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
     octave = []
     for which, heat in enumerate(heats):
-        strength = flux * heat.friction
         # the other octaves warm the depth of this one from the surface, its own heat where it is
         here = heat.depth.decay(m) * (surface - surfaces[which])
-        here += strength * patterns[which] * rise.passing_where_lost(m, time, heat.depth, thermal)
-        level = sum(uniform) - uniform[which]
-        level += strength * rise.uniform_where_lost(time, heat.depth, thermal)
+        source = flux * heat.friction * patterns[which]
+        here += source * rise.passing_where_lost(m, time, heat.depth, thermal)
+        level = flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
+        level += rise.uniform_from_others(strengths, uniform, which)
         octave.append(level + _mean_over(grid, here, patterns[which]))
-    field = scipy.fft.irfftn(surface, s=grid.shape) + sum(uniform)
+    field = scipy.fft.irfftn(surface, s=grid.shape) + float(np.dot(strengths, uniform))
     return GridTemperature(np.asarray(field), np.array(octave))
 
 
