@@ -38,7 +38,7 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     assert result.exit_code == 0, result.output
     assert result.stderr == ""
     written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
-    of_others = {"effects_chain.nc", "cut_off.nc", "figures/blocks_static.png"} | {
+    of_others = {"cut_off.nc", "figures/blocks_static.png"} | {
         name for name in RESULT_FILES if any(f"/{figure}." in name for figure in AT_TIMES)
     }
     of_others |= {name for name in RESULT_FILES if name.endswith((".pdf", ".svg"))}

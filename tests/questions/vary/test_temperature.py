@@ -179,7 +179,8 @@ def test_effects_are_left_out_by_name(case: Path, tmp_path: Path) -> None:
     result = study.run(tmp_path / "out")
     task = study.points[0].task
     assert result.effects.values.tolist() == ["all", "no heat", "no temperature", "none"]
-    for i, left_out in enumerate(({}, {"heat": None}, {"temperature": None})):
+    none = {"heat": None, "temperature": None}
+    for i, left_out in enumerate(({}, {"heat": None}, {"temperature": None}, none)):
         own = replace(model, conditions=replace(conditions, **left_out))
         alone = own.predict(task.rubber, task.surface, task.load)
         assert float(result.total_friction[i]) == float(alone.total_friction)

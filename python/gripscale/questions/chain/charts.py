@@ -1,4 +1,4 @@
-"""Charts of waves and chains: area, friction and load by wavelength, evidence, heat, effects.
+"""Charts of waves and chains: area, friction and load by wavelength, evidence, heat.
 
 Contact area and friction against falling wavelength are figures 5 and 8 of LW.
 """
@@ -18,7 +18,6 @@ from gripscale.charts.chart import (
     Bars,
     CrossLine,
     Mark,
-    Note,
     Panel,
     PlotAxis,
     Series,
@@ -30,14 +29,12 @@ from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
 from gripscale.core import Array, InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS
-from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.result import RoughContact
 from gripscale.model import ADHESIVE_FRICTION
 from gripscale.questions.answer.reliance import headline
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import measured_points
-from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.words import ANSWER, AXIS_TITLES, HEADINGS, JUDGE, OF_THE_PAPER
 
 if TYPE_CHECKING:
@@ -397,74 +394,3 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
         )
     layout = {"width_ratios": [1.0, 1.5]}
     return Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout).on_paper()
-
-
-_HEIGHT, _ROW = 1.5, 0.32  # of the figure without rows, and of each [inch]
-_INSIDE = 0.45  # share of the longest bar; in one longer than that its number stands inside
-SHARE = 0.6  # share of the height of a row that the bars of all models take
-PANELS = {
-    "total_contact_fraction": f"{AXIS_TITLES['contact_fraction']} [-]",
-    "total_friction": "friction, hysteresis $\\mu$ [-]",
-    WITH_AREA_TERM: "friction with area term [-]",
-}
-PER_CENT = "at a bar: change by the effects that are left out"
-
-
-def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
-    """Draw A_r/A_0 and friction as bars: with all effects, without each in turn, without any.
-
-    `results` are of `effects`, one for each model, one at least; all of the same conditions. A
-    dotted line goes on from the answer with all effects. At each other bar stands what the effects
-    left out change, in per cent of it. Where an area term was asked for, friction with it has a
-    panel of its own.
-    """
-    return effects_sheet(*results, title=title).on_paper()
-
-
-def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:
-    """Describe what `effects_figure` draws; arguments and errors are its own."""
-    names = [str(name) for name in results[0].effect.values]
-    ticks = {float(i): EFFECTS.get(name, name) for i, name in enumerate(names)}
-    rows = PlotAxis("", low=len(names) - 0.5, high=-0.5, ticks=ticks, grid=False)
-    half = 0.45 * SHARE / len(results)
-    panels = []
-    for name, label in PANELS.items():
-        values = [result[name].values for result in results if name in result]
-        if not values:
-            continue
-        longest = float(np.nanmax(np.concatenate(values), initial=0.0))
-        marks: list[Mark] = []
-        for k, (result, colour) in enumerate(zip(results, COLOURS, strict=False)):
-            if name not in result:
-                continue
-            bars, model = result[name].values, str(result.attrs["model"])
-            at: Array = np.arange(float(bars.size)) + SHARE * ((k + 0.5) / len(results) - 0.5)
-            ends, label_of_model = np.nan_to_num(bars), MODELS.get(model, model)
-            marks.append(Bars(0.0, ends, at - half, at + half, colour, label_of_model))
-            if np.isfinite(bars[0]):
-                marks.append(CrossLine(bars[0], colour, "", "dotted", upright=True, order=0.9))
-            marks += _changes(at, bars, result[CHANGES[name]].values, _INSIDE * longest)
-        high = 1.3 * longest or None
-        panels.append(Panel(PlotAxis(label, low=0.0, high=high, numbers=4), rows, marks))
-    return Sheet(
-        panels,
-        len(panels),
-        height=_HEIGHT + _ROW * len(names) * max(len(results), 1.5),
-        legend_columns=len(results),
-        legend_title="\n".join(filter(None, [title, PER_CENT])),
-        gap=0.04,
-        layout={"sharey": True},
-    )
-
-
-def _changes(rows: Array, bars: Array, changes: Array, inside: float) -> Iterator[Note]:
-    """Yield at each bar what the effects left out change; in a bar longer than `inside`, in it."""
-    for y, bar, change in zip(rows.tolist(), bars.tolist(), changes.tolist(), strict=True):
-        if math.isnan(bar):
-            yield Note(0.0, y, "not converged", INK, (3.0, 0.0), boxed=True)
-        elif math.isfinite(change):
-            text = f"{100.0 * change:+.0f} %"
-            if bar > inside:
-                yield Note(bar, y, text, "white", (-3.0, 0.0), "right")
-            else:  # a short bar may end just before the dotted line, which then passes behind
-                yield Note(bar, y, text, INK, (3.0, 0.0), boxed=True)
