@@ -361,7 +361,7 @@ def conditions(_: Shipped) -> Figure:
     """Draw what each effect of the conditions is worth in the chain."""
     selections = ["all", "no temperature", "no softening", "no heat", "none"]
     case = read_case(CONDITIONS)
-    data = gs.vary(case, effects=selections, model="chain", static=False).data
+    data = gs.vary(case, effects=selections, model="chain").data
     ticks = {float(i): name for i, name in enumerate(selections)}
     rows = PlotAxis("", low=len(ticks) - 0.5, high=-0.5, ticks=ticks, grid=False)
     at = np.array([*ticks])

@@ -64,7 +64,7 @@ def test_effects_in_chain_and_direct_contact(case: Path) -> None:
     models = results.chain, DirectContact(tolerance=None, conditions=results.conditions)
     for model in models:
         selections = ["all", "no temperature", "no softening", "no heat", "none"]
-        found = Study(results, {"effects": selections}, static=False, model=model).run()
+        found = Study(results, {"effects": selections}, model=model).run()
         assert (found.prediction_status == "converged").all()
         # each of the three softens this rubber: it touches more than without it
         area = found.total_contact_fraction
