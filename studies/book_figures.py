@@ -115,6 +115,11 @@ def block(shipped: Shipped) -> Figure:
     return blocks_figure(waves_to_dataset(results))
 
 
+def blocks(shipped: Shipped) -> Figure:
+    """Draw the deformed block of every wave of the chain."""
+    return blocks_figure(shipped.chain)
+
+
 def wave(shipped: Shipped) -> Figure:
     """Draw the pressure of one wave at rest and sliding, and its friction over the speed."""
     looks = {0.0: (GREY, "at rest"), 10.0: (ORANGE, "sliding, 10 m/s")}
@@ -441,6 +446,7 @@ def errors(shipped: Shipped) -> Figure:
 
 PICTURES = (
     block,
+    blocks,
     wave,
     stack,
     road,

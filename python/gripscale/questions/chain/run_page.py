@@ -29,7 +29,6 @@ from gripscale.questions.answer.answer import ANSWER_FILE
 from gripscale.questions.answer.findings import case_notices, no_answer_notices
 from gripscale.questions.answer.reliance import has_answer, is_measured
 from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
-from gripscale.questions.chain.charts_of_blocks import blocks_image
 from gripscale.questions.chain.findings import exponent_sentence, prediction_sentence, wave_notices
 from gripscale.questions.chain.page import wave_tables
 from gripscale.questions.chain.run import DYNAMIC, STATIC
@@ -227,10 +226,6 @@ def _sections_of_results(run: RunSource) -> Iterator[Section]:
     yield Section("measured", "Measured friction", measured)
     cut_off = [] if run.cut_off is None else CutOff(run.cut_off).elements()
     yield Section("cut-off", "Against the cut-off", cut_off)
-    names = ("surface_x", "surface_pressure", "mesh_x")
-    meshed = [view for view in run.predictions if all(view.has(name) for name in names)]
-    no_mesh = Text("The result holds no deformed meshes.")
-    yield Section("blocks", "Deformed blocks", [*map(blocks_image, meshed)] or [no_mesh])
     # the comparison of just this case; another's is named and left out
     same = run.compared.of(run.attrs.get("case"))
     lines: list[Element] = []
