@@ -158,7 +158,7 @@ def test_pictures_and_figures_have_texts(page: Page) -> None:
     assert len(pictures) == 9  # equations
     assert all(attrs.get("alt") for attrs in pictures)
     plots = [attrs for _, attrs in page.tags if attrs.get("class") == "plot"]
-    assert len(plots) >= 18
+    assert len(plots) >= 12
     assert all(attrs.get("aria-label") and attrs.get("role") == "img" for attrs in plots)
 
 

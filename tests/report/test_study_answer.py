@@ -64,7 +64,7 @@ def test_lines_say_numbers_load_and_factors(solved: xr.Dataset) -> None:
     first, last = (significant(float(value)) for value in solved.answer_friction)
     assert answer.startswith(f"Answer: friction coefficient μ from {first} (")
     assert f" at 0.3 m/s to {last} (" in answer
-    assert answer.endswith(" at 3 m/s (90 % intervals).")
+    assert answer.endswith(" at 0.3 m/s (90 % intervals).")
     assert held == "  for 3 bar, roughness down to 2 mm, 2 predictions, none without a result"
     assert factors.startswith("  from direct contact of the measured surface × large strain")
     assert rests.endswith("intervals leave out errors of the master curve")

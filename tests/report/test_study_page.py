@@ -61,7 +61,7 @@ def test_page_speaks_in_words_and_has_its_inputs(page: Page) -> None:
     assert not re.findall(r"\b[a-z]+_[a-z]\w+", shown.replace("A_r", "").replace("λ_min", ""))
     assert "{" not in shown
     titles = [a["id"] for tag, a in page.tags if tag in ("section", "details") and "id" in a]
-    assert titles[:4] == ["predictions", "curves", "inputs", "surface"]
+    assert titles[:4] == ["predictions", "curves", "inputs", "method"]
     for words in ("Nominal pressure 3 bar", "Sliding speed varied", "Footprint 100 mm"):
         assert words in page.text
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,7 +27,7 @@ from gripscale.charts.chart import (
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
-from gripscale.core import Array, InputError
+from gripscale.core import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.result import RoughContact
@@ -64,7 +64,7 @@ def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
 
 
 def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:
-    """Return area, friction, pressure, modulus and the pressure along the waves.
+    """Return area, friction and the pressure along the waves.
 
     The totals of `direct`, what judges the predictions, are level lines. Waves that did not
     converge are red crosses.
@@ -76,31 +76,6 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
         for name, views in (("contact_fraction", predictions), ("friction", moving))
         if views
     ]
-    abscissa, pressure_unit = _wavelengths(predictions), predictions[0].display_unit("pressure")
-    panels.append(Panel(
-        abscissa,
-        PlotAxis(f"pressure, modulus [{pressure_unit.unit}]", log=True),
-        _pairs(
-            predictions,
-            {"mean pressure": "pressure_received", "|E*|": "modulus"},
-            lambda view, name: pressure_unit.of(view.column(name)),
-        ),
-        name="load",
-        caption="Mean pressure on each wave (filled), and modulus of the rubber at its frequency "
-        "(open).",
-        alt="Mean pressure and modulus against wavelength.",
-    ))  # fmt: skip
-    if any(view.shows("max_stretch") for view in predictions):
-        columns = {"largest": "max_stretch", "smallest": "min_stretch"}
-        panels.append(Panel(
-            abscissa,
-            PlotAxis("principal stretch [-]"),
-            _pairs(predictions, columns, PredictionView.usable),
-            name="stretch",
-            caption="Largest and smallest principal stretch in the block; where strains are small, "
-            "both are near one.",
-            alt="Largest and smallest principal stretch against wavelength.",
-        ))  # fmt: skip
     for view in predictions:
         if not view.has("surface_pressure"):
             continue
@@ -179,108 +154,12 @@ def _total_marks(view: PredictionView, name: str, colour: str, along: PlotAxis) 
             yield ShadedBand(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
 
 
-def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator[Series]:
+def _failed(views: Views, quantity: str) -> Iterator[Series]:
     for view in views:
-        x = view.number if by_number else view.column("wavelength") / MILLI
-        y = view.column(quantity)
+        x, y = view.column("wavelength") / MILLI, view.column(quantity)
         bad = ~view.converged & np.isfinite(x) & np.isfinite(y)
         if bad.any():
             yield Series(x[bad], y[bad], RED, "not converged", "", 2.3, marker="x", size=8.0)
-
-
-def _pairs(
-    views: Views, columns: dict[str, str], values: Callable[[PredictionView, str], Array]
-) -> list[Mark]:
-    """Return two labelled columns over wavelength: filled and solid, open and dotted."""
-    looks = tuple(zip(columns.items(), ("solid", "dotted"), strict=True))
-    return [
-        Series(view.column("wavelength") / MILLI, values(view, name), colour,
-               f"{view.name}, {label}", dash, marker="o", filled=dash == "solid")
-        for view, colour in zip(views, COLOURS, strict=False)
-        for (label, name), dash in looks
-    ]  # fmt: skip
-
-
-def verification_charts(predictions: Views) -> list[Chart]:
-    """Return the figures that say how far the numbers may be trusted."""
-    panels = [panel for view in predictions if view.moving for panel in _friction_panels(view)]
-    coloured = list(zip(predictions, COLOURS, strict=False))
-    if any((view.column("residual") > 0.0).any() for view in predictions):
-        residuals = [
-            Series(view.number, view.column("residual"), colour, view.name, marker="o")
-            for view, colour in coloured
-        ]
-        panels.append(Panel(
-            _wave_axis(predictions),
-            PlotAxis("residual force / applied force [-]", log=True),
-            [*residuals, *_failed(predictions, "residual", by_number=True)],
-            name="residual",
-            caption="Residual of the equations at the end of Newton's iteration.",
-            alt="Residual of each wave on a logarithmic axis.",
-        ))  # fmt: skip
-    width = 0.8 / len(predictions)
-    bars: list[Mark] = []
-    for i, (view, colour) in enumerate(coloured):
-        start, count = view.number + i * width - 0.4, view.column("newton_iterations")
-        good = view.converged
-        for rows, shade, label in ((good, colour, view.name), (~good, RED, "not converged")):
-            if rows.any():
-                ends = start[rows], start[rows] + 0.9 * width
-                bars.append(Bars(*ends, 0.0, count[rows], shade, label))
-    panels.append(Panel(
-        _wave_axis(predictions),
-        PlotAxis("Newton iterations [-]", low=0.0),
-        bars,
-        name="iterations",
-        caption="Newton iterations over all load steps; red where the wave did not converge.",
-        alt="Newton iterations of each wave.",
-    ))  # fmt: skip
-    return draw.panels_on_page(panels)
-
-
-def _wave_axis(views: Views) -> PlotAxis:
-    most = max(view.waves for view in views)
-    return PlotAxis("number of the wave [-]", ticks={float(i): str(i) for i in range(1, most + 1)})
-
-
-def _friction_panels(view: PredictionView) -> Iterator[Panel]:
-    """Yield the two frictions, their mismatch, and the error estimates that the solver gives."""
-    friction, lost = view.usable("friction"), view.usable("friction_from_dissipation")
-    yield Panel(
-        _wave_axis([view]),
-        PlotAxis("friction coefficient of the wave [-]"),
-        [
-            Series(view.number, friction, BLUE, "from the contact traction", "", marker="o",
-                   size=7.0, filled=False),
-            Series(view.number, lost, ORANGE, "from the energy lost", "", marker="+", size=7.0),
-            *_failed([view], "friction", by_number=True),
-        ],
-        name=f"two-frictions-{view.name}",
-        caption="The two measures of friction, found independently; a cross in its circle means "
-        "they agree.",
-        alt="Friction coefficient of each wave from traction and from dissipation.",
-    )  # fmt: skip
-    if not view.shows("friction_mismatch"):
-        return
-    size = np.abs(friction)
-    errors: list[tuple[str, str, str, Array | float]] = [
-        ("friction_mismatch", "mismatch of the two frictions", BLUE, 1.0),
-        ("friction_error", "estimated error of friction", ORANGE, np.where(size > 0, size, np.nan)),
-        ("contact_fraction_error", "estimated error of contact fraction", GREEN, 1.0),
-    ]
-    yield Panel(
-        _wave_axis([view]),
-        PlotAxis("error [%]", log=True),
-        [
-            Series(view.number, 100.0 * np.abs(view.usable(name)) / over, colour, label, marker="o")
-            for name, label, colour, over in errors
-            if view.has(name)
-        ],
-        name=f"errors-{view.name}",
-        caption="Errors of the discretisation: friction relative, contact fraction absolute (of "
-        "the wavelength).",
-        alt="Mismatch of the two frictions and estimated errors of each wave in per cent.",
-    )
 
 
 def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:

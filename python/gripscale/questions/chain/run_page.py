@@ -28,7 +28,7 @@ from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.answer import ANSWER_FILE
 from gripscale.questions.answer.findings import case_notices, no_answer_notices
 from gripscale.questions.answer.reliance import has_answer, is_measured
-from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
+from gripscale.questions.chain.charts import contact_charts, measured_chart
 from gripscale.questions.chain.findings import exponent_sentence, prediction_sentence, wave_notices
 from gripscale.questions.chain.page import wave_tables
 from gripscale.questions.chain.run import DYNAMIC, STATIC
@@ -240,7 +240,6 @@ def _sections_of_results(run: RunSource) -> Iterator[Section]:
         evidence = list(run_failures(run)) or [Finding(Severity.GOOD, "Every wave converged.")]
         evidence.append(Text(_EVIDENCE))
         evidence += [tables[name] for name in ("errors", "solution", "mesh") if name in tables]
-        evidence += verification_charts(run.by_wave)
     yield Section("verification", "Verification", evidence)
 
 
