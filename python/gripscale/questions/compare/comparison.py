@@ -136,7 +136,7 @@ def comparison_setups(
     rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
     axis: Axis | None = None
     if vary is not None:
-        study = Study(case, vary, static=False, model=Chain.name)
+        study = Study(case, vary, model=Chain.name)
         axis = _axis(study)
         tasks = {point.label: point.task for point in study.points}
         rubbers = study.measured_rubbers
