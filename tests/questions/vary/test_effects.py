@@ -21,7 +21,7 @@ from gripscale.questions import effect_tasks, effects, effects_figure
 from gripscale.questions.vary.page_side_by_side import effects_table
 from gripscale.rubber.softening import Kraus
 from gripscale.surface import Measured, Surface
-from gripscale.theory import HalfPlane, Persson
+from gripscale.theory import HalfPlane, KlueppelHeinrich
 from tests.samples import SHIFTED_LOAD as LOAD
 from tests.samples import SHIFTED_RUBBER as RUBBER
 from tests.samples import SHIFTED_SINES as SINES
@@ -171,7 +171,7 @@ def test_what_did_not_converge_is_said_and_has_no_changes(both: list[xr.Dataset]
             RUBBER,
             "got none with the model chain",
         ),
-        (Persson(), RUBBER, "got the model persson"),
+        (KlueppelHeinrich(1.0, 1e-3), RUBBER, "got the model klueppel_heinrich"),
         (CHAIN, gs.Rubber(5e6, [1e7], [1e-3]), "reference_temperature and shift"),
     ],
 )
