@@ -22,7 +22,7 @@ from gripscale.questions.vary.axis import axes_of
 from gripscale.questions.vary.page import shift_sentence, study_table
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
-from gripscale.theory import HalfPlane, Persson
+from gripscale.theory import HalfPlane, KlueppelHeinrich, Persson
 from tests.samples import THERMAL as HEAT
 from tests.samples import Shell
 
@@ -108,7 +108,7 @@ def test_heat_makes_them_several(case: Path, model: Any) -> None:
 
 
 def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:
-    """As a comparison does: a model that knows no conditions is given the shifted rubber."""
+    """As a comparison does: a theory without conditions gets those of the case."""
     case.write_text(f'{CASE}\n[conditions]\ntemperature = "40 C"\n')
     result = Study(read_case(case), {"speed": [0.1]}, model=Persson()).run(case.parent / "study")
     compared = gs.compare(read_case(case), models=["persson"]).to_dataset()
@@ -186,7 +186,11 @@ def test_effects_are_left_out_by_name(case: Path, tmp_path: Path) -> None:
         ({"temperature": "20, 30"}, "chain", 'temperature must have a unit, such as "20 C"'),
         ({"temperature": "20:60:lin3"}, "chain", "temperature must have a unit"),
         ({"temperature": "-300 C"}, "chain", "temperature must be greater than zero"),
-        ({"temperature": ["20 C"]}, Persson(), "such as chain and direct; got the model persson"),
+        (
+            {"temperature": ["20 C"]},
+            KlueppelHeinrich(1.0, 1e-3),
+            "such as chain and direct; got the model klueppel_heinrich",
+        ),
         ({"temperature": "20 C, -150 C"}, "chain", "temperature must lie within"),
         ({"temperature": "20 C"}, "toy", "model must be one of chain, direct; got 'toy'"),
         ({"effects": "all, no luck"}, "chain", "effects must be one of all, none; got"),

@@ -54,8 +54,8 @@ class ComparisonSetup(Described):
     continuation: ContinuedContact | None = None
     """Direct contact with roughness below the measurement, as the case says."""
     conditions: Conditions | None = None
-    """What changes the rubber. Chain and direct contact know all of it, every other model only the
-    temperature."""
+    """What changes the rubber. Chain and direct contact know all of it, Persson's theory no heat,
+    every other model only the temperature."""
 
     @property
     def of_map(self) -> bool:
@@ -270,7 +270,8 @@ def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
         spectra = [_spectrum(line) for line in part.measured.followed] if part.measured else []
         ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
         smallest = max(part.cutoff_wavelength, *ends)
-        specs.append(SampleSpec(Persson(smallest_wavelength=smallest), part, name))
+        theory = Persson(smallest_wavelength=smallest, conditions=setup.conditions)
+        specs.append(SampleSpec(theory, part, name))
     return specs
 
 

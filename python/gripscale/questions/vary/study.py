@@ -121,9 +121,9 @@ class Study:
         command line ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
     model
         What predicts: "direct", "chain" with the solver of the case, both under its conditions, or
-        a model. One that takes no conditions gets the rubber at the temperature of the case. By
-        default the direct contact where every surface was measured and no input of the chain alone
-        is varied, else the chain.
+        a model. Persson's theory without conditions gets those of the case, one that takes none
+        the rubber at its temperature. By default the direct contact where every surface was
+        measured and no input of the chain alone is varied, else the chain.
     tolerance
         Estimated relative error of a direct contact that is chosen by name or by default.
     """
