@@ -9,6 +9,8 @@ long it heats. One minute.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 import gripscale as gs
@@ -77,7 +79,12 @@ def main() -> None:
     """Print the rises for both depths, and those of the contact as the package solves it."""
     rubber = compound("S100")
     softening = softening_of_sweeps(list(sweeps("S100").values()), measured_at=1e-3)
-    options = {"pressure": PRESSURE, "speed": SPEED, "periodic": True, "tolerance": None}
+    options: dict[str, Any] = {
+        "pressure": PRESSURE,
+        "speed": SPEED,
+        "periodic": True,
+        "tolerance": None,
+    }
     line = random_line(1)
     cold = gs.solve_rough_contact(
         rubber, line, conditions=Conditions(softening=softening), **options
@@ -100,9 +107,9 @@ def main() -> None:
     both = Conditions(softening=softening, heat=HEAT)
     hot = gs.solve_rough_contact(rubber, line, conditions=both, footprint=FOOTPRINT, **options)
     for length in (3e-3, FOOTPRINT):
-        octaves, rises = temperature(hot, both, length / SPEED)
+        octaves, field = temperature(hot, both, length / SPEED)
         logs = np.log([heat.wavenumber for heat in octaves])
-        solved = np.interp(np.log(at), logs, rises.octave)
+        solved = np.interp(np.log(at), logs, field.octave)
         print(
             f"solved with heat, friction {hot.friction_from_dissipation:.3f}, over "
             f"{1e3 * length:g} mm: {', '.join(f'{t:.2f}' for t in solved)}"

@@ -238,11 +238,12 @@ class Case(Described):
         """Whether the rubber is filled; None: not known."""
         self.stated_conditions = conditions
         """Conditions as they were stated, without what a case has by default."""
-        interface = interface if interface is None else checks.one_of("interface", interface, DRY)
+        if interface is not None:
+            checks.one_of("interface", interface, DRY)
         self.interface = interface
         """"dry", or None: friction of the hysteresis alone."""
         conditions = with_defaults(
-            conditions, rubber.rubber, filled=filled, interface=interface, kind=self.kind
+            conditions, rubber.rubber, filled=filled, interface=interface, kind=kind
         )
         self.conditions = conditions
         """What changes the rubber or the contact, with all defaults; None where nothing does."""

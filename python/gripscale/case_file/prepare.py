@@ -47,7 +47,6 @@ from gripscale.rubber import (
 )
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
-from gripscale.rubber.softening import SofteningLaw
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
@@ -328,6 +327,9 @@ def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
     return read_shift_table(resolve(shift)) if isinstance(shift, str) else shift
 
 
+_EFFECTS = {field.name for field in fields(Conditions)} & ConditionsTable.model_fields.keys()
+
+
 @about_keys("conditions")
 def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Conditions | None:
     """Return the conditions of a case, or None where it asks for no effect.
@@ -338,17 +340,18 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
     """
     if table == ConditionsTable():
         return None
-    softening: SofteningLaw | StrainSweeps | None = table.softening
-    if isinstance(softening, StrainSweeps):
-        softening = softening.softening(resolve)
-    effects = {name: getattr(table, name) for name in ("temperature", "shear_stress", "water")}
-    norm = table.strain_norm or "slope"
-    return Conditions(softening=softening, strain_norm=norm, heat=table.heat, **effects)
+    effects: dict[str, Any] = {
+        name: getattr(table, name) for name in _EFFECTS if getattr(table, name) is not None
+    }
+    if isinstance(table.softening, StrainSweeps):
+        effects["softening"] = table.softening.softening(resolve)
+    return Conditions(**effects)
 
 
-def _filled(source: RubberSource) -> bool | None:
-    """Return whether a rubber is filled: those known by name are not."""
-    return False if source.filled is None and source.name is not None else source.filled
+def _filled(source: RubberSource, softening: object) -> bool | None:
+    """Return whether a rubber is filled: those known by name are not, unless they are to soften."""
+    stated_or_measured = source.filled is not None or source.name is None or softening is not None
+    return source.filled if stated_or_measured else False
 
 
 @about_keys("below_measurement")
@@ -437,7 +440,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 static=load.static,
                 chain=chain,
                 conditions=prepare_conditions(file.case.conditions, file.resolve),
-                filled=_filled(file.case.rubber),
+                filled=_filled(file.case.rubber, file.case.conditions.softening),
                 interface=file.case.conditions.interface,
                 below_measurement=_below_measurement(file),
                 klueppel_heinrich=klueppel_heinrich,

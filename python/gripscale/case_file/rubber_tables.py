@@ -38,6 +38,7 @@ from gripscale.rubber.shift import SHIFTS, Shift, ShiftTable
 from gripscale.rubber.softening import Kraus, SofteningTable, softening_of_sweeps
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
 from gripscale.rubber.strain_sweeps import read_strain_sweeps
+from gripscale.rubber.typical_tread import TypicalTread
 
 NAMED_RUBBERS = ("styrene_butadiene",)
 
@@ -120,7 +121,7 @@ class RubberSource(LayoutKeys):
     """Bulk modulus, which a DMA measurement does not give."""
     filled: bool | None = None
     """Whether the rubber is filled (carbon black, silica), as of every tread; without a word the
-    answer has both numbers. Filled rubber without softening of its own softens as a typical tread."""
+    answer has both numbers. Filled rubber with no softening of its own is a typical tread."""
     thickness: Length | None = None
     """Thickness of the rubber on a rigid base; without it the rubber has no end."""
     extrapolate: Annotated[Literal["warn", "refuse"], BeforeValidator(_warn_or_refuse)] = "warn"
@@ -171,7 +172,14 @@ class StrainSweeps(LayoutKeys):
 
 
 # How a case states softening: a law with its numbers, or where one was measured.
-SOFTENING: dict[str, type] = {"kraus": Kraus, "table": StrainSweeps}
+SOFTENING: dict[str, type] = {
+    "kraus": Kraus,
+    "table": StrainSweeps,
+    TypicalTread.kind: TypicalTread,
+}
+
+
+_Softening = InstanceOf[Kraus] | StrainSweeps | InstanceOf[TypicalTread]
 
 
 def _film(value: Any) -> Any:
@@ -189,10 +197,7 @@ class ConditionsTable(CaseTable):
 
     temperature: Temperature | None = None
     """Temperature of the rubber before the contact; that of the master curve by default."""
-    softening: (
-        Annotated[InstanceOf[Kraus] | StrainSweeps | Literal["none"], by_kind(SOFTENING, off=OFF)]
-        | None
-    ) = None
+    softening: Annotated[_Softening | Literal["none"], by_kind(SOFTENING, off=OFF)] | None = None
     """Softening by strain; that of a typical tread for filled rubber by default, or "none"."""
     strain_norm: Literal["slope", "stretch"] | None = None
     """Half the rms slope in the contact (the default), or the largest stretch less one."""
@@ -204,6 +209,11 @@ class ConditionsTable(CaseTable):
     ) = None
     """The rubber warms by its own friction, with typical constants by default where it has a
     temperature shift, or "none"."""
+    counterface: Annotated[InstanceOf[ThermalProperties], stated_law(ThermalProperties)] | None = (
+        None
+    )
+    """What takes up heat through the contact; stone by default, of a floor concrete and of a
+    counterface steel."""
     interface: Interface | None = None
     """A dry interface: the real contact area is sheared at the stress of typical treads, unless
     shear_stress states another. Without it the friction is that of the hysteresis alone."""

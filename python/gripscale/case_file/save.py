@@ -265,8 +265,11 @@ def _solver_keys(chain: Chain) -> dict[str, Any]:
 def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str, Any]:
     if conditions is None:
         return {}
-    effects = {name: getattr(conditions, name) for name in ("softening", "heat", "shear_stress")}
-    keys = {name: None if law is None else law_keys(law) for name, law in effects.items()}
+    names = ("softening", "heat", "counterface", "shear_stress")
+    effects = {name: getattr(conditions, name) for name in names}
+    keys: dict[str, Any] = {
+        name: None if law is None else law_keys(law) for name, law in effects.items()
+    }
     law, kelvin = conditions.softening, conditions.temperature
     if isinstance(law, SofteningTable):  # shear moduli are read as thirds of Young's
         letter, divisor = ("G", 3.0) if law.deformation == "shear" else ("E", 1.0)
@@ -290,6 +293,7 @@ def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str
         "softening": keys["softening"],
         "strain_norm": None if law is None else conditions.strain_norm,
         "heat": keys["heat"],
+        "counterface": keys["counterface"],
         "shear_stress": keys["shear_stress"],
         "water": conditions.to_dict()["water"],
     }

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from gripscale.conditions.conditions import Conditions
 from gripscale.conditions.flash_temperature import THERMAL_SCATTER, ThermalProperties
-from gripscale.rubber.softening import DEFORMATIONS, Kraus, SofteningTable
+from gripscale.rubber.softening import Kraus, SofteningTable
 from gripscale.rubber.typical_tread import SOFTER_TREAD, TypicalTread
 
 MEASURED_LAWS = (Kraus, SofteningTable, TypicalTread)  # in tension or in shear
@@ -37,7 +37,7 @@ def alternatives(conditions: Conditions) -> Iterator[Alternative]:
         softer = replace(softening, deviation=softening.deviation + SOFTER_TREAD.deviation)
         yield Alternative("scatter between treads", replace(conditions, softening=softer))
     if isinstance(softening, MEASURED_LAWS) and softening.deformation is None:
-        tension = replace(softening, deformation=DEFORMATIONS[0])
+        tension = replace(softening, deformation="tension")
         # either end is as likely, and the change is from the middle to one of them
         yield Alternative("sweeps in tension or in shear", replace(conditions, softening=tension))
     if heat == ThermalProperties():

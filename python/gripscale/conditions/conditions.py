@@ -12,7 +12,7 @@ where they are known the logarithms of the factors are linear in log |q|.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Any, Literal
@@ -40,8 +40,9 @@ _HARMONICS = np.geomspace(1.0, 16.0, 12)
 ROWS_AT_ONCE = 50_000
 
 
-# In place of an effect: switched off on purpose, also where a case has it by default.
+# In place of an effect that a case has by default: switched off on purpose.
 OFF = "none"
+DEFAULTED = ("softening", "heat")
 
 
 def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
@@ -114,7 +115,7 @@ class Conditions(Checked):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for effect in ("softening", "heat"):
+        for effect in DEFAULTED:
             if getattr(self, effect) == OFF:
                 self._set(**{effect: None}, off=(*self.off, effect))
         if self.water is not None and self.iterated:
@@ -147,7 +148,7 @@ class Conditions(Checked):
     def from_dict(cls, values: Mapping[str, Any]) -> Conditions:
         """Return the conditions of `to_dict`; raise `InputError` if a value cannot be used."""
         effects = dict(values)
-        laws = {
+        laws: dict[str, Callable[[Mapping[str, Any]], Any]] = {
             "softening": softening_from_dict,
             "heat": partial(checks.from_mapping, ThermalProperties, "heat"),
             "counterface": partial(checks.from_mapping, ThermalProperties, "counterface"),
@@ -171,6 +172,12 @@ class Conditions(Checked):
         kelvin = self.temperature if temperature is None else temperature
         stress = float(self.shear_stress.stress(speed, kelvin))
         return adhesive_friction(stress, contact_fraction, pressure)
+
+    def without(self, *effects: str) -> Conditions:
+        """Return the same with effects switched off on purpose."""
+        nothing: dict[str, Any] = dict.fromkeys(effects)
+        off = [name for name in effects if name in DEFAULTED]
+        return replace(self, **nothing, off=tuple(dict.fromkeys([*self.off, *off])))
 
     @property
     def dry(self) -> Conditions:

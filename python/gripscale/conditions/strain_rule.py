@@ -1,2 +1,4 @@
+"""Strain of a scale."""
+
 SLOPE_FACTOR = 0.35
 AREA_SCATTER, FRICTION_SCATTER = 0.08, 0.08

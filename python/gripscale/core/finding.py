@@ -79,7 +79,6 @@ class Finding:
         changes = (abs(change) for change in (self.friction, self.area) if not math.isnan(change))
         return max(changes, default=0.0)
 
-
     def exceeds(self, widths: Mapping[str, float]) -> bool:
         """Whether it may change `friction` or `area` by more than its relative half width [-].
 

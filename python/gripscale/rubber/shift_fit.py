@@ -212,9 +212,9 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
 
     Titles that say temperature and log a (log10 a_T, log_aT, log aT) or a (a_T) name the columns;
     b, log b and errors are read where they are, and a reference temperature from a comment.
-    `temperature_unit` is K, C or F, if the header does not state it. Raises `FileError` if the file cannot be read or
-    has no such columns, `InputError` if the unit of the temperatures is neither stated nor given,
-    or the numbers are no table.
+    `temperature_unit` is K, C or F, if the header does not state it. Raises `FileError` if the file
+    cannot be read or has no such columns, `InputError` if the unit of the temperatures is neither
+    stated nor given, or the numbers are no table.
     """
     file = file_path(path)
     table = read_table(

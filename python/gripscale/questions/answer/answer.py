@@ -23,6 +23,7 @@ from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
 from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
+from gripscale.questions.answer.filler import with_filled
 from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
 from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import (
@@ -31,7 +32,6 @@ from gripscale.questions.answer.reliance import (
     is_measured,
     no_answer,
 )
-from gripscale.questions.answer.filler import with_filled
 from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.record import InputRecord

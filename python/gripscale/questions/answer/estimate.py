@@ -195,9 +195,7 @@ def with_large_strain(
             return answer
         changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
         factor[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
-    large = answer_of_samples(
-        samples, supplied, solved_finite_strain=factor, conditions=conditions
-    )
+    large = answer_of_samples(samples, supplied, solved_finite_strain=factor, conditions=conditions)
     names = {name: name.replace(LARGE_STRAIN, "answer_") for name in LARGE_STRAIN_NUMBERS}
     numbers = {name: large[answered] for name, answered in names.items() if answered in large}
     for name, number in numbers.items():

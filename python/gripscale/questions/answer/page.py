@@ -40,8 +40,8 @@ from gripscale.surface.direction import ERROR_OF_RIDGES
 from gripscale.testers import TESTER, tester_reading
 
 HYSTERESIS_ALONE = (
-    "Hysteresis alone is a lower bound: far below the friction of a dry road (interface = \"dry\" in "
-    "[conditions] adds it), nearer to that of a lubricated one."
+    "Hysteresis alone is a lower bound: far below the friction of a dry road, which interface = "
+    '"dry" in [conditions] adds, and nearer to that of a lubricated one.'
 )
 _SHORT = {"friction": "μ", "contact_fraction": "area"}
 _WORDS = {"friction": "friction", "contact_fraction": "area"}
@@ -90,7 +90,7 @@ def _by_filler(data: xr.Dataset, both: Sequence[tuple[str, Mapping[str, AnswerNu
         start = friction if reliance.is_moving(data) else ""
         texts.append(f"{kinds[filler]}: {start}{', '.join(words)}")
     return (
-        f"one question decides, whether the rubber is filled (carbon black, silica), as every tread "
+        "one question decides, whether the rubber is filled (carbon black, silica), as every tread "
         f"is. {'; '.join(texts)} ({100.0 * LEVEL:.0f} % intervals). State filled in [rubber]."
     )
 
@@ -168,7 +168,9 @@ def _corrections(data: xr.Dataset) -> str:
         if not all(map(math.isfinite, values.values())):
             continue
         text = ", ".join(f"{word} {signed_percent(value - 1.0)}" for word, value in values.items())
-        if not np.allclose(list(values.values()), 1.0):  # some change nothing and widen the interval
+        if not np.allclose(
+            list(values.values()), 1.0
+        ):  # some change nothing and widen the interval
             steps.append(f"{label}: {text}")
     where = "your profiles" if LINES_TO_SURFACE in labels else "the measured surface"
     corrected = f", then corrected: {'; '.join(steps)}" if steps else ""

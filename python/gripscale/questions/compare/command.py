@@ -97,7 +97,9 @@ def compare_command(
     text = f"{Path(result.file).stem}.txt"
     terminal.end_steps()
     console.print()
-    terminal.print_parts(console, [*result.lines, *warning_lines(result.findings, text, result.half_widths)])
+    terminal.print_parts(
+        console, [*result.lines, *warning_lines(result.findings, text, result.half_widths)]
+    )
     parts = list(result.parts())
     residuals: xr.Dataset | None = None
     if axes is None:

@@ -29,7 +29,7 @@ from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import Load, Model, input_doubts
+from gripscale.model import Doubtful, Load, Model, input_doubts
 from gripscale.questions.answer.direct_contact import continued_curve, direct_contact_design
 from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.answer.samples import sample_numbers, usable
@@ -357,7 +357,7 @@ def solve_samples(
         samples = reference.dataset(answers)
         of_case.append(measured_answer(samples, case, load, curve, drawn, direct))
     answer = xr.concat(of_case, plan.axes[0].name) if plan.axes else of_case[0]
-    inputs = [case.surface, case.measured_rubber]
+    inputs: list[Doubtful] = [case.surface, case.measured_rubber]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
         case.attributes | input_doubts(inputs, loads, case.units, case.softening_doubts),
         **{_FILES: json.dumps(case.origin.digests)},
