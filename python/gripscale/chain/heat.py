@@ -11,8 +11,8 @@ loss. So the temperature rise on wave i is
 each from `gripscale.conditions.flash_temperature`: for l < i averaged over the contact, weighted by
 its pressure; for l = i averaged over the loss of wave i. An area term, less what a counterface
 takes up of all heat, counts as a further wave below the last, at the surface: it is distributed as
-the pressure on each wave. The strain of a wave, for the softening, is half the rms slope in its
-contact.
+the pressure on each wave. The strain of a wave, for the softening, is that of
+`gripscale.conditions.strain_rule`.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ import numpy as np
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, StrainNorm
+from gripscale.conditions.strain_rule import SLOPE_FACTOR
 from gripscale.core import Array, ComplexArray, InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.result import ScaleResult
@@ -193,7 +194,7 @@ def strains(waves: Sequence[ScaleResult], norm: StrainNorm) -> list[float]:
     Raises `InputError` for the norm "stretch" if the solver has no stretches.
     """
     if norm == "slope":
-        squares = np.cumsum([(0.5 * contact_slope(wave)) ** 2 for wave in waves])
+        squares = np.cumsum([(SLOPE_FACTOR * contact_slope(wave)) ** 2 for wave in waves])
         return [float(e) for e in np.sqrt(squares)]
     out = [max(wave.max_stretch - 1.0, 1.0 - wave.min_stretch) for wave in waves]
     for wave, strain in zip(waves, out, strict=True):

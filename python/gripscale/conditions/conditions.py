@@ -91,8 +91,8 @@ class Conditions(Checked):
     )
     """How E' and E'' fall with the strain."""
     strain_norm: StrainNorm = checked(checks.one_of, choices=STRAIN_NORMS, default="slope")
-    """The strain of a wave. "slope": half the rms slope in its contact, including the slopes of the
-    larger waves (the convention of B. N. J. Persson's theory, and that of the direct contact).
+    """The strain of a wave of a chain. "slope": 0.4 times the rms slope in its contact, including
+    the slopes of the larger waves (see docs/strain-rule.md, where the direct contact's is, too).
     "stretch": the largest principal stretch minus one in the block of this wave."""
     heat: ThermalProperties | None = checked(
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None

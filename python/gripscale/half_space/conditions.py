@@ -4,8 +4,7 @@ An evaluation of the fixed point (`gripscale.conditions.fixed_point`) solves the
 the rubber that a state of temperatures and strains, one of each an octave of wavelengths, makes of
 it. Each contact starts from the last one.
 
-The strain of a scale is half the rms slope in the contact of the surface with the waves up to that
-scale: the convention of B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626.
+The strain of a scale is that of `gripscale.conditions.strain_rule` in the contact.
 
 The harmonics of an octave lose mu_b p_0 v per nominal area, and the pattern of
 `gripscale.conditions.flash_temperature` distributes this heat along the surface. Summed over
@@ -27,8 +26,15 @@ import scipy
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
-from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
+from gripscale.conditions.fixed_point import (
+    STATE_TOLERANCE,
+    Iteration,
+    pack_state,
+    solve_fixed_point,
+    unpack_state,
+)
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
+from gripscale.conditions.strain_rule import DEPTH_FACTOR
 from gripscale.core import Array, ComplexArray, Mask, Status
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
@@ -38,14 +44,26 @@ from gripscale.rubber import Rubber
 _ROUND_OFF = 1e-12  # share of the friction below which the heat of an octave is neglected
 
 
-def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) -> Array:
-    """Return the uniaxial strain amplitude [-] down to each wavenumber [rad/m], same shape."""
-    spectrum = scipy.fft.rfftn(height) * np.where(grid.own_opposite, 0.0, 1j * grid.along)
+def strain_by_scale(grid: Grid, displacement: Array, active: Mask, wavenumber: Array) -> Array:
+    """Return the uniaxial strain amplitude [-] on the scale of each wavenumber [rad/m], same shape.
+
+    `displacement` of the surface [m] may have any mean; both fields have the shape of the grid.
+    """
+    number = np.where(grid.wavenumber > 0.0, grid.wavenumber, 1.0)
+    spectrum = scipy.fft.rfftn(displacement) * grid.wavenumber
+    n = grid.directions
+    # components of the strain over that into the rubber, and how often each counts in e:e
+    parts = [(np.ones(1), 1.0), *((1j * along, 2.0) for along in n)]
+    parts += [(n[i] * n[j], 1.0) for i in range(len(n)) for j in range(len(n))]
     out = []
-    for largest in wavenumber:
-        slope = scipy.fft.irfftn(np.where(grid.wavenumber <= largest, spectrum, 0.0), s=grid.shape)
-        out.append(0.35 * float(np.sqrt(np.mean(slope[active] ** 2))))
-    return np.maximum.accumulate(np.array(out))
+    for scale in wavenumber:
+        depth = number / scale
+        wave = spectrum * depth * np.exp(-depth)
+        square = np.zeros(np.count_nonzero(active))
+        for component, times in parts:
+            square += times * scipy.fft.irfftn(component * wave, s=grid.shape)[active] ** 2
+        out.append(DEPTH_FACTOR * float(np.sqrt(2.0 / 3.0 * square).mean()))
+    return np.array(out)
 
 
 @dataclass(frozen=True)
@@ -246,17 +264,27 @@ class GridSequenceResult:
 
 
 _Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
+# Tolerance of the fixed point over that of the contact, and the largest: the interval of an answer
+# is ten times wider.
+_OF_GOAL, _LOOSEST = 0.1, 5e-3
 
 
 def solve_coupled_contact(
-    solve: _Solve, quick: _Solve, rubber: Rubber, conditions: Conditions, time: float
+    solve: _Solve,
+    quick: _Solve,
+    rubber: Rubber,
+    conditions: Conditions,
+    time: float,
+    goal: float = 0.0,
 ) -> RoughContact:
     """Return the contact whose strains and temperatures are those of its rubber.
 
-    `quick` solves the contact like `solve` in less time; `time` is that of the nominal contact [s].
+    `quick` solves the contact like `solve` in less time; `time` is that of the nominal contact [s],
+    `goal` the tolerance of the contact [-].
     """
     fine = _ContactEvaluation(solve, rubber, conditions, time)
-    fixed_point = solve_fixed_point(fine, replace(fine, solve=quick))
+    tolerance = max(STATE_TOLERANCE, min(_OF_GOAL * goal, _LOOSEST))
+    fixed_point = solve_fixed_point(fine, replace(fine, solve=quick), tolerance)
     contact, x = fixed_point.last.solution.contact, fixed_point.last.x
     out = replace(
         contact,
@@ -297,7 +325,8 @@ class _ContactEvaluation:
             warming = np.interp(np.log(number), np.log(at), rises.octave)
             surface = rises.surface
         if self.conditions.softening is not None:
-            strain = strain_by_scale(contact.grid, contact.height, contact.active, number)
+            moved = contact.height + contact.gap
+            strain = strain_by_scale(contact.grid, moved, contact.active, number)
         friction = [contact.friction_from_dissipation] if contact.speed > 0.0 else []
         return Iteration(
             replace(solved, contact=replace(contact, surface_warming=surface)),
