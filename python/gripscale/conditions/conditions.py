@@ -83,10 +83,6 @@ class Conditions(Checked):
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
     """With it the rubber warms by its friction."""
-    counterface: ThermalProperties | None = checked(
-        _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
-    )
-    """What takes up heat through the contact, with heat; None: it is insulating."""
     shear_stress: InterfacialShearStress | None = checked(
         _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
     )
@@ -94,6 +90,10 @@ class Conditions(Checked):
     water: float | None = checked(lambda _, value: water_film(value) or None, default=None)
     """Water that contact can trap, on a map: "flooded" or True, or the thickness of a film [m].
     Only the direct contact has it, and not together with softening or heat."""
+    counterface: ThermalProperties | None = checked(
+        _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
+    )
+    """What takes up heat through the contact, with heat; None: it is insulating."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
