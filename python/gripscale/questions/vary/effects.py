@@ -2,7 +2,7 @@
 
     change by an effect = answer with all effects / answer without it - 1
 
-The area term does nothing to the rubber: it needs no answer of its own, and stands beside each.
+The area term, which changes the rubber by its heat only, has no answer of its own.
 """
 
 from __future__ import annotations
