@@ -12,7 +12,7 @@ where they are known the logarithms of the factors are linear in log |q|.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Any, Literal
@@ -126,7 +126,7 @@ class Conditions(Checked):
     def from_dict(cls, values: Mapping[str, Any]) -> Conditions:
         """Return the conditions of `to_dict`; raise `InputError` if a value cannot be used."""
         effects = dict(values)
-        laws = {
+        laws: dict[str, Callable[[Any], Any]] = {
             "softening": softening_from_dict,
             "heat": partial(checks.from_mapping, ThermalProperties, "heat"),
             "counterface": partial(checks.from_mapping, ThermalProperties, "counterface"),
