@@ -211,11 +211,6 @@ WRONG = [
     ('critical_strain = "2 %"', 'critical_strain = "2 mm"', "softening: critical_strain = '2 mm'"),
     ('c2 = "120 K"', 'c2 = "120 kg"', "[rubber] shift: c2 = '120 kg': unknown unit"),
     # half
-    (
-        'density = "1.15 g/cm^3"\n',
-        "",
-        "[conditions] heat: density is missing; expected a density such as",
-    ),
     ('measured_at = "0.1 %"\n', "", "[conditions] softening: measured_at is missing"),
     ("width = 0.1\n", "", "[conditions] shear_stress: width is missing"),
     (

@@ -197,7 +197,7 @@ def test_one_flux_into_the_road_against_equal_temperatures_everywhere():
     def responses(solid, speed):
         m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, solid)
         m[0] = 1.0
-        out = rise.passing_at_surface(m, time, surface, solid)
+        out = rise.PassingHarmonics(m, time, solid).at_surface(surface)
         out[0] = rise.uniform_at_surface(time, surface, solid)
         return out
 

@@ -127,7 +127,7 @@ def warming_with_interface(
         in_road = speed * waves[0].pressure * rise.uniform_at_surface(time, _SURFACE, road)
         for wave in waves:
             m = rise.harmonic_decay(wave.wavenumbers, 0.0, 0.0, road)
-            harmonics = wave.contact * rise.passing_at_surface(m, time, _SURFACE, road)
+            harmonics = wave.contact * rise.PassingHarmonics(m, time, road).at_surface(_SURFACE)
             in_road += speed * wave.pressure * _mean(harmonics, wave.contact)
     divided = rise.Partition(cold[-1].contact, by_unit, in_road)
     friction = 0.0

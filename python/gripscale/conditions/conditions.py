@@ -98,10 +98,6 @@ class Conditions(Checked):
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
     """With it the rubber warms by its friction."""
-    counterface: ThermalProperties | None = checked(
-        _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
-    )
-    """What takes up heat through the contact, with heat; None: it is insulating."""
     shear_stress: InterfacialShearStress | None = checked(
         _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
     )
@@ -109,6 +105,10 @@ class Conditions(Checked):
     water: float | None = checked(lambda _, value: water_film(value) or None, default=None)
     """Water that contact can trap, on a map: "flooded" or True, or the thickness of a film [m].
     Only the direct contact has it, and not together with softening or heat."""
+    counterface: ThermalProperties | None = checked(
+        _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
+    )
+    """What takes up heat through the contact, with heat; None: it is insulating."""
     off: tuple[str, ...] = checked(lambda _, value: tuple(value), default=())
     """Effects that are switched off on purpose, by the word "none" in their place: a case has none
     of them by default either."""
@@ -148,7 +148,7 @@ class Conditions(Checked):
     def from_dict(cls, values: Mapping[str, Any]) -> Conditions:
         """Return the conditions of `to_dict`; raise `InputError` if a value cannot be used."""
         effects = dict(values)
-        laws: dict[str, Callable[[Mapping[str, Any]], Any]] = {
+        laws: dict[str, Callable[[Any], Any]] = {
             "softening": softening_from_dict,
             "heat": partial(checks.from_mapping, ThermalProperties, "heat"),
             "counterface": partial(checks.from_mapping, ThermalProperties, "counterface"),

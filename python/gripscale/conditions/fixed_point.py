@@ -33,7 +33,7 @@ S = TypeVar("S")
 
 HISTORY = 3  # evaluations before the last one that Anderson's acceleration uses
 LONGEST_STEP = 2.0  # largest change of one component from one x to the next
-MOST_PASSES = 8  # most evaluations, on the fine mesh and in each fixed point of the coarse one
+MOST_PASSES = 10  # most evaluations, on the fine mesh and in each fixed point of the coarse one
 # Relative change still expected of contact fraction and friction at the end: a third of the 1e-3
 # that the documentation promises.
 RESULT_TOLERANCE = 3e-4

@@ -23,7 +23,8 @@ state by conduction alone. Switched on at t = 0 it gives
     r(z)    = (exp(-m z) erfc(z/l - m l/2) - exp(m z) erfc(z/l + m l/2)) / (2 m)
 
 which is the steady exp(-m z)/m for l to infinity and the uniform l ierfc(z/l) for m to zero: the
-integral over time of the plane source exp(-z^2/(4 D t) - D m^2 t)/sqrt(pi t) with complex decay.
+integral over time of the plane source sqrt(D/(pi s)) exp(-z^2/(4 D s) - D m^2 s) with complex
+decay. Its means over depths are integrated over time: the waves are then the same for all depths.
 
 Depths of the loss: a pressure p cos(k x) that moves along a half-plane shears it with an amplitude
 p k z exp(-k z), the same everywhere along x (K. L. Johnson, Contact Mechanics (1985), sec. 13.2,
@@ -74,12 +75,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Literal, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core import Array, Checked, ComplexArray, InputError, checked, checks
+from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks
 
 
 class ThermalProperties(Checked):
@@ -158,6 +160,7 @@ DEEPEST = 60.0  # depth in units of 1/b beyond which the loss is neglected: exp(
 WIDEST = 6.5  # argument beyond which ierfc is below 1e-20
 STEADY = 2.5  # Re(m) l/2 from which a harmonic is steady: erfc of it is 4e-4
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
+_TIMES, _TIME_WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 
 def _loss_shape(name: str, value: Any) -> int:
@@ -189,14 +192,15 @@ class LossDepth(Checked):
 
     def decay(self, m: ComplexArray) -> ComplexArray:
         """Return E exp(-m Z) for `m` [1/m], same shape."""
-        return np.asarray((1.0 / (1.0 + np.asarray(m) / self.rate)) ** self.shape)
+        near = 1.0 / (1.0 + np.asarray(m) / self.rate)
+        return np.asarray(near if self.shape == 1 else near * near * near)
 
     def decay_between(self, m: ComplexArray) -> ComplexArray:
         """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
         near = 1.0 / (1.0 + np.asarray(m) / self.rate)
         if self.shape == 1:
             return np.asarray(near)
-        return np.asarray((3.0 * near + 3.0 * near**2 + 2.0 * near**3) / 8.0)
+        return np.asarray(near * (3.0 + near * (3.0 + 2.0 * near)) / 8.0)
 
     def spread(self, length: float, of: Distances = "depth") -> float:
         """Return E ierfc(distance / length)."""
@@ -297,58 +301,67 @@ def _diffusion_length(time: float, thermal: ThermalProperties) -> float:
     return 2.0 * math.sqrt(thermal.diffusivity * checks.not_negative("time", time, unit="s"))
 
 
-def passing_at_surface(
-    m: ComplexArray, time: float, depth: LossDepth, thermal: ThermalProperties
-) -> ComplexArray:
-    """Return the surface temperature after a `time` [s] of harmonics per heat per area.
+@dataclass(frozen=True)
+class PassingHarmonics:
+    """Harmonics of heat that begin with a contact, after some time of it."""
 
-    In [K m^2/W], shape of `m`, which has no zero.
-    """
-    return _passing(m, time, depth, thermal, harmonic_at_surface(m, depth, thermal), "depth")
+    m: ComplexArray  # decay of the harmonics [1/m], no zero
+    time: float  # of the contact [s]
+    thermal: ThermalProperties
 
+    def at_surface(self, depth: LossDepth) -> ComplexArray:
+        """Return the surface temperature per heat per area [K m^2/W], shape of `m`."""
+        from scipy.special import erf
 
-def passing_where_lost(
-    m: ComplexArray, time: float, depth: LossDepth, thermal: ThermalProperties
-) -> ComplexArray:
-    """Return the temperature after a `time` [s], averaged over the loss, per heat per area.
-
-    In [K m^2/W], shape of `m`, which has no zero.
-    """
-    steady = harmonic_where_lost(m, depth, thermal)
-    return _passing(m, time, depth, thermal, steady, "difference", "sum")
-
-
-def _passing(
-    m: ComplexArray,
-    time: float,
-    depth: LossDepth,
-    thermal: ThermalProperties,
-    steady: ComplexArray,
-    *distances: Distances,
-) -> ComplexArray:
-    """Return the steady values, and E r over the `distances` of harmonics that still change."""
-    from scipy.special import wofz
-
-    length = _diffusion_length(time, thermal)
-    changing = m.real * (0.5 * length) < STEADY
-    if not changing.any():
+        steady = harmonic_at_surface(self.m, depth, self.thermal)
+        if depth.mean > 0.0:
+            return self._with_changing(steady, depth, "depth")
+        which, length = self._changing, _diffusion_length(self.time, self.thermal)
+        steady[which] *= erf(self.m[which] * (0.5 * length))
         return steady
-    out = steady.copy()
-    if length == 0.0:
-        out[changing] = 0.0
-        return out
-    different, inverse = np.unique(m[changing], return_inverse=True)
 
-    def rise(z: Array) -> ComplexArray:
-        """Return r at depths, by Faddeeva's w(x) = exp(-x^2) erfc(-i x)."""
-        at, half = (z / length)[:, None], (0.5 * length * different)[None, :]
-        scale = np.exp(-(at**2) - half**2)
-        faddeeva = wofz(1j * (at - half)) - wofz(1j * (at + half))
-        return np.asarray(scale * faddeeva / (2.0 * different))
+    def where_lost(self, depth: LossDepth) -> ComplexArray:
+        """Return the temperature, averaged over the loss, per heat per area, shape of `m`."""
+        steady = harmonic_where_lost(self.m, depth, self.thermal)
+        return self._with_changing(steady, depth, "difference", "sum")
 
-    means = [depth.average(of, rise, length) for of in distances]
-    out[changing] = (sum(means) / (len(means) * thermal.conductivity))[inverse]
-    return out
+    def _with_changing(
+        self, steady: ComplexArray, depth: LossDepth, *distances: Distances
+    ) -> ComplexArray:
+        """Return the steady values, and E r over the `distances` of harmonics that still change."""
+        roots, weights, waves, inverse = self._sources
+        if not inverse.size or self.time == 0.0:
+            steady[self._changing] = 0.0
+            return steady
+        spreads = 2.0 * np.sqrt(self.thermal.diffusivity) * roots
+        length = _diffusion_length(self.time, self.thermal)
+
+        def met(z: Array) -> Array:
+            """Return exp(-z^2/(4 D s)) at depths and times."""
+            return np.asarray(np.exp(-((z[:, None] / spreads) ** 2)))
+
+        mean = sum(depth.average(of, met, length) for of in distances) / len(distances)
+        steady[self._changing] = ((weights * mean) @ waves)[inverse]
+        return steady
+
+    @cached_property
+    def _changing(self) -> Mask:
+        length = _diffusion_length(self.time, self.thermal)
+        return np.asarray(self.m.real * (0.5 * length) < STEADY)
+
+    @cached_property
+    def _sources(self) -> tuple[Array, Array, ComplexArray, NDArray[np.intp]]:
+        """Return roots and weights of times s, exp(-D m^2 s) of each different m, and its index.
+
+        The cubes of the nodes resolve depths of a thousandth of 2 sqrt(D t).
+        """
+        different, inverse = np.unique(self.m[self._changing], return_inverse=True)
+        nodes, width = 0.5 * (_TIMES + 1.0), 0.5 * _TIME_WEIGHTS
+        root = math.sqrt(self.time)
+        roots, d = root * nodes**3, self.thermal.diffusivity
+        weights = 6.0 * root * nodes**2 * width * math.sqrt(d / math.pi) / self.thermal.conductivity
+        waves = np.asarray(np.exp(-d * np.multiply.outer(roots**2, different**2)))
+        return roots, weights, waves, inverse
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -75,6 +75,11 @@ class OctaveHeat:
     density: Array  # of the loss on the grid over its mean [-], shape of the grid
     depth: LossDepth
 
+    @cached_property
+    def pattern(self) -> ComplexArray:
+        """Spectrum of the density without its mean."""
+        return _without_mean(self.density)
+
 
 def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
     """Return the heat of every octave, long waves first, from the friction `lost` by harmonic."""
@@ -118,23 +123,22 @@ def grid_temperature(
     `flux` is the heat per nominal area and unit of friction, p_0 v [W/m^2].
     """
     m = _decay(grid, speed, thermal)
-    patterns = [_without_mean(heat.density) for heat in heats]
+    passing = rise.PassingHarmonics(m, time, thermal)
     uniform = [flux * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats]
     strengths = [heat.friction for heat in heats]
     surfaces = [
-        flux * heat.friction * pattern * rise.passing_at_surface(m, time, heat.depth, thermal)
-        for pattern, heat in zip(patterns, heats, strict=True)
+        flux * heat.friction * heat.pattern * passing.at_surface(heat.depth) for heat in heats
     ]
     surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
     octave = []
     for which, heat in enumerate(heats):
         # the other octaves warm the depth of this one from the surface, its own heat where it is
         here = heat.depth.decay(m) * (surface - surfaces[which])
-        source = flux * heat.friction * patterns[which]
-        here += source * rise.passing_where_lost(m, time, heat.depth, thermal)
+        source = flux * heat.friction * heat.pattern
+        here += source * passing.where_lost(heat.depth)
         level = flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
         level += rise.uniform_from_others(strengths, uniform, which)
-        octave.append(level + _mean_over(grid, here, patterns[which]))
+        octave.append(level + _mean_over(grid, here, heat.pattern))
     field = scipy.fft.irfftn(surface, s=grid.shape) + float(np.dot(strengths, uniform))
     return GridTemperature(np.asarray(field), np.array(octave))
 
@@ -160,7 +164,7 @@ def contact_source_temperature(
     def field(solid: ThermalProperties, passing: float) -> tuple[float, ComplexArray]:
         """Return mean and harmonics of the surface of a solid that moves at a speed [m/s]."""
         m = _decay(grid, passing, solid)
-        harmonics = rise.passing_at_surface(m, time, at_surface, solid)
+        harmonics = rise.PassingHarmonics(m, time, solid).at_surface(at_surface)
         return flux * rise.uniform_at_surface(time, at_surface, solid), flux * pattern * harmonics
 
     mean, surface = field(thermal, speed)
@@ -168,7 +172,7 @@ def contact_source_temperature(
     octave = [
         # a source at the surface warms a depth as one at this depth warms the surface
         flux * rise.uniform_at_surface(time, heat.depth, thermal)
-        + _mean_over(grid, heat.depth.decay(m) * surface, _without_mean(heat.density))
+        + _mean_over(grid, heat.depth.decay(m) * surface, heat.pattern)
         for heat in heats
     ]
     rises = GridTemperature(scipy.fft.irfftn(surface, s=grid.shape) + mean, np.array(octave))

@@ -104,7 +104,7 @@ def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -
 )
 def test_heat_makes_them_several(case: Path, model: Any) -> None:
     result = over(case, model, COMMON[1:], "0.1:10:log5")
-    assert apart(result, "total_friction") > 4e-3  # 400 times that of one curve
+    assert apart(result, "total_friction") > 2e-3  # 200 times that of one curve
 
 
 def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:
