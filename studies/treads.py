@@ -101,9 +101,11 @@ def dry_friction(name: str) -> tuple[Array, Array]:
     return speed / (S_SPEEDS_OVER_R if name in SERIES_S else 1.0), friction
 
 
-def road_spectrum() -> ArealSpectrum:
-    """Return the spectrum of the road, down to where the publisher ends it."""
+def road_spectrum(*, whole: bool = False) -> ArealSpectrum:
+    """Return the spectrum of the road, down to where the publisher ends it or the whole of it."""
     wavenumber, density = table("road_spectrum").T
-    whole = ArealSpectrum(wavenumber, density)
+    measured = ArealSpectrum(wavenumber, density)
+    if whole:
+        return measured
     ended = np.append(wavenumber[wavenumber < LAST_WAVENUMBER], LAST_WAVENUMBER)
-    return ArealSpectrum(ended, whole.at(ended))
+    return ArealSpectrum(ended, measured.at(ended))
