@@ -80,16 +80,14 @@ def measured_moduli(name: str, temperature: float = 293.15) -> MeasuredModuli:
 def sweeps(name: str) -> dict[float, StrainSweep]:
     """Return the sweeps of a compound of the S series by their rounded temperature [C].
 
-    The strain is taken as tension; whether it is shear is not stated.
+    Whether the strain is of tension or of shear is not stated.
     """
     rows = table(f"{name}_strain_sweeps")
     if name == "S120":
         rows = np.delete(rows, 1, axis=0)  # a row of another sweep
     celsius = np.round(rows[:, 0], -1)
     return {
-        at: StrainSweep(
-            1e-2 * of[:, 2], of[:, 3], of[:, 4], "uniaxial", at + ZERO_CELSIUS, 1.0, name
-        )
+        at: StrainSweep(1e-2 * of[:, 2], of[:, 3], of[:, 4], None, at + ZERO_CELSIUS, 1.0, name)
         for at in np.unique(celsius).tolist()
         for of in [rows[celsius == at]]
     }

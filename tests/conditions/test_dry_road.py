@@ -23,7 +23,7 @@ def test_the_numbers_are_those_of_the_points():
     assert pytest.approx(LAW.stress_0, rel=2e-3) == dry.DRY_STRESS_0
     assert pytest.approx(LAW.width, abs=6e-4) == dry.DRY_WIDTH
     assert pytest.approx(LAW.speed_0, rel=2e-3) == dry.DRY_SPEED_0
-    assert pytest.approx(LAW.scatter, abs=6e-3) == dry.DRY_SCATTER
+    assert pytest.approx(LAW.scatter, abs=6e-3) == dry.STRESS_SCATTER
 
 
 def test_each_compound_left_out_lies_in_the_interval_of_the_others():
@@ -47,7 +47,7 @@ def test_the_law_is_a_bell_held_beyond_the_measured_speeds():
     assert DRY_TREAD.stress(1e-9) == DRY_TREAD.stress(dry.DRY_SPEEDS[0])
     assert DRY_TREAD.stress(30.0) == DRY_TREAD.stress(dry.DRY_SPEEDS[1])
     up = np.log(DryTread(1.0).stress(0.1) / DRY_TREAD.stress(0.1))
-    assert float(up) == pytest.approx(dry.DRY_SCATTER)
+    assert float(up) == pytest.approx(dry.STRESS_SCATTER)
     with pytest.raises(InputError, match="speed must not be negative"):
         DRY_TREAD.stress(-1.0)
 

@@ -9,7 +9,7 @@ of its own is that of treads on a dry road (`gripscale.conditions.dry_road`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
@@ -187,15 +187,3 @@ def adhesive_friction(shear_stress: float, contact_fraction: float, pressure: fl
     stress = checks.not_negative("shear_stress", shear_stress, unit="Pa")
     fraction = checks.number("contact_fraction", contact_fraction)
     return stress * fraction / checks.positive("pressure", pressure, unit="Pa")
-
-
-def heat_left_out(area_term: float, hysteresis: float) -> Iterator[str]:
-    """Yield what temperatures by the heat of the hysteresis leave out, for both frictions [-].
-
-    Each is a friction power mu p v over the same nominal area; that of the area term warms nothing.
-    """
-    if area_term > 0.0 and hysteresis > 0.0:
-        yield (
-            "Temperatures contain the heat of the hysteresis only; the heat of the area term is "
-            f"{area_term / hysteresis:.0%} of it."
-        )

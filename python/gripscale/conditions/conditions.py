@@ -12,8 +12,9 @@ where they are known the logarithms of the factors are linear in log |q|.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -39,8 +40,13 @@ _HARMONICS = np.geomspace(1.0, 16.0, 12)
 ROWS_AT_ONCE = 50_000
 
 
+# In place of an effect that a case has by default: switched off on purpose.
+OFF = "none"
+DEFAULTED = ("softening", "heat")
+
+
 def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
-    if value is not None and not isinstance(value, kind):
+    if value is not None and value != OFF and not isinstance(value, kind):
         raise InputError(f"{name} must be {expected}; got {checks.short_repr(value)}")
     return value
 
@@ -85,13 +91,17 @@ class Conditions(Checked):
     )
     """How E' and E'' fall with the strain."""
     strain_norm: StrainNorm = checked(checks.one_of, choices=STRAIN_NORMS, default="slope")
-    """The strain of a wave. "slope": half the rms slope in its contact, including the slopes of the
-    larger waves (the convention of B. N. J. Persson's theory, and that of the direct contact).
+    """The strain of a wave of a chain. "slope": 0.4 times the rms slope in its contact, including
+    the slopes of the larger waves (see docs/strain-rule.md, where the direct contact's is, too).
     "stretch": the largest principal stretch minus one in the block of this wave."""
     heat: ThermalProperties | None = checked(
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
     """With it the rubber warms by its friction."""
+    counterface: ThermalProperties | None = checked(
+        _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
+    )
+    """What takes up heat through the contact, with heat; None: it is insulating."""
     shear_stress: InterfacialShearStress | None = checked(
         _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
     )
@@ -99,9 +109,15 @@ class Conditions(Checked):
     water: float | None = checked(lambda _, value: water_film(value) or None, default=None)
     """Water that contact can trap, on a map: "flooded" or True, or the thickness of a film [m].
     Only the direct contact has it, and not together with softening or heat."""
+    off: tuple[str, ...] = checked(lambda _, value: tuple(value), default=())
+    """Effects that are switched off on purpose, by the word "none" in their place: a case has none
+    of them by default either."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        for effect in DEFAULTED:
+            if getattr(self, effect) == OFF:
+                self._set(**{effect: None}, off=(*self.off, effect))
         if self.water is not None and self.iterated:
             effect = "heat" if self.softening is None else "softening"
             raise InputError(
@@ -122,17 +138,20 @@ class Conditions(Checked):
             "softening": self.softening and self.softening.to_dict(),
             "strain_norm": self.strain_norm,
             "heat": self.heat and asdict(self.heat),
+            "counterface": self.counterface and asdict(self.counterface),
             "shear_stress": self.shear_stress and shear_stress_to_dict(self.shear_stress),
             "water": FLOODED if self.water == math.inf else self.water,
+            **({"off": list(self.off)} if self.off else {}),
         }
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Conditions:
         """Return the conditions of `to_dict`; raise `InputError` if a value cannot be used."""
         effects = dict(values)
-        laws = {
+        laws: dict[str, Callable[[Mapping[str, Any]], Any]] = {
             "softening": softening_from_dict,
-            "heat": lambda heat: checks.from_mapping(ThermalProperties, "heat", heat),
+            "heat": partial(checks.from_mapping, ThermalProperties, "heat"),
+            "counterface": partial(checks.from_mapping, ThermalProperties, "counterface"),
             "shear_stress": shear_stress_from_dict,
         }
         for name, law in laws.items():
@@ -153,6 +172,12 @@ class Conditions(Checked):
         kelvin = self.temperature if temperature is None else temperature
         stress = float(self.shear_stress.stress(speed, kelvin))
         return adhesive_friction(stress, contact_fraction, pressure)
+
+    def without(self, *effects: str) -> Conditions:
+        """Return the same with effects switched off on purpose."""
+        nothing: dict[str, Any] = dict.fromkeys(effects)
+        off = [name for name in effects if name in DEFAULTED]
+        return replace(self, **nothing, off=tuple(dict.fromkeys([*self.off, *off])))
 
     @property
     def dry(self) -> Conditions:

@@ -19,7 +19,7 @@ from gripscale.core import Array, Checked, InputError, checked, checks
 
 # tau_0 [Pa], c, v_0 [m/s] of the compounds S100, S120 and S140, and s of a further one: its 90 %
 # interval by Student's t, as three are few.
-DRY_STRESS_0, DRY_WIDTH, DRY_SPEED_0, DRY_SCATTER = 4.01e6, 0.061, 6.83, 0.20
+DRY_STRESS_0, DRY_WIDTH, DRY_SPEED_0, STRESS_SCATTER = 4.01e6, 0.061, 6.83, 0.20
 DRY_SPEEDS = (1e-4, 1.0)
 """Range of the measured speeds [m/s]; the stress is held beyond."""
 DRY_ASSUMPTIONS = (
@@ -47,7 +47,7 @@ class DryTread(Checked):
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape; held beyond those measured."""
         decades = np.log10(np.clip(sliding_speeds(speed), *DRY_SPEEDS) / DRY_SPEED_0)
-        log = self.deviation * DRY_SCATTER - DRY_WIDTH * decades**2
+        log = self.deviation * STRESS_SCATTER - DRY_WIDTH * decades**2
         return np.asarray(DRY_STRESS_0 * np.exp(log))
 
 

@@ -4,28 +4,37 @@ An evaluation of the fixed point (`gripscale.conditions.fixed_point`) solves the
 the rubber that a state of temperatures and strains, one of each an octave of wavelengths, makes of
 it. Each contact starts from the last one.
 
-The strain of a scale is half the rms slope in the contact of the surface with the waves up to that
-scale: the convention of B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626.
+The strain of a scale is that of `gripscale.conditions.strain_rule` in the contact.
 
 The harmonics of an octave lose mu_b p_0 v per nominal area, and the pattern of
 `gripscale.conditions.flash_temperature` distributes this heat along the surface. Summed over
 octaves it is exactly the friction work. It is lost at a mean depth of 3/2 over the wavenumber,
-averaged over the octave by the loss, and moves over the rubber while the footprint passes. The road
-takes up none. The heat of an area term, lost in the interface, is left out.
+averaged over the octave by the loss, and moves over the rubber while the footprint passes. The heat
+of an area term is lost at the surface, evenly over the contact; through it a counterface takes up
+its part of all heat.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
 
 import numpy as np
 import scipy
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
-from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
+from gripscale.conditions.fixed_point import (
+    STATE_TOLERANCE,
+    Iteration,
+    pack_state,
+    solve_fixed_point,
+    unpack_state,
+)
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
+from gripscale.conditions.strain_rule import DEPTH_FACTOR
 from gripscale.core import Array, ComplexArray, Mask, Status
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
@@ -35,14 +44,26 @@ from gripscale.rubber import Rubber
 _ROUND_OFF = 1e-12  # share of the friction below which the heat of an octave is neglected
 
 
-def strain_by_scale(grid: Grid, height: Array, active: Mask, wavenumber: Array) -> Array:
-    """Return the uniaxial strain amplitude [-] down to each wavenumber [rad/m], same shape."""
-    spectrum = scipy.fft.rfftn(height) * np.where(grid.own_opposite, 0.0, 1j * grid.along)
+def strain_by_scale(grid: Grid, displacement: Array, active: Mask, wavenumber: Array) -> Array:
+    """Return the uniaxial strain amplitude [-] on the scale of each wavenumber [rad/m], same shape.
+
+    `displacement` of the surface [m] may have any mean; both fields have the shape of the grid.
+    """
+    number = np.where(grid.wavenumber > 0.0, grid.wavenumber, 1.0)
+    spectrum = scipy.fft.rfftn(displacement) * grid.wavenumber
+    n = grid.directions
+    # components of the strain over that into the rubber, and how often each counts in e:e
+    parts = [(np.ones(1), 1.0), *((1j * along, 2.0) for along in n)]
+    parts += [(n[i] * n[j], 1.0) for i in range(len(n)) for j in range(len(n))]
     out = []
-    for largest in wavenumber:
-        slope = scipy.fft.irfftn(np.where(grid.wavenumber <= largest, spectrum, 0.0), s=grid.shape)
-        out.append(0.5 * float(np.sqrt(np.mean(slope[active] ** 2))))
-    return np.maximum.accumulate(np.array(out))
+    for scale in wavenumber:
+        depth = number / scale
+        wave = spectrum * depth * np.exp(-depth)
+        square = np.zeros(np.count_nonzero(active))
+        for component, times in parts:
+            square += times * scipy.fft.irfftn(component * wave, s=grid.shape)[active] ** 2
+        out.append(DEPTH_FACTOR * float(np.sqrt(2.0 / 3.0 * square).mean()))
+    return np.array(out)
 
 
 @dataclass(frozen=True)
@@ -96,52 +117,142 @@ def grid_temperature(
 
     `flux` is the heat per nominal area and unit of friction, p_0 v [W/m^2].
     """
-
-    def without_mean(density: Array) -> ComplexArray:
-        spectrum = scipy.fft.rfftn(density)
-        spectrum.flat[0] = 0.0
-        return np.asarray(spectrum)
-
-    m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, thermal)
-    m.flat[0] = 1.0
-    sources = [flux * heat.friction * without_mean(heat.density) for heat in heats]
-    uniform = [
-        flux * heat.friction * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats
-    ]
+    m = _decay(grid, speed, thermal)
+    patterns = [_without_mean(heat.density) for heat in heats]
+    uniform = [flux * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats]
+    strengths = [heat.friction for heat in heats]
     surfaces = [
-        source * rise.passing_at_surface(m, time, heat.depth, thermal)
-        for source, heat in zip(sources, heats, strict=True)
+        flux * heat.friction * pattern * rise.passing_at_surface(m, time, heat.depth, thermal)
+        for pattern, heat in zip(patterns, heats, strict=True)
     ]
     surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
     octave = []
     for which, heat in enumerate(heats):
-        pattern = without_mean(heat.density)
         # the other octaves warm the depth of this one from the surface, its own heat where it is
         here = heat.depth.decay(m) * (surface - surfaces[which])
-        here += sources[which] * rise.passing_where_lost(m, time, heat.depth, thermal)
-        level = sum(uniform) - uniform[which]
-        level += flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
-        mean_product = float((grid.weight * (here * pattern.conj()).real).sum() / grid.points**2)
-        octave.append(level + mean_product)
-    field = scipy.fft.irfftn(surface, s=grid.shape) + sum(uniform)
+        source = flux * heat.friction * patterns[which]
+        here += source * rise.passing_where_lost(m, time, heat.depth, thermal)
+        level = flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
+        level += rise.uniform_from_others(strengths, uniform, which)
+        octave.append(level + _mean_over(grid, here, patterns[which]))
+    field = scipy.fft.irfftn(surface, s=grid.shape) + float(np.dot(strengths, uniform))
     return GridTemperature(np.asarray(field), np.array(octave))
+
+
+def contact_source_temperature(
+    grid: Grid,
+    heats: list[OctaveHeat],
+    contact: Mask,
+    *,
+    flux: float,
+    speed: float,
+    time: float,
+    thermal: ThermalProperties,
+    counterface: ThermalProperties | None,
+) -> tuple[GridTemperature, float]:
+    """Return the rises of the rubber, and of the counterface's contact [K], by a unit of friction.
+
+    The heat is even over `contact` and at the surface; other arguments as for `grid_temperature`.
+    The counterface is at rest under the contact; insulating it would be infinitely hot.
+    """
+    pattern, at_surface = _without_mean(contact / contact.mean()), LossDepth(0.0)
+
+    def field(solid: ThermalProperties, passing: float) -> tuple[float, ComplexArray]:
+        """Return mean and harmonics of the surface of a solid that moves at a speed [m/s]."""
+        m = _decay(grid, passing, solid)
+        harmonics = rise.passing_at_surface(m, time, at_surface, solid)
+        return flux * rise.uniform_at_surface(time, at_surface, solid), flux * pattern * harmonics
+
+    mean, surface = field(thermal, speed)
+    m = _decay(grid, speed, thermal)
+    octave = [
+        # a source at the surface warms a depth as one at this depth warms the surface
+        flux * rise.uniform_at_surface(time, heat.depth, thermal)
+        + _mean_over(grid, heat.depth.decay(m) * surface, _without_mean(heat.density))
+        for heat in heats
+    ]
+    rises = GridTemperature(scipy.fft.irfftn(surface, s=grid.shape) + mean, np.array(octave))
+    if counterface is None:
+        return rises, np.inf
+    mean, surface = field(counterface, 0.0)
+    return rises, mean + _mean_over(grid, surface, pattern)
+
+
+def _decay(grid: Grid, speed: float, thermal: ThermalProperties) -> ComplexArray:
+    """Return the decay of the harmonics of a grid [1/m]; of the mean, which has none, one."""
+    m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, thermal)
+    m.flat[0] = 1.0
+    return m
+
+
+def _without_mean(density: Array) -> ComplexArray:
+    spectrum = scipy.fft.rfftn(density)
+    spectrum.flat[0] = 0.0
+    return np.asarray(spectrum)
+
+
+def _mean_over(grid: Grid, harmonics: ComplexArray, pattern: ComplexArray) -> float:
+    """Return the mean of a field without mean, weighted by a density of mean one."""
+    return float((grid.weight * (harmonics * pattern.conj()).real).sum() / grid.points**2)
 
 
 def temperature(
     contact: RoughContact, conditions: Conditions, time: float
-) -> tuple[Array, GridTemperature]:
-    """Return the wavenumbers of the octaves that lose energy [rad/m], and the temperature rise."""
+) -> tuple[list[OctaveHeat], GridTemperature]:
+    """Return the octaves that lose energy, and the temperature rise in a contact of `time` [s]."""
     assert conditions.heat is not None
-    heats = octave_heats(contact.grid, contact.pressure, contact.lost_by_harmonic())
-    rises = grid_temperature(
-        contact.grid,
-        heats,
-        flux=contact.nominal_pressure * contact.speed,
-        speed=contact.speed,
-        time=time,
-        thermal=conditions.heat,
+    grid, active = contact.grid, contact.active
+    heats = octave_heats(grid, contact.pressure, contact.lost_by_harmonic())
+    motion: dict[str, Any] = {
+        "flux": contact.nominal_pressure * contact.speed,
+        "speed": contact.speed,
+        "time": time,
+        "thermal": conditions.heat,
+    }
+    rises = grid_temperature(grid, heats, **motion)
+    if conditions.shear_stress is None and conditions.counterface is None:
+        return heats, rises
+    by_unit, counterface = contact_source_temperature(
+        grid, heats, active, counterface=conditions.counterface, **motion
     )
-    return np.array([heat.wavenumber for heat in heats]), rises
+    part = rise.Partition(
+        float(rises.surface[active].mean()), float(by_unit.surface[active].mean()), counterface
+    )
+    cold, unit = (
+        float(np.average(each.surface, weights=contact.pressure)) for each in (rises, by_unit)
+    )
+    friction = 0.0
+    if conditions.shear_stress is not None:
+        friction = rise.settled_interface(
+            partial(contact.adhesive_friction_at, conditions),
+            lambda friction: cold + part.net(friction) * unit,
+        )
+    net = part.net(friction)
+    return heats, GridTemperature(
+        rises.surface + net * by_unit.surface, rises.octave + net * by_unit.octave
+    )
+
+
+@dataclass(frozen=True)
+class MeanWarming:
+    """Mean temperature rises of a contact [K]."""
+
+    contact: float  # at the surface, weighted by the pressure
+    where_lost: float  # in the depth, weighted by the loss
+
+
+def warming_of(contact: RoughContact, conditions: Conditions, footprint: float) -> MeanWarming:
+    """Return the rise by the heat of `conditions` in a contact that was solved without.
+
+    The rubber needs no shift. `footprint` is the length of the nominal contact [m].
+    """
+    if contact.speed == 0.0:
+        return MeanWarming(0.0, 0.0)
+    heats, rises = temperature(contact, conditions, footprint / contact.speed)
+    return MeanWarming(
+        float(np.average(rises.surface, weights=contact.pressure)),
+        float(np.average(rises.octave, weights=[heat.friction for heat in heats])),
+    )
 
 
 @dataclass(frozen=True)
@@ -153,17 +264,27 @@ class GridSequenceResult:
 
 
 _Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
+# Tolerance of the fixed point over that of the contact, and the largest: the interval of an answer
+# is ten times wider.
+_OF_GOAL, _LOOSEST = 0.1, 5e-3
 
 
 def solve_coupled_contact(
-    solve: _Solve, quick: _Solve, rubber: Rubber, conditions: Conditions, time: float
+    solve: _Solve,
+    quick: _Solve,
+    rubber: Rubber,
+    conditions: Conditions,
+    time: float,
+    goal: float = 0.0,
 ) -> RoughContact:
     """Return the contact whose strains and temperatures are those of its rubber.
 
-    `quick` solves the contact like `solve` in less time; `time` is that of the nominal contact [s].
+    `quick` solves the contact like `solve` in less time; `time` is that of the nominal contact [s],
+    `goal` the tolerance of the contact [-].
     """
     fine = _ContactEvaluation(solve, rubber, conditions, time)
-    fixed_point = solve_fixed_point(fine, replace(fine, solve=quick))
+    tolerance = max(STATE_TOLERANCE, min(_OF_GOAL * goal, _LOOSEST))
+    fixed_point = solve_fixed_point(fine, replace(fine, solve=quick), tolerance)
     contact, x = fixed_point.last.solution.contact, fixed_point.last.x
     out = replace(
         contact,
@@ -199,11 +320,13 @@ class _ContactEvaluation:
         number, surface = _octaves(contact), None
         warming, strain = np.zeros(number.size), np.ones(number.size)
         if self.conditions.heat is not None and contact.speed > 0.0:
-            at, rises = temperature(contact, self.conditions, self.time)
+            heats, rises = temperature(contact, self.conditions, self.time)
+            at = [heat.wavenumber for heat in heats]
             warming = np.interp(np.log(number), np.log(at), rises.octave)
             surface = rises.surface
         if self.conditions.softening is not None:
-            strain = strain_by_scale(contact.grid, contact.height, contact.active, number)
+            moved = contact.height + contact.gap
+            strain = strain_by_scale(contact.grid, moved, contact.active, number)
         friction = [contact.friction_from_dissipation] if contact.speed > 0.0 else []
         return Iteration(
             replace(solved, contact=replace(contact, surface_warming=surface)),

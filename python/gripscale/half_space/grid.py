@@ -69,6 +69,12 @@ class Grid:
         return np.hypot(self.along, self._numbers(1))
 
     @property
+    def directions(self) -> list[Array]:
+        """Components of q/|q| along x and, for a map, y [-], broadcastable to a spectrum."""
+        number = np.where(self.wavenumber > 0.0, self.wavenumber, 1.0)
+        return [self._numbers(axis) / number for axis in range(len(self.shape))]
+
+    @property
     def own_opposite(self) -> Mask:
         """Where a wavenumber along x is its own opposite: zero, and the highest of an even grid."""
         index = np.rint(np.abs(self.along) * self.lengths[0] / (2.0 * np.pi))

@@ -11,9 +11,10 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
-from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.core import Array, Checked, InputError, Status, checked, checks, labelled, provenance
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
+from gripscale.half_space.condition_errors import condition_errors
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
@@ -28,6 +29,13 @@ from gripscale.wave.problem import Mesh
 from gripscale.wave.result import waves_to_dataset
 
 JUDGED_TO = 0.05  # estimated relative error of the contact that every run judges its chain by
+
+
+# Names of standard errors over `condition`, of what is not known of the conditions.
+CONDITION_ERRORS = {
+    "contact_fraction_condition_error": "standard error of ln contact fraction by a condition",
+    "friction_condition_error": "standard error of ln friction by a condition",
+}
 
 
 def _measurement(surface: Surface, need: str) -> Measured:
@@ -180,6 +188,8 @@ class DirectContact(Checked, model.Model):
     conditions: Conditions | None = None
     traces: bool = checked(checks.flag, default=False)
     """Whether the answer holds every contact as charts draw it (`with_traces`)."""
+    errors: bool = checked(checks.flag, default=False)
+    """Whether the answer holds the errors by what is not known of its conditions."""
 
     def with_conditions(self, conditions: Conditions | None) -> DirectContact:
         """Return the direct contact under other conditions."""
@@ -198,7 +208,8 @@ class DirectContact(Checked, model.Model):
             contacts.append(self.contact(rubber, surface, measured, load))
             if on_progress is not None:
                 on_progress(contacts[-1])
-        return self._answer(contacts, surface, load)
+        answer = self._answer(contacts, surface, load)
+        return self._with_errors(answer, contacts[0], rubber, surface, load)
 
     def contact(
         self,
@@ -207,8 +218,12 @@ class DirectContact(Checked, model.Model):
         measured: Profile | HeightMap,
         load: Load,
         start: RoughContact | None = None,
+        by_scale: RubberByScale | None = None,
     ) -> RoughContact:
-        """Return the contact of one profile of a surface, or of its map."""
+        """Return the contact of one profile of a surface, or of its map.
+
+        Arguments as of `solve_rough_contact`.
+        """
         smallest = self.smallest_wavelength
         if smallest is None and not self.periodic:
             smallest = smallest_wavelength(surface, measured)
@@ -226,6 +241,39 @@ class DirectContact(Checked, model.Model):
             conditions=self.conditions,
             footprint=load.footprint,
             start=start,
+            by_scale=by_scale,
+        )
+
+    def _with_errors(
+        self,
+        answer: xr.Dataset,
+        contact: RoughContact,
+        rubber: Rubber,
+        surface: Surface,
+        load: Load,
+    ) -> xr.Dataset:
+        """Return an answer with the errors of its first contact by what is not known."""
+        if not (self.errors and contact.usable):
+            return answer
+        quick = replace(self, tolerance=None)
+        measured = _measurement(surface, "").surfaces[0]
+        every = list(
+            condition_errors(
+                contact,
+                rubber,
+                lambda by_scale: quick.contact(
+                    rubber, surface, measured, load, contact, by_scale=by_scale
+                ),
+            )
+        )
+        if not every:
+            return answer
+        labels, *numbers = zip(*every, strict=True)
+        return answer.assign_coords(condition=("condition", np.array(labels, dtype=object))).assign(
+            {
+                name: labelled("condition", np.array(values), "1", text, "direct")
+                for (name, text), values in zip(CONDITION_ERRORS.items(), numbers, strict=True)
+            }
         )
 
     def _answer(self, contacts: Sequence[RoughContact], surface: Surface, load: Load) -> xr.Dataset:

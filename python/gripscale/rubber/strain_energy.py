@@ -172,8 +172,36 @@ class Isihara(StrainEnergy):
         return shear, cls(coefficients[1] / shear, coefficients[2] / shear)
 
 
+class Kraus(StrainEnergy):
+    """Softening of filled rubber: the secant modulus of shear s is that of a strain sweep.
+
+    w1 = w(s)/w(0), w = r + (1 - r)/(1 + sqrt(s^2 + a^2)/c), s^2 = I1 - 3. Source: G. Kraus, J. Appl.
+    Polym. Sci.: Appl. Polym. Symp. 39 (1984) 75, with its exponent 1/2. Not linear in r and c, it
+    cannot be fitted to uniaxial tests.
+    """
+
+    ratio: float = checked(checks.share)
+    """Modulus r at large strain over that at none [-]."""
+    critical: float = checked(checks.positive)
+    """Shear strain c at which half of what breaks is broken [-]."""
+    measured_at: float = checked(checks.positive)
+    """Shear strain a below which little softens: that of the measured moduli [-]."""
+
+    kind: ClassVar[str] = "kraus"
+    least_coefficients: ClassVar[tuple[float, ...]] = (0.0,)
+
+    def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
+        """Return w1 at I1 - 3, and w2 = 0."""
+        kept = [
+            self.ratio
+            + (1.0 - self.ratio) / (1.0 + np.sqrt(i + self.measured_at**2) / self.critical)
+            for i in (np.maximum(first, 0.0), 0.0)
+        ]
+        return np.asarray(kept[0] / kept[1]), np.zeros_like(second)
+
+
 STRAIN_ENERGIES: dict[str, type[StrainEnergy]] = {
-    law.kind: law for law in (NeoHookean, MooneyRivlin, Yeoh, Isihara)
+    law.kind: law for law in (NeoHookean, MooneyRivlin, Yeoh, Isihara, Kraus)
 }
 """Every strain energy by its kind."""
 

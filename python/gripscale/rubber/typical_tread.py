@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.core import Checked, checked, checks
-from gripscale.rubber.softening import DEFORMATIONS, Deformation, SofteningFactors, SofteningTable
+from gripscale.rubber.softening import SofteningFactors, SofteningTable
+from gripscale.rubber.strain_sweeps import DEFORMATIONS, Deformation
 
 STRAIN = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.236)
 """Single amplitudes [-]; at the first the modulus is that of the master curve."""
@@ -48,10 +49,8 @@ class TypicalTread(Checked):
 
     deviation: float = checked(checks.number, default=0.0)
     """Standard deviations from the mean of treads [-]; above zero the rubber is harder."""
-    deformation: Deformation = checked(
-        checks.one_of, choices=DEFORMATIONS, default="tension"
-    )  # not stated by the publisher
-    """Kind of the strains."""
+    deformation: Deformation | None = checked(checks.one_of, choices=DEFORMATIONS, default=None)
+    """Kind of the strains; None: not stated, as by the publisher of the sweeps."""
 
     def factors(self, strain: ArrayLike, temperature: float | None = None) -> SofteningFactors:
         """Return f and g at uniaxial strain amplitudes `strain` [-] and a temperature [K].
@@ -67,7 +66,7 @@ class TypicalTread(Checked):
 
 
 @lru_cache(maxsize=16)
-def _table(deviation: float, deformation: Deformation) -> SofteningTable:
+def _table(deviation: float, deformation: Deformation | None) -> SofteningTable:
     storage, loss = (
         (np.array(mean) * np.exp(deviation * np.array(scatter))).tolist()
         for mean, scatter in ((MEAN_STORAGE, STORAGE_SCATTER), (MEAN_LOSS, LOSS_SCATTER))

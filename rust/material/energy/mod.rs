@@ -5,6 +5,7 @@
 //! with W_i = dW/dI_i (Holzapfel, "Nonlinear Solid Mechanics" (2000), section 6.4).
 
 mod isihara;
+mod kraus;
 mod mooney_rivlin;
 mod neo_hookean;
 mod yeoh;
@@ -105,6 +106,7 @@ energies! {
     mooney_rivlin::MooneyRivlin,
     yeoh::Yeoh,
     isihara::Isihara,
+    kraus::Kraus,
 }
 
 fn invariants(c: &Symmetric) -> Invariants {

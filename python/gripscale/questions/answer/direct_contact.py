@@ -7,7 +7,6 @@ The direct contact of each profile is a sample of the road, solved to an estimat
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -33,6 +32,7 @@ from gripscale.questions.answer.estimate import (
     SampledErrors,
     answer_of_samples,
 )
+from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.reliance import estimated_names, has_answer
 from gripscale.questions.cut_off.curve import (
     AREA,
@@ -44,24 +44,6 @@ from gripscale.questions.cut_off.curve import (
     refusals,
 )
 from gripscale.questions.inputs.findings import in_words
-from gripscale.surface import HeightMap, Measured, Profile, Surface
-
-
-def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> Surface:
-    """Return the waves of `surface` with one profile or map as the only measurement."""
-    heights = measured if isinstance(measured, HeightMap) else [measured]
-    return Surface(surface.sines, measured.name, measured=Measured.of(heights))
-
-
-def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
-    """Return names of the profiles of `surface`, or of its map, each with a surface of it alone."""
-    measured: Sequence[Profile | HeightMap] = (
-        [] if surface.measured is None else surface.measured.surfaces
-    )
-    return [
-        (part.name or f"profile {i}", with_single_measurement(surface, part))
-        for i, part in enumerate(measured, 1)
-    ]
 
 
 def direct_contact_design(
@@ -80,7 +62,9 @@ def direct_contact_design(
     profiles = each_measured(case.surface)
     if not profiles:
         return None
-    direct = DirectContact(tolerance=tolerance, conditions=case.conditions, traces=traces)
+    direct = DirectContact(
+        tolerance=tolerance, conditions=case.conditions, traces=traces, errors=True
+    )
     points = [
         Point((at,), f"{label}{name}", Task(case.rubber, surface, load, direct))
         for at, (name, surface) in enumerate(profiles)
@@ -201,12 +185,14 @@ def direct_contact_totals(
         samples.expand_dims(model=[DIRECT]),
         continuation_factors(case, curve),
         sampled=sampled,
+        conditions=case.conditions,
     )
     if curve is not None and not any(refusals(curve)):
         best[CONTINUED_TO] = case.below_measurement.down_to
     end = resolved_wavelength(case.surface)
     best["cutoff_wavelength"] = xr.Variable((), end, {"units": "m"})
     of_curve = [] if curve is None else list(continuation_doubts(curve))
+    of_curve += case.softening_doubts
     doubts = model.input_doubts([case.surface, case.measured_rubber], [load], case.units, of_curve)
     totals = model.predicted_answer(
         best,

@@ -21,8 +21,8 @@ from gripscale.core import Described, InputError, checks
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
 from gripscale.model import Load, Model
-from gripscale.questions.answer.direct_contact import each_measured, with_single_measurement
 from gripscale.questions.answer.estimate import DIRECT
+from gripscale.questions.answer.measurements import each_measured, with_single_measurement
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, SineStack, Surface, fit_sines, height_difference
 from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
@@ -84,7 +84,7 @@ class ComparisonSetup(Described):
     @property
     def direct(self) -> DirectContact:
         """The direct contact."""
-        return DirectContact(tolerance=self.tolerance, conditions=self.conditions)
+        return DirectContact(tolerance=self.tolerance, conditions=self.conditions, errors=True)
 
 
 class SampleSpec(NamedTuple):

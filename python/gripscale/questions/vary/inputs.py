@@ -95,8 +95,8 @@ def with_effects(model: Model, selection: str) -> Model:
     """
     asked = effects_asked(model)
     without = {ALL_EFFECTS: [], **{f"no {effect}": [effect] for effect in asked}, NO_EFFECTS: asked}
-    nothing: dict[str, Any] = dict.fromkeys(without[checks.one_of("effects", selection, without)])
-    return model.with_conditions(replace(conditions_of(model), **nothing))
+    nothing = without[checks.one_of("effects", selection, without)]
+    return model.with_conditions(conditions_of(model).without(*nothing))
 
 
 def rubber_before(rubber: Rubber, model: Model) -> Rubber:
