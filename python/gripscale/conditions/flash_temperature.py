@@ -156,8 +156,8 @@ class DepthsOfLoss(Protocol):
 Distances = Literal["depth", "difference", "sum"]
 DEEPEST = 60.0  # depth in units of 1/b beyond which the loss is neglected: exp(-60)
 WIDEST = 6.5  # argument beyond which ierfc is below 1e-20
-STEADY = 4.0  # Re(m) l/2 from which a harmonic is steady: erfc of it is 2e-8
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(96)
+STEADY = 2.5  # Re(m) l/2 from which a harmonic is steady: erfc of it is 4e-4
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 
 
 def _loss_shape(name: str, value: Any) -> int:

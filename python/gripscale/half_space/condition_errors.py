@@ -1,4 +1,4 @@
-"""How far friction and area change with conditions that may be true as well.
+"""How far friction and area change with conditions, or a thickness, that may be true as well.
 
 Strain and temperature of every scale stay those of the solved contact, the rubber that they make is
 another: one contact for each thing that is not known, started from the solved one. The answer of
@@ -17,18 +17,28 @@ from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 
 
-class ConditionError(NamedTuple):
-    """Standard errors of the logarithms of contact area and friction [-] by one condition."""
+class LogChange(NamedTuple):
+    """Changes of the logarithms of contact area and friction [-]."""
 
-    label: str
     contact_fraction: float
     friction: float
 
 
+def log_change(contact: RoughContact, other: RoughContact) -> LogChange:
+    """Return the change from a contact to another one on the same surface, on the same grid."""
+    last = other.grids[-1]
+    before = [grid for grid in contact.grids if grid.points == last.points][-1]
+    pairs = (
+        (last.contact_fraction, before.contact_fraction),
+        (last.friction_from_dissipation, before.friction_from_dissipation),
+    )
+    return LogChange(*(math.log(a / b) if a > 0.0 and b > 0.0 else 0.0 for a, b in pairs))
+
+
 def condition_errors(
     contact: RoughContact, rubber: Rubber, solve: Callable[[RubberByScale], RoughContact]
-) -> Iterator[ConditionError]:
-    """Yield the errors of a contact by what is not known of its iterated conditions.
+) -> Iterator[tuple[str, LogChange]]:
+    """Yield what is not known of the iterated conditions of a contact, with its standard errors.
 
     `solve` returns the contact with another rubber at each scale.
     """
@@ -43,12 +53,5 @@ def condition_errors(
             warming=each.warming * scales.warming,
             strain=each.strain * scales.strain,
         )
-        last = solve(state.rubber).grids[-1]
-        same_grid = [grid for grid in contact.grids if grid.points == last.points]
-        before = same_grid[-1]
-        pairs = (
-            (last.contact_fraction, before.contact_fraction),
-            (last.friction_from_dissipation, before.friction_from_dissipation),
-        )
-        changes = (abs(math.log(a / b)) if a > 0.0 and b > 0.0 else 0.0 for a, b in pairs)
-        yield ConditionError(each.label, *(each.share * change for change in changes))
+        changes = log_change(contact, solve(state.rubber))
+        yield each.label, LogChange(*(each.share * abs(change) for change in changes))

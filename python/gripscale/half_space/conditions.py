@@ -36,8 +36,8 @@ from gripscale.conditions.fixed_point import (
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
 from gripscale.conditions.strain_rule import DEPTH_FACTOR
 from gripscale.core import Array, ComplexArray, Mask, Status
-from gripscale.half_space.grid import Grid
-from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
+from gripscale.half_space.grid import Grid, PeriodicHeights
+from gripscale.half_space.grid_sequence import GridRecord, KnownLevels, levels
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 
@@ -266,29 +266,38 @@ class GridSequenceResult:
 _Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
 # Tolerance of the fixed point over that of the contact, and the largest: the interval of an answer
 # is ten times wider.
-_OF_GOAL, _LOOSEST = 0.1, 5e-3
+_OF_GOAL, _LOOSEST = 0.2, 1e-2
+_CLOSED = 0.5  # strain of rubber in contact over that of rubber pressed into every valley, about
 
 
 def solve_coupled_contact(
     solve: _Solve,
     quick: _Solve,
+    heights: PeriodicHeights,
     rubber: Rubber,
     conditions: Conditions,
     time: float,
     goal: float = 0.0,
 ) -> RoughContact:
-    """Return the contact whose strains and temperatures are those of its rubber.
+    """Return the contact on heights whose strains and temperatures are those of its rubber.
 
     `quick` solves the contact like `solve` in less time; `time` is that of the nominal contact [s],
-    `goal` the tolerance of the contact [-].
+    `goal` the tolerance of the contact [-]. Rubber that softens starts with a guess of its strains.
     """
-    fine = _ContactEvaluation(solve, rubber, conditions, time)
+    wavenumber, guess = _octaves(heights), None
+    if conditions.softening is not None:
+        grid = levels(heights)[-1].grid
+        strain = strain_by_scale(
+            grid, heights.on(grid.shape), np.ones(grid.shape, bool), wavenumber
+        )
+        guess = pack_state(np.zeros(strain.size), _CLOSED * strain)
+    fine = _ContactEvaluation(solve, rubber, conditions, time, wavenumber, guess)
     tolerance = max(STATE_TOLERANCE, min(_OF_GOAL * goal, _LOOSEST))
     fixed_point = solve_fixed_point(fine, replace(fine, solve=quick), tolerance)
     contact, x = fixed_point.last.solution.contact, fixed_point.last.x
     out = replace(
         contact,
-        scales=None if x is None else fine.state(x, contact),
+        scales=None if x is None else fine.state(x),
         passes=fixed_point.fine,
         coarse_passes=fixed_point.coarse,
         grids=fine.grids,
@@ -306,18 +315,20 @@ class _ContactEvaluation:
     rubber: Rubber
     conditions: Conditions
     time: float
+    wavenumber: Array  # of the scales [rad/m]
+    guess: Array | None  # state of the first evaluation; None: the rubber before the contact
     grids: list[GridRecord] = field(default_factory=list, repr=False)  # of all evaluations
 
     def __call__(
         self, x: Array | None, last: GridSequenceResult | None
     ) -> Iteration[GridSequenceResult]:
         """Return the evaluation of `x`, started from the last contact."""
-        state = None if x is None or last is None else self.state(x, last.contact)
-        levels = {} if last is None or last.contact.by_scale is None else last.levels
-        solved = self.solve(None if state is None else state.rubber, levels)
+        x = self.guess if x is None else x
+        known = {} if last is None or last.contact.by_scale is None else last.levels
+        solved = self.solve(None if x is None else self.state(x).rubber, known)
         contact = solved.contact
         self.grids.extend(contact.grids)
-        number, surface = _octaves(contact), None
+        number, surface = self.wavenumber, None
         warming, strain = np.zeros(number.size), np.ones(number.size)
         if self.conditions.heat is not None and contact.speed > 0.0:
             heats, rises = temperature(contact, self.conditions, self.time)
@@ -336,20 +347,20 @@ class _ContactEvaluation:
             contact.converged,
         )
 
-    def state(self, x: Array, contact: RoughContact) -> StateByScale:
-        """Return the rubber that the state `x` makes at every scale of a contact."""
+    def state(self, x: Array) -> StateByScale:
+        """Return the rubber that the state `x` makes at every scale."""
         warming, strain = unpack_state(x)
         return state_by_scale(
             self.conditions,
             self.rubber,
-            wavenumber=_octaves(contact),
+            wavenumber=self.wavenumber,
             warming=warming,
             strain=strain,
         )
 
 
-def _octaves(contact: RoughContact) -> Array:
+def _octaves(heights: PeriodicHeights) -> Array:
     """Return the wavenumbers of the state [rad/m]: octaves down to half the smallest wave."""
-    longest = 2.0 * np.pi / max(contact.grid.lengths)
-    octaves = np.log2(4.0 * np.pi / contact.smallest_wavelength / longest)
+    longest = 2.0 * np.pi / max(heights.grid.lengths)
+    octaves = np.log2(4.0 * np.pi / heights.smallest_wavelength / longest)
     return np.asarray(longest * 2.0 ** (np.arange(int(np.ceil(octaves))) + 0.5))

@@ -230,7 +230,7 @@ def solve_rough_contact(
         heated = checks.positive("footprint", footprint, unit="m") / body.speed
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
     assert isinstance(rubber, Rubber)  # iterated conditions refuse layers
-    contact = solve_coupled_contact(whole, quick, rubber, effects, heated, goal)
+    contact = solve_coupled_contact(whole, quick, heights, rubber, effects, heated, goal)
     return replace(contact, conditions=conditions, status=_judged(contact, goal))
 
 

@@ -203,15 +203,6 @@ def test_parts_add_up_and_have_their_freedom() -> None:
     assert squares[399.0] == pytest.approx(error.variance["other"])
 
 
-def test_derivatives_give_the_error_of_samples(folder: Path) -> None:
-    """A cut-off within a few per cent is a small change: 40 samples know the error to a third."""
-    case, choice = read_case(folder / "case.toml"), only(cut_off="0.98 mm:1.02 mm")
-    data = propagate(case, choice, samples=40)
-    carried = float(first_order(case, choice).friction_error.sel(source="cut_off"))
-    sampled = sigma(data, "friction", SOURCES["cut_off"].label)
-    assert sampled == pytest.approx(carried, rel=1.0 / 3.0)
-
-
 def test_a_range_of_the_chain_alone_has_no_derivative(folder: Path) -> None:
     """It asks for both models; derivatives are those of the direct contact."""
     case = read_case(folder / "case.toml")

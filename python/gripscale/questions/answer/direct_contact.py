@@ -7,7 +7,6 @@ The direct contact of each profile is a sample of the road, solved to an estimat
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import xarray as xr
@@ -20,13 +19,12 @@ from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import trace_variables
-from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
+from gripscale.half_space.model import JUDGED_TO, TREAD_CHANGES, DirectContact, resolved_wavelength
 from gripscale.half_space.result import TRAPPED_WATER
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.estimate import (
     DIRECT,
-    ESTIMATED,
     Factor,
     LogNormalValue,
     SampledErrors,
@@ -63,7 +61,7 @@ def direct_contact_design(
     if not profiles:
         return None
     direct = DirectContact(
-        tolerance=tolerance, conditions=case.conditions, traces=traces, errors=True
+        tolerance=tolerance, conditions=case.conditions, traces=traces, alternatives=True
     )
     points = [
         Point((at,), f"{label}{name}", Task(case.rubber, surface, load, direct))
@@ -91,27 +89,19 @@ def solve_direct_contact(case: Case) -> xr.Dataset | None:
 
 # Attribute of an answer: that profiles across each other showed no ridges.
 ISOTROPIC = "isotropic_road"
-TREAD = 8e-3  # thickness of a new tread [m]
-FELT = 1.75  # wavelength over thickness up to which a layer is as soft as a half-space, within 5 %
 
 
-def tread_findings(case: Case, samples: xr.Dataset, totals: xr.Dataset) -> list[Finding]:
+def tread_findings(samples: xr.Dataset, totals: xr.Dataset) -> list[Finding]:
     """Return what a tread of 8 mm changes in an answer for rubber without end.
 
     Nothing for a stated thickness, for waves that do not feel the base, or if the changes are
-    within the sampling error of the answer or that of its grids. The thin rubber is solved on its
-    first full grid: on the shipped road that is right to 2 %.
+    within the sampling error of the answer or that of its grids.
     """
-    felt = float(case.surface.sines.wavelength[0]) > FELT * TREAD
-    if case.load.thickness is not None or not felt or not has_answer(totals):
+    if not {*TREAD_CHANGES} <= {*samples.data_vars} or not has_answer(totals):
         return []
-    design = direct_contact_design(case, replace(case.load, thickness=TREAD), tolerance=None)
-    assert design is not None
-    thin = solve_design(design, Bench(None), reduce.sample_numbers)
     changes, counting = {}, False
     for name in estimated_names(totals):
-        means = [reduce.mean(part, ESTIMATED[name]) for part in (thin, samples)]
-        changes[name] = float(means[0] / means[1]) - 1.0
+        changes[name] = math.expm1(float(samples[f"{name}_of_tread"].mean()))
         sampling = float(totals[f"answer_{name}_sampling_error"])
         counting |= abs(changes[name]) > max(JUDGED_TO, 0.0 if math.isnan(sampling) else sampling)
     if not counting or not all(map(math.isfinite, changes.values())):

@@ -84,7 +84,9 @@ class ComparisonSetup(Described):
     @property
     def direct(self) -> DirectContact:
         """The direct contact."""
-        return DirectContact(tolerance=self.tolerance, conditions=self.conditions, errors=True)
+        return DirectContact(
+            tolerance=self.tolerance, conditions=self.conditions, alternatives=True
+        )
 
 
 class SampleSpec(NamedTuple):
