@@ -6,9 +6,11 @@
 
 Contact and hysteresis are the answers for lines with the spectrum of the road
 (`studies.measured_road`), 3 bar, 20 C, waves to 60 um, with the heat of the hysteresis and of the
-interface by the law as it stands: another run has that of the last. S100, S120 and S140 have their
-strain sweeps, R20 and R40 the typical tread. The law is a bell, ln tau = ln tau_0 - c log10(v/v_0)^2, by
-least squares, every compound with an offset of its own.
+interface by the stress that the last run has: solve twice after a change. S100, S120 and S140 have
+their strain sweeps, R20 and R40 the typical tread. The law is a bell by least squares, every
+compound with an offset of its own:
+
+    ln tau = ln tau_0 - c log10(v/v_0)^2
 
 The scatter is that of a further compound (offsets) and of its single points about its curve, with
 Student's t for few compounds. Four minutes on two free cores; the points are kept in
@@ -28,7 +30,7 @@ import numpy as np
 from scipy import stats
 
 import gripscale as gs
-from gripscale.conditions import Conditions
+from gripscale.conditions import Conditions, TableStress
 from gripscale.core import Array
 from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.typical_tread import TYPICAL_TREAD
@@ -81,15 +83,17 @@ def solved(name: str) -> Points:
     if name in SERIES_S:
         law = softening_of_sweeps(list(sweeps(name).values()), measured_at=1e-3)
     speed, measured = dry_friction(name)
+    stress = points()[name].stress
     case = gs.Case(
         list(road_lines()),
         compound(name),
         pressure=PRESSURE,
         speed=float(speed[0]),
         smallest_wavelength=CUT_OFF,
-        conditions=Conditions(softening=law),
+        conditions=Conditions(
+            softening=law, shear_stress=TableStress(speed.tolist(), stress.tolist())
+        ),
         filled=True,
-        interface="dry",  # its heat
     )
     data = gs.vary(case, speed=speed.tolist()).to_dataset()
     area, friction = (data[f"answer_{n}"].values for n in ("contact_fraction", "friction"))
