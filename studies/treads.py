@@ -80,16 +80,14 @@ def measured_moduli(name: str, temperature: float = 293.15) -> MeasuredModuli:
 def sweeps(name: str) -> dict[float, StrainSweep]:
     """Return the sweeps of a compound of the S series by their rounded temperature [C].
 
-    The strain is taken as tension; whether it is shear is not stated.
+    Whether the strain is of tension or of shear is not stated.
     """
     rows = table(f"{name}_strain_sweeps")
     if name == "S120":
         rows = np.delete(rows, 1, axis=0)  # a row of another sweep
     celsius = np.round(rows[:, 0], -1)
     return {
-        at: StrainSweep(
-            1e-2 * of[:, 2], of[:, 3], of[:, 4], "tension", at + ZERO_CELSIUS, 1.0, name
-        )
+        at: StrainSweep(1e-2 * of[:, 2], of[:, 3], of[:, 4], None, at + ZERO_CELSIUS, 1.0, name)
         for at in np.unique(celsius).tolist()
         for of in [rows[celsius == at]]
     }
@@ -101,9 +99,11 @@ def dry_friction(name: str) -> tuple[Array, Array]:
     return speed / (S_SPEEDS_OVER_R if name in SERIES_S else 1.0), friction
 
 
-def road_spectrum() -> ArealSpectrum:
-    """Return the spectrum of the road, down to where the publisher ends it."""
+def road_spectrum(*, whole: bool = False) -> ArealSpectrum:
+    """Return the spectrum of the road, down to where the publisher ends it or the whole of it."""
     wavenumber, density = table("road_spectrum").T
-    whole = ArealSpectrum(wavenumber, density)
+    measured = ArealSpectrum(wavenumber, density)
+    if whole:
+        return measured
     ended = np.append(wavenumber[wavenumber < LAST_WAVENUMBER], LAST_WAVENUMBER)
-    return ArealSpectrum(ended, whole.at(ended))
+    return ArealSpectrum(ended, measured.at(ended))

@@ -13,7 +13,7 @@ from gripscale import conditions as interface
 from gripscale import half_space as rough
 from gripscale import questions as measured
 from gripscale import rubber, surface, theory, wave
-from gripscale.conditions import Conditions
+from gripscale.conditions import Conditions, dry_road
 from gripscale.experiment import MeasuredFriction
 from gripscale.model import Load
 from gripscale.questions import fit_area_term
@@ -159,6 +159,8 @@ def _conditions() -> Iterator[Door]:
     yield Door(
         interface.GaussianStress(**bell, **warm).stress, {"speed": 0.1, "temperature": 300.0}
     )
+    yield Door(dry_road.DryTread, {"deviation": 0.5})
+    yield Door(dry_road.DryTread().stress, {"speed": 0.1})
     step = {"stress_0": 1e6, "ratio": 10.0, "critical_speed": 0.1, "exponent": 0.5}
     yield Door(interface.LeGalKlueppelStress, step)
     yield Door(interface.TableStress, {"speed": [0.1, 1.0], "stress_at": [1e6, 2e6]})

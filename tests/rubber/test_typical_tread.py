@@ -30,25 +30,31 @@ def test_both_factors_move_together():
 
 
 def test_the_law_is_the_table_at_its_points_and_between_temperatures():
-    at_points = TYPICAL_TREAD.factors(tread.STRAIN, 323.15)
+    law = TypicalTread(deformation="tension")
+    at_points = law.factors(tread.STRAIN, 323.15)
     assert at_points.storage == pytest.approx(tread.MEAN_STORAGE[1])
     assert at_points.loss == pytest.approx(tread.MEAN_LOSS[1])
     assert not at_points.outside.any()
-    middle = TYPICAL_TREAD.factors(0.1)  # 25 C without a temperature
+    middle = law.factors(0.1)  # 25 C without a temperature
     assert float(middle.storage) == pytest.approx((0.278 + 0.434) / 2)
-    assert TYPICAL_TREAD.factors(0.3, 293.15).outside
-    assert TYPICAL_TREAD.factors(0.1, 353.15).outside
-    assert float(TYPICAL_TREAD.factors(1e-4, 293.15).storage) == 1.0
+    assert law.factors(0.3, 293.15).outside
+    assert law.factors(0.1, 353.15).outside
+    assert float(law.factors(1e-4, 293.15).storage) == 1.0
 
 
 def test_a_deviation_is_the_scatter():
     mean, hard, soft = (
-        law.factors(0.05, 303.15) for law in (TYPICAL_TREAD, HARDER_TREAD, SOFTER_TREAD)
+        TypicalTread(deviation, "tension").factors(0.05, 303.15) for deviation in (0.0, 1.0, -1.0)
     )
     for name, scatter in (("storage", 0.226), ("loss", 0.307)):
         middle = getattr(mean, name)
         assert np.log(getattr(hard, name) / middle) == pytest.approx(scatter)
         assert np.log(getattr(soft, name) / middle) == pytest.approx(-scatter)
+
+
+def test_the_named_laws_do_not_state_the_kind_of_strain():
+    assert [law.deviation for law in (SOFTER_TREAD, TYPICAL_TREAD, HARDER_TREAD)] == [-1, 0, 1]
+    assert all(law.deformation is None for law in (SOFTER_TREAD, TYPICAL_TREAD, HARDER_TREAD))
 
 
 @pytest.mark.parametrize("name", SERIES_S)
@@ -68,6 +74,6 @@ def test_a_result_stores_it_by_its_name():
     assert HARDER_TREAD.to_dict() == {
         "kind": "typical_tread",
         "deviation": 1.0,
-        "deformation": "tension",
+        "deformation": None,
     }
     assert softening_from_dict(HARDER_TREAD.to_dict()) == HARDER_TREAD
