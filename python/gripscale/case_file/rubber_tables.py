@@ -176,7 +176,7 @@ class ConditionsTable(CaseTable):
     softening: Annotated[InstanceOf[Kraus] | StrainSweeps, by_kind(SOFTENING)] | None = None
     """Softening by strain."""
     strain_norm: Literal["slope", "stretch"] | None = None
-    """Half the rms slope in the contact (the default), or the largest stretch less one."""
+    """Of a wave: by the rms slope in its contact (the default), or the largest stretch less one."""
     heat: Annotated[InstanceOf[ThermalProperties], stated_law(ThermalProperties)] | None = None
     """The rubber warms by its own friction."""
     shear_stress: Annotated[InstanceOf[InterfacialShearStress], by_kind(SHEAR_STRESSES)] | None = (
