@@ -15,8 +15,8 @@ import numpy as np
 import scipy.fft
 
 import gripscale as gs
-from gripscale.conditions.strain_rule import DEPTH_FACTOR
 from gripscale.conditions import Conditions
+from gripscale.conditions.strain_rule import DEPTH_FACTOR
 from gripscale.core import Array, ComplexArray, checked
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
@@ -25,7 +25,7 @@ from gripscale.surface import Profile
 from gripscale.theory import layers as theory
 from gripscale.theory.layers import Layers
 from studies.strain_rule.lines import LENGTH, WAVES, line, rms_slope
-from studies.strain_rule.static import AT, DATA, MEASURED_AT, MODULUS, pressures, sweep
+from studies.strain_rule.static import AT, MEASURED_AT, MODULUS, SWEEPS_AT, pressures, sweep
 
 GROWTH, THINNEST, DEEPEST = 1.4, 1.0 / 16.0, 1.0
 """Ratio of heights of layers, the first over the smallest wave, and all over the period."""
@@ -53,7 +53,12 @@ def heights_of_layers(length: float, smallest: float) -> Array:
 
 
 def strain_of_layers(
-    contact: RoughContact, moduli: list[ComplexArray], bulk: float, thickness: Array, *, passing: bool
+    contact: RoughContact,
+    moduli: list[ComplexArray],
+    bulk: float,
+    thickness: Array,
+    *,
+    passing: bool,
 ) -> Array:
     """Return the amplitude of the uniaxial strain in each layer [-], shape (layers,)."""
     grid = contact.grid
@@ -151,7 +156,7 @@ def solve_layers(
 
 def sweep_law(name: str) -> SofteningLaw:
     """Return f and g of a sweep as measured."""
-    path = DATA / f"{name}_strain_sweeps.csv"
+    path = SWEEPS_AT / f"{name}_strain_sweeps.csv"
     rows = np.genfromtxt(path, delimiter=",", skip_header=1)
     rows = rows[np.abs(rows[:, 0] - AT) < 2.0]
     strain, storage, loss = rows[:, 2] / 100.0, rows[:, 3], rows[:, 4]

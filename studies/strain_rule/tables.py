@@ -64,8 +64,12 @@ def table(families: Mapping[str, Array]) -> Iterator[str]:
     """Yield a line for each family: cases, mean and scatter; then all, and the coverage."""
     shares = covered(families)
     for (family, errors), share in zip(families.items(), shares, strict=True):
-        yield f"| {family} | {errors.size} | {errors.mean():+.3f} | {rms(errors):.3f} | {share:.0%} |"
+        yield _line(family, errors, share)
     whole = np.concatenate(list(families.values()))
     sizes = np.array([errors.size for errors in families.values()])
     share = float(shares @ sizes / sizes.sum())
-    yield f"| all | {whole.size} | {whole.mean():+.3f} | {rms(whole):.3f} | {share:.0%} |"
+    yield _line("all", whole, share)
+
+
+def _line(name: str, errors: Array, share: float) -> str:
+    return f"| {name} | {errors.size} | {errors.mean():+.3f} | {rms(errors):.3f} | {share:.0%} |"

@@ -60,14 +60,18 @@ def test_the_secant_modulus_of_shear_is_that_of_the_sweep() -> None:
     shear = np.geomspace(0.02, 1.0, 9)
     factors = law.factors(shear / np.sqrt(3.0)).storage
     assert Kraus(0.15, 0.08, 0.002).shear_factor(shear) == pytest.approx(factors, rel=2e-3)
-    with pytest.raises(InputError, match="linear in its parameters.*got kraus"):
+    with pytest.raises(InputError, match="linear in its parameters"):
         Kraus.basis(np.ones(3))
 
 
 @pytest.mark.parametrize(
     ("kind", "parameters", "says"),
     [
-        ("ogden", {}, "kind must be one of neo_hookean, mooney_rivlin, yeoh, isihara, kraus; got 'ogden'"),
+        (
+            "ogden",
+            {},
+            "kind must be one of neo_hookean, mooney_rivlin, yeoh, isihara, kraus; got 'ogden'",
+        ),
         (
             "yeoh",
             {"second": 0.1},

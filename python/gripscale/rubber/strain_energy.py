@@ -175,9 +175,9 @@ class Isihara(StrainEnergy):
 class Kraus(StrainEnergy):
     """Softening of filled rubber: the secant modulus of shear s is that of a strain sweep.
 
-    w1 = w(s)/w(0), w = r + (1 - r)/(1 + sqrt(s^2 + a^2)/c), s^2 = I1 - 3. Source: G. Kraus, J. Appl.
-    Polym. Sci.: Appl. Polym. Symp. 39 (1984) 75, with its exponent 1/2. Not linear in r and c, it
-    cannot be fitted to uniaxial tests.
+    w1 = w(s)/w(0), w = r + (1 - r)/(1 + sqrt(s^2 + a^2)/c), s^2 = I1 - 3. Source: G. Kraus, J.
+    Appl. Polym. Sci.: Appl. Polym. Symp. 39 (1984) 75, with its exponent 1/2. Not linear in r and
+    c, it cannot be fitted to uniaxial tests.
     """
 
     ratio: float = checked(checks.share)
