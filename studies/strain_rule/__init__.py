@@ -1,1 +1,1 @@
-"""Which strain softens the rubber on a scale: the rule of the half-space against blocks of rubber."""
+"""Which strain softens the rubber on a scale: the half-space against blocks of rubber."""

@@ -1,11 +1,10 @@
-"""A block of layers that slides, each softened by the strain that passes it, against the rule.
+"""A block of layers that slides, each softened by its strain, against the half-space with the rule.
 
-In steady sliding every point at one depth meets the same strains, and a filler network that breaks
-does not heal within a passage: what softens is a matter of depth alone. The block is a stack of
-layers, thin at the surface, each with E'(w) times f and E''(w) times g of its amplitude, iterated
-with the contact. The amplitude of a layer is the rms of the equivalent strain, weighted by its
-energy: that of a harmonic in full contact, whose equivalent strain is uniform along the layer, and
-between half the largest and the largest for a few contacts.
+The block is a stack of layers, thin at the surface, each with E'(w) times f and E''(w) times g of
+its amplitude, iterated with the contact. The amplitude of a layer is the mean of the equivalent
+strain in it under the contact, as blocks at rest have it whose modulus follows the local strain
+(`static`). A filler network that does not heal between two contacts has more: the "passing"
+amplitude is the rms along the layer, weighted by the energy.
 """
 
 from __future__ import annotations
@@ -16,18 +15,22 @@ import numpy as np
 import scipy.fft
 
 import gripscale as gs
+from gripscale.conditions import Conditions
+from gripscale.conditions.strain_rule import DEPTH_FACTOR
 from gripscale.core import Array, ComplexArray, checked
-from gripscale.half_space.grid import Grid
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
-from gripscale.rubber.softening import SofteningLaw
+from gripscale.rubber.softening import SofteningLaw, SofteningTable
 from gripscale.surface import Profile
 from gripscale.theory import layers as theory
 from gripscale.theory.layers import Layers
+from studies.strain_rule.lines import LENGTH, WAVES, line, rms_slope
+from studies.strain_rule.static import AT, MEASURED_AT, MODULUS, SWEEPS_AT, pressures, sweep
 
 GROWTH, THINNEST, DEEPEST = 1.4, 1.0 / 16.0, 1.0
 """Ratio of heights of layers, the first over the smallest wave, and all over the period."""
 PASSES, CLOSE = 14, 0.01
+SPEED = 0.3  # [m/s]
 
 
 class Softened(Rubber, eq=False):
@@ -50,11 +53,17 @@ def heights_of_layers(length: float, smallest: float) -> Array:
 
 
 def strain_of_layers(
-    grid: Grid, pressure: Array, moduli: list[ComplexArray], bulk: float, thickness: Array
+    contact: RoughContact,
+    moduli: list[ComplexArray],
+    bulk: float,
+    thickness: Array,
+    *,
+    passing: bool,
 ) -> Array:
     """Return the amplitude of the uniaxial strain in each layer [-], shape (layers,)."""
+    grid = contact.grid
     q = grid.wavenumber[1:]
-    spectrum = scipy.fft.rfft(pressure)[1:]
+    spectrum = scipy.fft.rfft(contact.pressure)[1:]
     lower: ComplexArray | None = None
     follows = []
     for modulus, height in zip(moduli[::-1], thickness[::-1], strict=True):
@@ -83,7 +92,10 @@ def strain_of_layers(
         for part in (along, shear):
             values = np.append(0.0, part * spectrum)
             square += 4.0 / 3.0 * scipy.fft.irfft(values, grid.points) ** 2
-        out.append(np.sqrt(np.mean(square**2) / max(float(np.mean(square)), 1e-300)))
+        if passing:
+            out.append(np.sqrt(np.mean(square**2) / max(float(np.mean(square)), 1e-300)))
+        else:
+            out.append(DEPTH_FACTOR * np.sqrt(square)[contact.active].mean())
         displacement = below
     return np.array(out)
 
@@ -106,6 +118,7 @@ def solve_layers(
     pressure: float,
     speed: float,
     smallest: float,
+    passing: bool = False,
 ) -> LayeredContact:
     """Return the contact of the block whose layers are softened by the strain that passes them."""
     length = len(line) * line.step
@@ -129,9 +142,8 @@ def solve_layers(
             periodic=True,
             start=contact,
         )
-        grid = contact.grid
-        moduli = [solid.complex_modulus(speed * grid.along) for solid in solids]
-        new = strain_of_layers(grid, contact.pressure, moduli, rubber.bulk_modulus, thickness)
+        moduli = [solid.complex_modulus(speed * contact.grid.along) for solid in solids]
+        new = strain_of_layers(contact, moduli, rubber.bulk_modulus, thickness, passing=passing)
         step = np.log(np.maximum(new, 1e-6)) - np.log(strain)
         deep = strain > 0.05 * strain.max()
         change = float(np.abs(step[deep]).max())
@@ -140,3 +152,41 @@ def solve_layers(
             break
     assert contact is not None
     return LayeredContact(contact, strain, thickness, change)
+
+
+def sweep_law(name: str) -> SofteningLaw:
+    """Return f and g of a sweep as measured."""
+    path = SWEEPS_AT / f"{name}_strain_sweeps.csv"
+    rows = np.genfromtxt(path, delimiter=",", skip_header=1)
+    rows = rows[np.abs(rows[:, 0] - AT) < 2.0]
+    strain, storage, loss = rows[:, 2] / 100.0, rows[:, 3], rows[:, 4]
+    return SofteningTable([strain], [storage], [loss], MEASURED_AT, "tension")
+
+
+def solve(family: str, number: int, name: str, rubber: Rubber) -> list[dict[str, float | str]]:
+    """Return one row for each load of a line and sweep, at `SPEED`."""
+    whole, law, smallest = line(family, number), sweep_law(name), LENGTH / WAVES
+    stiffness = abs(complex(rubber.complex_modulus(2.0 * np.pi * SPEED / (4.0 * smallest))))
+    rows = []
+    for load in pressures(whole.z, sweep(name)):
+        at = {"pressure": load * stiffness / MODULUS, "speed": SPEED}
+        rule = gs.solve_rough_contact(
+            rubber, whole, periodic=True, conditions=Conditions(softening=law), **at
+        )
+        hard = gs.solve_rough_contact(rubber, whole, periodic=True, **at)
+        layers = solve_layers(rubber, whole, law, smallest=smallest, **at)
+        passing = solve_layers(rubber, whole, law, smallest=smallest, passing=True, **at)
+        row: dict[str, float | str] = {"family": family, "line": number, "sweep": name}
+        row |= {"slope": rms_slope(whole.z), **at, "change": layers.change}
+        row |= {"status": str(rule.status)}
+        solved = {
+            "rule": rule,
+            "hard": hard,
+            "layers": layers.contact,
+            "passing": passing.contact,
+        }
+        for key, contact in solved.items():
+            row[f"{key} area"] = contact.contact_fraction
+            row[f"{key} friction"] = contact.friction_from_dissipation
+        rows.append(row)
+    return rows

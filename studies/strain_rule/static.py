@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
@@ -26,9 +25,10 @@ from gripscale.rubber.softening import UNIAXIAL_OF_SHEAR
 from gripscale.rubber.softening import Kraus as KrausLaw
 from gripscale.rubber.strain_energy import Kraus as KrausEnergy
 from gripscale.surface import Profile
+from studies.shipped import DATA
 from studies.strain_rule.lines import line, rms_slope
 
-DATA = Path("/work/shared/data/friction")
+SWEEPS_AT = DATA / "friction"
 SWEEPS = ("S100", "S120", "S140")
 AT = 30.0  # temperature of the sweeps [C]
 MEASURED_AT = 1e-3
@@ -60,7 +60,7 @@ class Sweep:
 @cache
 def sweep(name: str) -> Sweep:
     """Return the law through the storage moduli of a sweep above `MEASURED_AT`."""
-    rows = np.genfromtxt(DATA / f"{name}_strain_sweeps.csv", delimiter=",", skip_header=1)
+    rows = np.genfromtxt(SWEEPS_AT / f"{name}_strain_sweeps.csv", delimiter=",", skip_header=1)
     rows = rows[(np.abs(rows[:, 0] - AT) < 2.0) & (rows[:, 2] > 0.09)]
     strain, storage = rows[:, 2] / 100.0, rows[:, 3]
 

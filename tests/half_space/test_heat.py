@@ -95,15 +95,23 @@ def test_the_temperature_of_one_harmonic_of_heat_is_the_closed_form():
     assert pattern == pytest.approx(exact, abs=1e-9 * np.abs(exact).max())
 
 
-def test_the_strain_of_a_scale_is_half_the_rms_slope_of_what_is_larger():
-    grid = Grid((512,), (512e-5,))
+def test_the_strain_of_a_scale_is_that_of_the_wave_at_its_depth():
+    """u cos(k x) strains an incompressible half-space by k^2 y exp(-k y) u along and in shear."""
+    number, u = 2.0 * np.pi * 4 / 512e-5, 1e-5
+    depth = 1.0 / np.array([0.5 * number, number, 4.0 * number])
+    amplitude = number**2 * depth * np.exp(-number * depth) * u
+    expected = 0.85 * np.sqrt(4.0 / 3.0) * amplitude
     x = np.arange(512) * 1e-5
-    large, small = 2.0 * np.pi * 4 / 512e-5, 2.0 * np.pi * 64 / 512e-5
-    height = 1e-5 * np.cos(large * x) + 1e-6 * np.sin(small * x)
-    everywhere = np.ones(512, dtype=bool)
-    found = strain_by_scale(grid, height, everywhere, np.array([0.5 * large, large, 2.0 * small]))
-    slopes = np.array([0.0, large * 1e-5, np.hypot(large * 1e-5, small * 1e-6)]) / np.sqrt(2.0)
-    assert found == pytest.approx(0.5 * slopes, rel=1e-9, abs=1e-15)
+    line, waves = Grid((512,), (512e-5,)), u * np.cos(number * x)
+    for active in (np.ones(512, dtype=bool), waves > 0.5 * u):
+        found = strain_by_scale(line, waves, active, 1.0 / depth)
+        assert found == pytest.approx(expected, rel=1e-9)
+    # the same wavenumber across a map: 5 waves, of which 3 along x and 4 along y
+    five = 2.0 * np.pi / 512e-5 * np.arange(64) * 8e-5
+    grid, oblique = Grid((64, 64), (512e-5,) * 2), u * np.cos(3.0 * five[:, None] + 4.0 * five)
+    scale = 5.0 / 4.0 / depth
+    found = strain_by_scale(grid, oblique, oblique > 0.5 * u, scale)
+    assert found == pytest.approx(5.0 / 4.0 * expected, rel=1e-9)
 
 
 def test_grooves_along_the_way_of_sliding_warm_only_as_long_as_the_contact_lasts():

@@ -9,6 +9,7 @@ from gripscale.core.errors import InputError
 from gripscale.rubber import (
     STRAIN_ENERGIES,
     Isihara,
+    Kraus,
     MooneyRivlin,
     NeoHookean,
     Rubber,
@@ -16,8 +17,10 @@ from gripscale.rubber import (
     Yeoh,
     strain_energy,
 )
+from gripscale.rubber.softening import Kraus as SofteningLaw
 
-LAWS = [NeoHookean(), MooneyRivlin(0.3), Yeoh(-0.06, 0.005), Isihara(0.2, -0.03)]
+LINEAR = [NeoHookean(), MooneyRivlin(0.3), Yeoh(-0.06, 0.005), Isihara(0.2, -0.03)]
+LAWS = [*LINEAR, Kraus(0.15, 0.08, 0.002)]
 
 
 def test_every_kind_is_tried_here() -> None:
@@ -36,7 +39,7 @@ def test_the_shear_modulus_at_small_strain_is_one(law: StrainEnergy) -> None:
     assert law.shear_factor([-1e-9, 0.0, 1e-9]) == pytest.approx([1] * 3, abs=1e-14)
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", LINEAR)
 def test_coefficients_give_the_law_and_its_stress(law: StrainEnergy) -> None:
     """G times the factor is the sum of c_k times the basis, whatever c_k is; sums of three."""
     stretch = np.linspace(0.5, 3.0, 26)
@@ -51,10 +54,24 @@ def test_coefficients_give_the_law_and_its_stress(law: StrainEnergy) -> None:
     assert (found >= type(law).least_coefficients).all()
 
 
+def test_the_secant_modulus_of_shear_is_that_of_the_sweep() -> None:
+    """Kraus' closed form with the exponent 1/2, from the measured strain on; below it a third."""
+    law = SofteningLaw(0.15, 0.1, 0.08, measured_at=0.002, deformation="shear")
+    shear = np.geomspace(0.02, 1.0, 9)
+    factors = law.factors(shear / np.sqrt(3.0)).storage
+    assert Kraus(0.15, 0.08, 0.002).shear_factor(shear) == pytest.approx(factors, rel=2e-3)
+    with pytest.raises(InputError, match="linear in its parameters"):
+        Kraus.basis(np.ones(3))
+
+
 @pytest.mark.parametrize(
     ("kind", "parameters", "says"),
     [
-        ("ogden", {}, "kind must be one of neo_hookean, mooney_rivlin, yeoh, isihara; got 'ogden'"),
+        (
+            "ogden",
+            {},
+            "kind must be one of neo_hookean, mooney_rivlin, yeoh, isihara, kraus; got 'ogden'",
+        ),
         (
             "yeoh",
             {"second": 0.1},

@@ -200,7 +200,7 @@ class ConditionsTable(CaseTable):
     softening: Annotated[_Softening | Literal["none"], by_kind(SOFTENING, off=OFF)] | None = None
     """Softening by strain; that of a typical tread for filled rubber by default, or "none"."""
     strain_norm: Literal["slope", "stretch"] | None = None
-    """Half the rms slope in the contact (the default), or the largest stretch less one."""
+    """Of a wave: by the rms slope in its contact (the default), or the largest stretch less one."""
     heat: (
         Annotated[
             InstanceOf[ThermalProperties] | Literal["none"], stated_law(ThermalProperties, off=OFF)

@@ -16,7 +16,9 @@ from __future__ import annotations
 
 DEPTH_FACTOR = 0.85
 """Strain of a scale over the mean strain at its depth under the contact [-]."""
+LOG_AREA, LOG_FRICTION = 0.10, 0.05
+"""Scatter of ln area and ln friction of a direct contact, the filler healing or not [-]."""
 SLOPE_FACTOR = 0.4
 """Strain of a wave of a chain over the rms slope in its contact [-]."""
-AREA_SCATTER, FRICTION_SCATTER = 0.08, 0.08
-"""Standard deviations of ln area and ln friction about the block [-]."""
+LOG_AREA_BY_SLOPE = 0.11
+"""Scatter of ln area with `SLOPE_FACTOR`, of a line at rest [-]."""

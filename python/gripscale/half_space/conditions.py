@@ -51,10 +51,10 @@ def strain_by_scale(grid: Grid, displacement: Array, active: Mask, wavenumber: A
     """
     number = np.where(grid.wavenumber > 0.0, grid.wavenumber, 1.0)
     spectrum = scipy.fft.rfftn(displacement) * grid.wavenumber
-    n = grid.directions
+    along, across = grid.direction
     # components of the strain over that into the rubber, and how often each counts in e:e
-    parts = [(np.ones(1), 1.0), *((1j * along, 2.0) for along in n)]
-    parts += [(n[i] * n[j], 1.0) for i in range(len(n)) for j in range(len(n))]
+    parts = [(np.ones(1), 1.5), (1j * along, 2.0), (1j * across, 2.0)]
+    parts += [(along**2 - across**2, 0.5), (2.0 * along * across, 0.5)]
     out = []
     for scale in wavenumber:
         depth = number / scale

@@ -69,10 +69,11 @@ class Grid:
         return np.hypot(self.along, self._numbers(1))
 
     @property
-    def directions(self) -> list[Array]:
-        """Components of q/|q| along x and, for a map, y [-], broadcastable to a spectrum."""
+    def direction(self) -> tuple[Array, Array]:
+        """Components of q/|q| along x and y [-], broadcastable to a spectrum."""
         number = np.where(self.wavenumber > 0.0, self.wavenumber, 1.0)
-        return [self._numbers(axis) / number for axis in range(len(self.shape))]
+        across = self._numbers(1) if len(self.shape) > 1 else np.zeros(1)
+        return self.along / number, across / number
 
     @property
     def own_opposite(self) -> Mask:

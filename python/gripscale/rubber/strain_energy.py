@@ -19,7 +19,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import Array, Checked, checked, checks
+from gripscale.core import Array, Checked, InputError, checked, checks
 
 
 class StrainEnergy(Checked, ABC):
@@ -175,9 +175,9 @@ class Isihara(StrainEnergy):
 class Kraus(StrainEnergy):
     """Softening of filled rubber: the secant modulus of shear s is that of a strain sweep.
 
-    w1 = w(s)/w(0), w = r + (1 - r)/(1 + sqrt(s^2 + a^2)/c), s^2 = I1 - 3. Source: G. Kraus, J. Appl.
-    Polym. Sci.: Appl. Polym. Symp. 39 (1984) 75, with its exponent 1/2. Not linear in r and c, it
-    cannot be fitted to uniaxial tests.
+    w1 = w(s)/w(0), w = r + (1 - r)/(1 + sqrt(s^2 + a^2)/c), s^2 = I1 - 3. Source: G. Kraus, J.
+    Appl. Polym. Sci.: Appl. Polym. Symp. 39 (1984) 75, with its exponent 1/2. Not linear in r and
+    c, it cannot be fitted to uniaxial tests.
     """
 
     ratio: float = checked(checks.share)
@@ -188,16 +188,20 @@ class Kraus(StrainEnergy):
     """Shear strain a below which little softens: that of the measured moduli [-]."""
 
     kind: ClassVar[str] = "kraus"
-    least_coefficients: ClassVar[tuple[float, ...]] = (0.0,)
+    least_coefficients: ClassVar[tuple[float, ...]] = ()
 
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 at I1 - 3, and w2 = 0."""
-        kept = [
-            self.ratio
-            + (1.0 - self.ratio) / (1.0 + np.sqrt(i + self.measured_at**2) / self.critical)
-            for i in (np.maximum(first, 0.0), 0.0)
-        ]
-        return np.asarray(kept[0] / kept[1]), np.zeros_like(second)
+        strains = (np.sqrt(i + self.measured_at**2) for i in (np.maximum(first, 0.0), 0.0))
+        soft, rest = (self.ratio + (1.0 - self.ratio) / (1.0 + s / self.critical) for s in strains)
+        return np.asarray(soft / rest), np.zeros_like(second)
+
+    @classmethod
+    def basis(cls, stretch: Array) -> list[Array]:
+        """Refuse a fit, by `InputError`."""
+        raise InputError(
+            "energy must be linear in its parameters to be fitted to uniaxial tests; got kraus"
+        )
 
 
 STRAIN_ENERGIES: dict[str, type[StrainEnergy]] = {

@@ -1,7 +1,7 @@
 //! Strain energies: derivatives against finite differences of W, written-out forms, refusals.
 
 use crate::material::energy::{
-    Energy, Invariants, MooneyRivlin, NeoHookean, Parameters, StrainEnergy, Yeoh,
+    Energy, Invariants, Kraus, MooneyRivlin, NeoHookean, Parameters, StrainEnergy, Yeoh,
 };
 use crate::material::kinematics::{contract, isochoric};
 use crate::material::stress::{memory_slope, stress, tangent};
@@ -72,6 +72,8 @@ fn derivatives_by_the_invariants_are_those_of_the_density() {
     check_invariant_slopes(&MooneyRivlin::new(&values(&[("share", 0.4)])).unwrap());
     let yeoh = values(&[("second", -0.2), ("third", 0.05)]);
     check_invariant_slopes(&Yeoh::new(&yeoh).unwrap());
+    let kraus = values(&[("ratio", 0.2), ("critical", 0.1), ("measured_at", 0.01)]);
+    check_invariant_slopes(&Kraus::new(&kraus).unwrap());
 }
 
 /// All have the same shear modulus at small strain: 2 (W_1 + W_2) = 1, and W = 0 at rest.
@@ -129,6 +131,20 @@ fn plane_strain_stretch_follows_the_closed_forms() {
     assert!((yeoh - factor * neo_hookean).abs() < 1e-14);
 }
 
+/// Half of what breaks is broken at the critical shear: nominal stress G s (r + (1 - r)/2), for `measured_at`
+/// far below.
+#[test]
+fn kraus_keeps_half_at_the_critical_strain() {
+    let s = 0.3;
+    let f = [1.0, s, 0.0, 1.0];
+    let kraus = energy(
+        "kraus",
+        &[("ratio", 0.2), ("critical", s), ("measured_at", 1e-9)],
+    );
+    let shear = stress(&f, &kraus.network(&f), 0.0)[1];
+    assert!((shear / s - 0.6).abs() < 1e-8);
+}
+
 #[test]
 fn names_and_values_are_refused_in_words() {
     let refusal = |kind: &str, parameters: &[(&str, f64)]| {
@@ -138,7 +154,7 @@ fn names_and_values_are_refused_in_words() {
         (
             "ogden",
             &[][..],
-            "strain_energy must be one of neo_hookean, mooney_rivlin, yeoh, isihara; got \"ogden\"",
+            "strain_energy must be one of neo_hookean, mooney_rivlin, yeoh, isihara, kraus; got \"ogden\"",
         ),
         (
             "yeoh",

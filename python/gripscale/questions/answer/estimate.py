@@ -22,7 +22,7 @@ import xarray as xr
 
 from gripscale.conditions.conditions import Conditions
 from gripscale.conditions.dry_road import DRY_TREAD, STRESS_SCATTER
-from gripscale.conditions.strain_rule import AREA_SCATTER, FRICTION_SCATTER
+from gripscale.conditions.strain_rule import LOG_AREA, LOG_FRICTION
 from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
@@ -277,7 +277,7 @@ def _of_conditions(
     """Return factors of one with the errors of the strain rule and of what else is not known."""
     factors: dict[str, tuple[str, FactorNumbers]] = {}
     if conditions is not None and conditions.softening is not None:
-        values = LogNormalValue(1.0, AREA_SCATTER), LogNormalValue(1.0, FRICTION_SCATTER)
+        values = LogNormalValue(1.0, LOG_AREA), LogNormalValue(1.0, LOG_FRICTION)
         rule = Factor("strain_rule", "strain rule", *values)
         factors[rule.name] = rule.label, _numbers_of(rule, unknown)
     if "condition" not in direct.dims:
