@@ -55,6 +55,7 @@ from gripscale.surface.surface import SURFACE_KIND, SURFACE_KINDS, SurfaceKind
 from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
+SHEAR_STRESS = "shear_stress"  # attribute of a result: kind of the law of its area term
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
 # Arguments of `gripscale.clean` where a case states none.
 _CLEANED_AS_USUAL: dict[str, Any] = {
@@ -343,6 +344,8 @@ class Case(Described):
         """Attributes of every result: the case file and its units, the command, versions."""
         command = {"command": COMMAND.get()} if COMMAND.get() else {}
         command |= {TESTER: self.tester} if self.tester else {}
+        law = None if self.conditions is None else self.conditions.shear_stress
+        command |= {} if law is None else {SHEAR_STRESS: law.kind}
         command |= {SURFACE_KIND: self.kind} if self.kind != "surface" else {}
         text = {"case": self.origin.text, "case_file": self.origin.name, CASE_TITLE: self.title}
         units = {DISPLAY_UNITS: json.dumps(self.units)}

@@ -88,10 +88,7 @@ class Asked:
     @cached_property
     def expected(self) -> list[float]:
         """The numbers of `gs.answer`, by its documented attributes."""
-        friction = self.answer.total_friction
-        if np.isnan(friction):
-            friction = self.answer.friction
-        return [friction, self.answer.contact_fraction][-len(self.names) :]
+        return [self.answer.friction, self.answer.contact_fraction][-len(self.names) :]
 
     @property
     def shown(self) -> dict[str, str]:

@@ -24,6 +24,7 @@ from gripscale.app.elements import (
 from gripscale.case_file import CaseFile
 from gripscale.case_file.keys import NEEDED, NOTHING, TABLES, Key, KeySection, sections
 from gripscale.case_file.schema import KeyQuantity, table_of
+from gripscale.conditions.conditions import DEFAULTED, OFF
 from gripscale.core.units import UNITS, example_unit, number_and_unit
 
 BY_DEFAULT = "by default"
@@ -61,7 +62,10 @@ def law_form(state: CaseState, name: str) -> pn.Column:
     table = next(section for section in sections() if section.name == ".".join(path[:-1]))
     default = next(key.default for key in table.keys if key.name == path[-1])
     no_law = "none" if default == NOTHING else f"{BY_DEFAULT}: {default}"
-    labels = {no_law: None, **{kind or "as stated below": kind for kind in laws}}
+    labels: dict[str, str | None] = {no_law: None}
+    if path[-1] in DEFAULTED:  # a case has one where it states none
+        labels = {BY_DEFAULT: None, OFF: OFF}
+    labels |= {kind or "as stated below": kind for kind in laws}
     choice = pn.widgets.Select(
         label=path[-1].replace("_", " "),
         options=list(labels),
@@ -73,26 +77,26 @@ def law_form(state: CaseState, name: str) -> pn.Column:
 
     def kind_of_case() -> str | None:
         law = state.get(path)
-        kind = law.get("kind", "") if isinstance(law, dict) else None
-        return kind if kind in laws else None
+        kind = law.get("kind", "") if isinstance(law, dict) else law
+        return kind if kind in labels.values() else None
 
     def edit() -> None:
         if choice.value not in labels:
             return  # the law is a file, which the case already states
         kind = labels[choice.value]
-        if kind != kind_of_case() or isinstance(state.get(path), str):
+        if kind != kind_of_case() or (kind != OFF and isinstance(state.get(path), str)):
             empty = {} if single else {"kind": kind}
-            state.set(path, None if kind is None else empty)
+            state.set(path, kind if kind in (None, OFF) else empty)
 
     def follow() -> None:
         kind, law = kind_of_case(), state.get(path)
         label = next(label for label, labelled in labels.items() if labelled == kind)
-        file = [f"file {law}"] if isinstance(law, str) else []
+        file = [f"file {law}"] if isinstance(law, str) and law != OFF else []
         choice.param.update(options=[*labels, *file], value=[label, *file][-1])
         if kind != body_kind[0]:
             body_kind[0] = kind
             body.objects = []
-            if kind is not None:
+            if kind in laws:
                 keys = [key for key in laws[kind].keys if key.name != "kind"]
                 body.objects = [_rows([field(state, laws[kind], key) for key in keys])]
 

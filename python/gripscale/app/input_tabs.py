@@ -37,13 +37,13 @@ ROAD_FIELDS = (
     *("crop", "x_unit", "z_unit", "z_axis"),
 )
 RUBBER_FIELDS = (
-    *("name", "reference_temperature", "bulk_modulus", "thickness"),
+    *("filled", "name", "reference_temperature", "bulk_modulus", "thickness"),
     *("terms", "extrapolate", "source"),
 )
 # Tables of the case by name: their title and the fields at the top.
 LOAD_TABLES = {
     "load": ("Load", ("pressure", "speed", "footprint", "static", "load_time")),
-    "conditions": ("Conditions", ("temperature", "strain_norm")),
+    "conditions": ("Conditions", ("temperature", "interface", "strain_norm")),
     "solver": ("Solver of one wave", ("model", "points", "columns", "tolerance")),
     "chain": ("Chain of waves", ("pressure_classes",)),
 }

@@ -13,9 +13,11 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.conditions.conditions import Conditions, RubberByScale
+from gripscale.conditions.flash_temperature import STONE, ThermalProperties
 from gripscale.core import Array, Checked, InputError, Status, checked, checks, labelled, provenance
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.half_space.condition_errors import condition_errors, log_change
+from gripscale.half_space.conditions import warming_of
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
@@ -34,10 +36,13 @@ JUDGED_TO = 0.05  # estimated relative error of the contact that every run judge
 
 TREAD = 8e-3  # thickness of a new tread [m]
 FELT = 1.75  # wavelength over thickness up to which a layer is as soft as a half-space, within 5 %
-TREAD_CHANGES = {
-    "contact_fraction_of_tread": "change of ln contact fraction by a tread on a rigid base",
-    "friction_of_tread": "change of ln friction by a tread on a rigid base",
-}
+# Shift of measured treads between 20 and 40 C: what warming is worth where no shift was measured.
+DECADES_PER_KELVIN = 0.1
+WARMING = "warming_without_shift"
+# Names of the changes of an answer by a tread on a rigid base, and by warming without a shift.
+OTHER_CHANGES = tuple(
+    f"{name}_of_{which}" for which in ("tread", "heat") for name in ("contact_fraction", "friction")
+)
 # Names of standard errors over `condition`, of what is not known of the conditions.
 CONDITION_ERRORS = {
     "contact_fraction_condition_error": "standard error of ln contact fraction by a condition",
@@ -274,12 +279,23 @@ class DirectContact(Checked, model.Model):
             for (name, text), values in zip(CONDITION_ERRORS.items(), numbers, strict=True)
         }
         labels = np.array(list(errors), dtype=object)
+        others: dict[str, Load] = {}
         longest = 0.0 if surface.waves is None else float(surface.sines.wavelength[0])
         if load.thickness is None and longest > FELT * TREAD:
-            thin = solve(replace(load, thickness=TREAD), by_scale=contact.by_scale)
-            changes = log_change(contact, thin)
-            for (name, text), change in zip(TREAD_CHANGES.items(), changes, strict=True):
-                data[name] = labelled((), change, "1", text, "direct")
+            others["tread"] = replace(load, thickness=TREAD)
+        effects = self.conditions or Conditions()
+        cold = rubber.shift is None and "heat" not in effects.off and not effects.water
+        if cold and contact.friction_from_dissipation > 0.0:
+            effects = replace(effects, heat=ThermalProperties(), counterface=STONE)
+            rise = warming_of(contact, effects, load.footprint).where_lost
+            data[WARMING] = labelled((), rise, "K", "rise that a shift would count", "direct")
+            slower = load.speed * 10.0 ** (-DECADES_PER_KELVIN * rise)
+            others["heat"] = replace(load, speed=max(slower, 1e-9 * load.speed))
+        for which, other in others.items():
+            changes = log_change(contact, solve(other, by_scale=contact.by_scale))
+            for name, change in changes._asdict().items():
+                text = f"change of ln {name} by {which}"
+                data[f"{name}_of_{which}"] = labelled((), change, "1", text, "direct")
         return answer.assign_coords(condition=("condition", labels)).assign(data)
 
     def _answer(self, contacts: Sequence[RoughContact], surface: Surface, load: Load) -> xr.Dataset:

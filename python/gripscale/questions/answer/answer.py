@@ -10,9 +10,11 @@ lines to a surface (`gripscale.questions.answer.estimate`). `gripscale run` prin
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
@@ -28,6 +30,7 @@ from gripscale.questions.answer.findings import FINDINGS, case_notices, measured
 from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import (
     answer_number,
+    headline,
     headline_name,
     is_measured,
     no_answer,
@@ -41,33 +44,46 @@ from gripscale.report.elements import Page
 ANSWER_FILE = "answer.nc"  # name of the saved answer in a results folder
 
 
+# Names until the next version, with a warning.
+_OLD_NAMES = {
+    "adhesive_friction": "interface_friction",
+    "total_friction": "friction",
+    "total_friction_interval": "friction_interval",
+}
+
+
 class NumbersWithIntervals(Result):
     """Friction and contact area of a case with their intervals, whatever these hold."""
 
     @property
     def friction(self) -> float:
-        """Friction coefficient of the hysteresis [-]; NaN without an answer or at rest."""
-        return answer_number(self.data, "friction").value
+        """Friction coefficient [-] that `print` states; NaN without an answer or at rest.
+
+        That of the hysteresis, and of the interface where a case has one.
+        """
+        return headline(self.data, "friction").value
 
     @property
     def friction_interval(self) -> tuple[float, float]:
         """Both ends of the 90 % interval of the friction [-]; NaN where it is not known."""
-        return answer_number(self.data, "friction")[1:]
+        return headline(self.data, "friction")[1:]
 
     @property
-    def adhesive_friction(self) -> float:
-        """Friction coefficient of the area term [-], over `contact_fraction`; NaN without one."""
+    def hysteresis_friction(self) -> float:
+        """Its part by the hysteresis [-]."""
+        return answer_number(self.data, "friction").value
+
+    @property
+    def interface_friction(self) -> float:
+        """Its part by the interface, over `contact_fraction` [-]; NaN without one."""
         return answer_number(self.data, "adhesive_friction").value
 
-    @property
-    def total_friction(self) -> float:
-        """Sum of hysteresis and area term [-], which `print` shows; NaN without an area term."""
-        return answer_number(self.data, "total_friction").value
-
-    @property
-    def total_friction_interval(self) -> tuple[float, float]:
-        """Both ends of the 90 % interval of the total friction [-]; NaN where it is not known."""
-        return answer_number(self.data, "total_friction")[1:]
+    def __getattr__(self, name: str) -> Any:
+        if name not in _OLD_NAMES:
+            raise AttributeError(f"{type(self).__name__} has no attribute {name}")
+        new = _OLD_NAMES[name]
+        warnings.warn(f"{name} is called {new} now", DeprecationWarning, stacklevel=2)
+        return getattr(self, new)
 
     @property
     def contact_fraction(self) -> float:
@@ -168,7 +184,7 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
         continued = direct_contact.continued_curve(filled, case.load, folder)
         totals = direct_contact.direct_contact_totals(of_filled, filled, case.load, continued)
         data = with_filled(data, totals)
-    data.attrs[FINDINGS] = to_json(direct_contact.tread_findings(samples, data))
+    data.attrs[FINDINGS] = to_json(direct_contact.other_findings(samples, data))
     result = answer_with_inputs(case, data)
     result.curve = curve
     return result

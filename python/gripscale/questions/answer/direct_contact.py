@@ -7,6 +7,7 @@ The direct contact of each profile is a sample of the road, solved to an estimat
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from pathlib import Path
 
 import xarray as xr
@@ -19,7 +20,7 @@ from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import trace_variables
-from gripscale.half_space.model import JUDGED_TO, TREAD_CHANGES, DirectContact, resolved_wavelength
+from gripscale.half_space.model import JUDGED_TO, WARMING, DirectContact, resolved_wavelength
 from gripscale.half_space.result import TRAPPED_WATER
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
@@ -91,32 +92,34 @@ def solve_direct_contact(case: Case) -> xr.Dataset | None:
 ISOTROPIC = "isotropic_road"
 
 
-def tread_findings(samples: xr.Dataset, totals: xr.Dataset) -> list[Finding]:
-    """Return what a tread of 8 mm changes in an answer for rubber without end.
+def other_findings(samples: xr.Dataset, totals: xr.Dataset) -> Iterator[Finding]:
+    """Yield what a tread of 8 mm, and warming without a temperature shift, change in an answer.
 
-    Nothing for a stated thickness, for waves that do not feel the base, or if the changes are
-    within the sampling error of the answer or that of its grids.
+    Nothing for a stated thickness, for waves that do not feel the base, of rubber with a shift, or
+    if the changes are within the sampling error of the answer or that of its grids.
     """
-    if not {*TREAD_CHANGES} <= {*samples.data_vars} or not has_answer(totals):
-        return []
-    changes, counting = {}, False
-    for name in estimated_names(totals):
-        changes[name] = math.expm1(float(samples[f"{name}_of_tread"].mean()))
-        sampling = float(totals[f"answer_{name}_sampling_error"])
-        counting |= abs(changes[name]) > max(JUDGED_TO, 0.0 if math.isnan(sampling) else sampling)
-    if not counting or not all(map(math.isfinite, changes.values())):
-        return []
-    text = f"With a tread of 8 mm on a rigid base, not rubber without end, {in_words(changes)}."
-    return [
-        Finding(
-            Severity.WARNING,
-            Words(text, " State ", CaseKey("thickness"), " in [rubber]."),
-            changes.get("friction", math.nan),
-            changes["contact_fraction"],
-            Topic.RUBBER,
-            "rubber.thickness",
-        )
-    ]
+    rise = float(samples.get(WARMING, xr.DataArray(math.nan)).mean())
+    texts = {
+        "tread": ("With a tread of 8 mm on a rigid base, not rubber without end, {}.", "thickness"),
+        "heat": (
+            "Without a temperature shift the rubber does not warm. Its friction would warm it by "
+            f"{rise:.2g} K where energy is lost: with the shift of other treads {{}}.",
+            "shift",
+        ),
+    }
+    for which, (text, key) in texts.items():
+        names = {name: f"{name}_of_{which}" for name in estimated_names(totals)}
+        if not {*names.values()} <= {*samples.data_vars} or not has_answer(totals):
+            continue
+        changes = {name: math.expm1(float(samples[of].mean())) for name, of in names.items()}
+        errors = [float(totals[f"answer_{name}_sampling_error"]) for name in names]
+        least = max([JUDGED_TO, *(error for error in errors if not math.isnan(error))])
+        if not any(abs(change) > least for change in changes.values()):
+            continue
+        words = Words(text.format(in_words(changes)), " State ", CaseKey(key), " in [rubber].")
+        friction, area = changes.get("friction", math.nan), changes["contact_fraction"]
+        cure = f"rubber.{key}"
+        yield Finding(Severity.WARNING, words, friction, area, Topic.RUBBER, cure)
 
 
 def continued_curve(case: Case, load: Load, folder: str | Path | None = None) -> xr.Dataset | None:

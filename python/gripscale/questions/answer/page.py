@@ -12,6 +12,8 @@ from itertools import pairwise
 import numpy as np
 import xarray as xr
 
+from gripscale.case import SHEAR_STRESS
+from gripscale.conditions.dry_road import DRY_ASSUMPTIONS, DRY_TREAD
 from gripscale.core.finding import FILLED, Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
@@ -123,6 +125,8 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
         yield HYSTERESIS_ALONE
     if reading := tester_reading(data.attrs.get(TESTER, ""), *headline(data, "friction")):
         yield f"{reading}."
+    if data.attrs.get(SHEAR_STRESS) == DRY_TREAD.kind:
+        yield DRY_ASSUMPTIONS
     if MEASURED_FRICTION in data:
         yield f"Measured: μ = {measured_words(data)}."
     if not reliance.is_measured(data):

@@ -61,7 +61,8 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
         f"{old:.3f} now → {new:.3f}{at}" for old, new, at in zip(now, then, goals, strict=True)
     ]
     lead = f"friction {', '.join(pairs)} with the design {_at_rolling(chosen)}"
-    yield f"Answer: {lead}: {_gain(chosen)}."
+    without = f"; without {attrs['left_out']} of the case" if attrs.get("left_out") else ""
+    yield f"Answer: {lead}: {_gain(chosen)}{without}."
     if math.isfinite(least):
         yield f"  Or the same friction with rolling resistance {_percent(least - 1.0)}."
     elif float(data.gain[0]) >= 0.0 and data.sizes["point"] > 1:

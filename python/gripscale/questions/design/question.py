@@ -207,7 +207,8 @@ def design(
         kind=CompoundDesign.kind,
         design_key=key,
         rubber_parameters=json.dumps(problem.rubber.to_dict()),
-        notes="\n".join([*notes, *left_out(case)]),
+        notes="\n".join(notes),
+        left_out=checks.enumerated(left_out(case)),
     )
     loads = [
         replace(case.load, speed=goal.speed, pressure=goal.pressure)
