@@ -50,7 +50,7 @@ def _wavenumbers() -> Array:
 
 def _sloped(heights: Array, slope: float) -> Array:
     filtered = band(heights)
-    return filtered * (slope / rms_slope(filtered))
+    return np.asarray(filtered * (slope / rms_slope(filtered)))
 
 
 def _waves(numbers: list[int], slopes: Array, random: np.random.Generator) -> Array:

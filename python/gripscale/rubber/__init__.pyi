@@ -37,7 +37,7 @@ from .softening import StrainSweep as StrainSweep
 from .softening import read_strain_sweep as read_strain_sweep
 from .strain_energy import STRAIN_ENERGIES as STRAIN_ENERGIES
 from .strain_energy import Isihara as Isihara
-from .strain_energy import Kraus as Kraus
+from .strain_energy import KrausEnergy as KrausEnergy
 from .strain_energy import MooneyRivlin as MooneyRivlin
 from .strain_energy import NeoHookean as NeoHookean
 from .strain_energy import StrainEnergy as StrainEnergy
