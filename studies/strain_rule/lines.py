@@ -41,7 +41,7 @@ def band(heights: Array) -> Array:
     """Return heights without their mean and without waves beyond `WAVES`."""
     spectrum = scipy.fft.rfft(heights)
     spectrum[0], spectrum[WAVES + 1 :] = 0.0, 0.0
-    return np.asarray(scipy.fft.irfft(spectrum, POINTS))
+    return np.asarray(scipy.fft.irfft(spectrum, POINTS), dtype=np.float64)
 
 
 def _wavenumbers() -> Array:
