@@ -45,7 +45,7 @@ def band(heights: Array) -> Array:
 
 
 def _wavenumbers() -> Array:
-    return 2.0 * np.pi / LENGTH * np.arange(POINTS // 2 + 1)
+    return np.asarray(2.0 * np.pi / LENGTH * np.arange(POINTS // 2 + 1), dtype=np.float64)
 
 
 def _sloped(heights: Array, slope: float) -> Array:
