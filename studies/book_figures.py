@@ -38,7 +38,7 @@ from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, shades
 from gripscale.core.units import MEGA, MILLI
-from gripscale.questions import blocks_figure, effects, effects_figure
+from gripscale.questions import blocks_figure
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.charts import named_traces
 from gripscale.questions.chain.view import PredictionView
@@ -113,6 +113,11 @@ def block(shipped: Shipped) -> Figure:
     speed = shipped.case.load.speed
     results = [shipped.wave(speed, pressure) for pressure in PRESSURES]
     return blocks_figure(waves_to_dataset(results))
+
+
+def blocks(shipped: Shipped) -> Figure:
+    """Draw the deformed block of every wave of the chain."""
+    return blocks_figure(shipped.chain)
 
 
 def wave(shipped: Shipped) -> Figure:
@@ -359,8 +364,22 @@ def speeds(_: Shipped) -> Figure:
 
 def conditions(_: Shipped) -> Figure:
     """Draw what each effect of the conditions is worth in the chain."""
+    selections = ["all", "no temperature", "no softening", "no heat", "none"]
     case = read_case(CONDITIONS)
-    return effects_figure(effects(case.chain, case.rubber, case.surface, case.load))
+    data = gs.vary(case, effects=selections, model="chain").data
+    ticks = {float(i): name for i, name in enumerate(selections)}
+    rows = PlotAxis("", low=len(ticks) - 0.5, high=-0.5, ticks=ticks, grid=False)
+    at = np.array([*ticks])
+    panels = []
+    for name, label in (
+        ("total_contact_fraction", "real contact area $A_r/A_0$ [-]"),
+        ("total_friction", "friction, hysteresis $\\mu$ [-]"),
+    ):
+        ends = data[name].values
+        bars = Bars(0.0, ends, at - 0.27, at + 0.27, BLUE)
+        line = CrossLine(ends[0], BLUE, "", "dotted", upright=True)
+        panels.append(Panel(PlotAxis(label, low=0.0, numbers=4), rows, [bars, line]))
+    return Sheet(panels, height=3.0, legend="", layout={"sharey": True}).on_paper()
 
 
 def answers(shipped: Shipped) -> dict[str, xr.Dataset]:
@@ -427,6 +446,7 @@ def errors(shipped: Shipped) -> Figure:
 
 PICTURES = (
     block,
+    blocks,
     wave,
     stack,
     road,

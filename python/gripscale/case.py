@@ -19,11 +19,12 @@ from typing import Any
 
 from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.defaults import DRY, Interface, with_defaults
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
-from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, checks
+from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, Words, checks
 from gripscale.core.faces import CASE_WRITER, face
-from gripscale.core.finding import Finding, Severity, Topic, doubt
+from gripscale.core.finding import FILLED, Finding, Severity, Topic, doubt
 from gripscale.core.provenance import CASE_TITLE, COMMAND, version_attributes
 from gripscale.core.units import (
     DISPLAY_UNITS,
@@ -144,7 +145,15 @@ class Case(Described):
     waves : int
         Number of sine waves that are fitted to measured heights.
     conditions : Conditions, optional
-        Temperature, softening, heat, area term and water.
+        Temperature, softening, heat, area term and water. What they leave open has defaults: a
+        rubber with a temperature shift warms by its friction, `Conditions(heat="none")` does not.
+    filled : bool, optional
+        Whether the rubber is filled (carbon black, silica), as every tread is. A filled rubber
+        without softening of its own softens as a typical tread; `Conditions(softening="none")`
+        asks for its moduli at small strain. None: not known, and an answer says both numbers.
+    interface : "dry", optional
+        A dry road: the real contact area is sheared at the stress of typical treads, unless the
+        conditions state one. None: friction of the hysteresis alone.
     water : bool, float or str, optional
         Water of the conditions: True floods a map, a thickness [m] is a film. The direct contact
         then has trapped water (`gripscale.solve_rough_contact`).
@@ -184,6 +193,8 @@ class Case(Described):
         kind: SurfaceKind = "surface",
         waves: int = _WAVES,
         conditions: Conditions | None = None,
+        filled: bool | None = None,
+        interface: Interface | None = None,
         water: bool | Quantity | None = None,
         load_time: LoadTime = "passage",
         static: bool = False,
@@ -195,6 +206,7 @@ class Case(Described):
         options: Mapping[str, Any] | None = None,
         origin: Origin | None = None,
     ) -> None:
+        arguments = {name: value for name, value in locals().items() if name != "self"}
         self.kind = checks.one_of("kind", kind, SURFACE_KINDS)
         self.tester = "" if tester is None else checks.one_of("tester", tester, TESTERS)
         preset = TESTERS.get(self.tester)
@@ -214,17 +226,29 @@ class Case(Described):
         }
         self.load = Load(**values, load_time=load_time, thickness=thickness)
         self.static = static
-        if water is not None:
-            conditions = replace(conditions or Conditions(), water=water)
-        self.conditions = conditions
-        """What changes the rubber or the contact, or None where nothing was asked for."""
-        self.chain = replace(chain or Chain(), conditions=conditions and conditions.dry)
         if isinstance(rubber, Rubber):
             rubber = MeasuredRubber(rubber, rubber.source)
         elif not isinstance(rubber, MeasuredRubber):
             fitted, fit = fit_prony_report(rubber)
             rubber = MeasuredRubber(fitted, rubber.source, rubber, fit)
         self.measured_rubber = rubber
+        if water is not None:
+            conditions = replace(conditions or Conditions(), water=water)
+        self.filled = filled if filled is None else checks.flag("filled", filled)
+        """Whether the rubber is filled; None: not known."""
+        self.stated_conditions = conditions
+        """Conditions as they were stated, without what a case has by default."""
+        if interface is not None:
+            checks.one_of("interface", interface, DRY)
+        self.interface = interface
+        """"dry", or None: friction of the hysteresis alone."""
+        conditions = with_defaults(
+            conditions, rubber.rubber, filled=filled, interface=interface, kind=kind
+        )
+        self.conditions = conditions
+        """What changes the rubber or the contact, with all defaults; None where nothing does."""
+        self.chain = replace(chain or Chain(), conditions=conditions and conditions.dry)
+        self._arguments = arguments
         end = si_value("smallest_wavelength", smallest_wavelength, "m")
         self.cleaning = {} if cleaning is None else _CLEANED_AS_USUAL | dict(cleaning)
         self.surface = _surface(surface, end, waves, self.cleaning)
@@ -251,6 +275,36 @@ class Case(Described):
         yield "waves", f"{waves.size} from {in_mm(waves[0], 4)} to {in_mm(waves[-1], 4)}"
         if self.conditions is not None:
             yield "conditions", ", ".join(f"{k}={v}" for k, v in self.conditions.shown_rows())
+
+    def replace(self, **changes: Any) -> Case:
+        """Return the case with other arguments; the surface is not described again.
+
+            >>> case.replace(pressure="1 bar").load.pressure
+            100000.0
+
+        Raises `InputError` if a value cannot be used or no argument has its name.
+        """
+        checks.allowed_names("argument of a case", changes, self._arguments)
+        kept: dict[str, Any] = {"rubber": self.measured_rubber, "chain": self.chain}
+        if not {"smallest_wavelength", "waves", "cleaning"} & changes.keys():
+            kept["surface"] = self.surface
+        # the text of a file is that of another case
+        kept["origin"] = Origin(self.origin.name, units=self.origin.units)
+        return Case(**(self._arguments | kept | changes))
+
+    @property
+    def softening_doubts(self) -> Sequence[Finding]:
+        """That it is not known whether the rubber softens: nothing states that it is filled."""
+        effects = self.stated_conditions or Conditions()
+        answered = effects.softening is not None or "softening" in effects.off or effects.water
+        if self.filled is not None or answered:
+            return ()
+        text = (
+            "Whether the rubber is filled (carbon black, silica) is not stated: filled rubber, as "
+            "of every tread, softens under strain and has several times the contact area. State "
+        )
+        words = Words(text, CaseKey("filled"), " in [rubber].")
+        return (Finding(Severity.DOUBT, words, topic=Topic.RUBBER, key=FILLED),)
 
     @property
     def rubber(self) -> Rubber:
@@ -391,6 +445,7 @@ class Case(Described):
         """Return why the answer may be that of another road, rubber or load; as `findings`."""
         roads = [self.surface] if surfaces is None else surfaces
         doubts = [*(d for road in roads for d in road.doubts), *self.measured_rubber.doubts]
+        doubts += self.softening_doubts
         doubts += load_doubts([self.load] if loads is None else loads, self.units)
         doubts = list(dict.fromkeys(doubts))
         if self.rubber.reference_temperature is None:

@@ -15,7 +15,6 @@ from gripscale.app.runs import RunProgress
 from gripscale.cli import app
 from gripscale.questions.chain.events import (
     AnswerSolved,
-    EffectsSolved,
     Event,
     FileWritten,
     PredictionFinished,
@@ -58,12 +57,10 @@ def test_two_predictions_share_the_bar() -> None:
     assert steps[0].share is steps[-1].share is None
     assert steps[0].sentence == steps[1].sentence == "reading and fitting"
     assert steps[3].sentence == "prediction 1 of 2, wave 2 of 3"
-    assert steps[-1].sentence == "all waves are solved; direct contact, effects and figures follow"
+    assert steps[-1].sentence == "all waves are solved; direct contact and figures follow"
     later = [*events, AnswerSolved(True, 0.1, 0.2)]
-    words = "the direct contact is solved; effects and figures follow"
+    words = "the direct contact is solved; the figures follow"
     assert RunProgress.of(later).sentence == words
-    last = RunProgress.of([*later, EffectsSolved(("heat",))])
-    assert last.sentence.startswith("the effects are solved")
 
 
 def test_a_prediction_that_ends_early_counts_as_one() -> None:
@@ -88,8 +85,8 @@ def test_passes_are_counted_and_nobody_knows_how_many_come() -> None:
 @pytest.mark.parametrize(
     "event",
     [RunStarted(BOTH, 3, True), *waves(1), end("static"), end("dynamic", 3), RunFinished(),
-     AnswerSolved(True, 0.1, 0.2), EffectsSolved(("heat", "softening")),
-     FileWritten("out/dynamic.nc"), RunFailed("wave 1 of 3 …", 3)],
+     AnswerSolved(True, 0.1, 0.2), FileWritten("out/dynamic.nc"),
+     RunFailed("wave 1 of 3 …", 3)],
     ids=lambda event: type(event).__name__,
 )  # fmt: skip
 def test_an_event_is_read_back_from_its_line(event: Event) -> None:

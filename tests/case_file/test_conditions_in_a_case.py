@@ -19,7 +19,7 @@ from gripscale.cli.run_case import run_case
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
 from gripscale.core.errors import InputError
 from gripscale.rubber import WLF
-from gripscale.rubber.softening import Kraus
+from gripscale.rubber.softening import Kraus, SofteningTable, assumptions
 from tests.case_file.cases import refusal, written
 from tests.samples import SOFTENING
 
@@ -115,7 +115,7 @@ def test_strain_sweeps_at_two_temperatures(tmp_path: Path) -> None:
     strain_sweep(tmp_path, "cold.csv", 20.0, 1.0)
     sweeps = (
         '[conditions.softening]\nkind = "table"\nfiles = ["warm.csv", "cold.csv"]\n'
-        'measured_at = "0.2 %"\n'
+        'measured_at = "0.2 %"\ndeformation = "tension"\n'
     )
     file = read_case_file(written(tmp_path, BASE + sweeps))
     assert file.case.named_files() == [("conditions", "warm.csv"), ("conditions", "cold.csv")]
@@ -128,6 +128,27 @@ def test_strain_sweeps_at_two_temperatures(tmp_path: Path) -> None:
         exact = (1 + drop * measured_at / 0.02) / (1 + drop * strain / 0.02)
         # interpolated between strains 2.6 times apart, at measured_at
         assert float(left.storage) == pytest.approx(exact, rel=1e-2)
+
+
+def test_strain_sweeps_of_which_little_is_stated(tmp_path: Path) -> None:
+    strain_sweep(tmp_path, "sweep.csv", 20.0, 1.0)
+    table = '[conditions.softening]\nkind = "table"\nfiles = ["sweep.csv"]\n'
+    laws = []
+    for lines in ("", 'measured_at = "0.1 %"\ndeformation = "shear"\n'):
+        conditions = stated(read_case_file(written(tmp_path, BASE + table + lines)))
+        assert conditions is not None
+        assert isinstance(conditions.softening, SofteningTable)
+        laws.append(conditions.softening)
+    open_law, complete = laws
+    assert (open_law.measured_at, open_law.deformation) == (None, None)
+    assert (complete.measured_at, complete.deformation) == (1e-3, "shear")
+    # 0.1 % is the default; a shear strain is 3^(1/4) of the strain half-way to tension
+    factor = complete.factors(0.01 / 3**0.25, 293.15)
+    assert open_law.factors(0.01, 293.15).storage == pytest.approx(factor.storage)
+    assert len(list(assumptions(open_law))) == 2
+    refused = table + 'deformation = "bending"\n'
+    with pytest.raises(InputError, match="deformation = 'bending': expected"):
+        read_case_file(written(tmp_path, BASE + refused))
 
 
 def sweeps_file(folder: Path) -> None:
@@ -190,11 +211,6 @@ WRONG = [
     ('critical_strain = "2 %"', 'critical_strain = "2 mm"', "softening: critical_strain = '2 mm'"),
     ('c2 = "120 K"', 'c2 = "120 kg"', "[rubber] shift: c2 = '120 kg': unknown unit"),
     # half
-    (
-        'density = "1.15 g/cm^3"\n',
-        "",
-        "[conditions] heat: density is missing; expected a density such as",
-    ),
     ('measured_at = "0.1 %"\n', "", "[conditions] softening: measured_at is missing"),
     ("width = 0.1\n", "", "[conditions] shear_stress: width is missing"),
     (

@@ -68,7 +68,7 @@ def test_every_key_says_what_it_takes_and_means_and_where_to_read_on() -> None:
         ("surface", "crop", 'a list of 2, each a length such as "100 mm"', "-"),
         ("surface", "detrend", '"linear" or "mean" or "none"', '"linear"'),
         ("surface", "x_unit", "one of m, cm, mm", "-"),
-        ("conditions.heat", "density", 'a density such as "1150 kg/m^3"', NEEDED),
+        ("conditions.heat", "density", 'a density such as "1150 kg/m^3"', "1150"),
         ("rubber", "shift", "the name of a file or a table with kind (one of wlf,", "-"),
     ],
 )

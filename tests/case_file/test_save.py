@@ -18,6 +18,7 @@ from gripscale.continuation.roughness import HurstExponent
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.experiment import MeasuredFriction
 from gripscale.rubber import ShiftTable, Yeoh
+from gripscale.rubber.softening import SofteningTable
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane, KlueppelHeinrich
 from gripscale.wave import FiniteStrainBlock
@@ -139,12 +140,26 @@ def test_what_an_instrument_resolves_comes_back(tmp_path: Path) -> None:
     assert other.surface.cutoff_wavelength == pytest.approx(6e-4)
 
 
-WARM = Conditions(313.15, KRAUS, "slope", THERMAL, ConstantStress(1e6))
+SWEEPS = {
+    "strain": [np.geomspace(1e-4, 0.3, 9), [2e-4, 1e-2, 0.11]],
+    "storage": [np.geomspace(9.1e6, 2e6, 9), [8.3e6, 5e6, 3.7e6]],
+    "loss": [np.geomspace(1.3e6, 4e5, 9), [8e5, 7.7e5, 6.1e5]],
+    "temperature": [293.2, 333.15],
+}
+WARM = Conditions(313.15, KRAUS, heat=THERMAL, shear_stress=ConstantStress(1e6))
 MASTER = gs.read_master_curve(MEASURED_DMA, reference_temperature=293.15, modulus="E")
 RUBBERS = {
     "master curve": (MASTER, None),
     "shifted": (SHIFTED_RUBBER, Conditions(temperature=313.15)),
     "conditions": (SHIFTED_RUBBER, WARM),
+    "sweeps": (
+        SHIFTED_RUBBER,
+        Conditions(softening=SofteningTable(**SWEEPS, deformation="tension")),
+    ),
+    "open sweeps": (
+        SHIFTED_RUBBER,
+        Conditions(softening=SofteningTable(**SWEEPS, amplitude_assumed=True)),
+    ),
     "strain energy": (gs.Rubber(1e6, [9e6], [1e-3], strain_energy=Yeoh(0.1, 0.01)), None),
     "shift table": (
         gs.MasterCurve(

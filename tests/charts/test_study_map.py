@@ -49,11 +49,6 @@ def study() -> xr.Dataset:
     return with_master_curve(data, RUBBER)
 
 
-def test_the_collapse_of_one_curve_is_below_a_thousandth(study: xr.Dataset) -> None:
-    assert float(study.friction_collapse) < 1e-3
-    assert study.friction_collapse.attrs["points"] > 40
-
-
 def test_the_variables_are_listed_with_their_units(study: xr.Dataset) -> None:
     text = (DOCS / "conditions.md").read_text(encoding="utf-8")
     listed = dict(re.findall(r"^\| `(\w+)` \| (\S+) \|", text, re.MULTILINE))
@@ -104,10 +99,8 @@ def test_both_are_among_the_figures_of_a_study(study: xr.Dataset) -> None:
     assert alone == {"totals", "friction_master_curve"}
 
 
-def test_page_shows_celsius_and_one_curve(study: xr.Dataset, tmp_path: Path) -> None:
+def test_page_shows_celsius_and_reduced_speed(study: xr.Dataset, tmp_path: Path) -> None:
     page = Variation(study).page(tmp_path / "page.html").read_text(encoding="utf-8")
     assert "40 °C lies beyond the temperatures of the shift" in page
-    assert "friction over a_T v" in page
-    assert "one curve, temperatures up to" in page
     assert 'id="figure-total_friction-over-reduced_speed"' in page
     assert "temperature T [°C]" in page.replace("\\u00b0", "°")

@@ -126,6 +126,35 @@ def test_rubber_half_prints_the_series(shell: Shell, inputs: Path) -> None:
     assert not list(inputs.glob("*.png"))
 
 
+def test_rubber_half_draws_strain_sweeps(shell: Shell, inputs: Path, tmp_path: Path) -> None:
+    strain, target = np.geomspace(0.01, 20.0, 12), tmp_path / "out"
+    rows = [
+        f"{celsius},{s:.6g},{2 + 6 / (1 + s / c):.6g},{1 / (1 + s / c):.6g}"
+        for celsius, c in ((20.0, 1.0), (60.0, 3.0))
+        for s in strain
+    ]
+    sweeps = tmp_path / "payne.csv"
+    sweeps.write_text("\n".join(["temperature [C],strain [%],E' [MPa],E'' [MPa]", *rows]))
+    asked = shell("fit-rubber", sweeps)
+    assert asked.exit_code == 2
+    assert "--amplitude must be given" in " ".join(asked.output.split())
+    options = ["--amplitude", "single", "--measured-at", "0.2 %", "--output", target]
+    result = shell("fit-rubber", sweeps, inputs / "dma.txt", *options)
+    assert result.exit_code == 0, result.output
+    assert "Maxwell elements of" in result.stdout
+    table = result.stdout[result.stdout.index("Moduli over those") :]
+    kept = [[float(cell) for cell in line.split()] for line in table.splitlines()[4:6]]
+    for (celsius, *factors), c in zip(kept, (1.0, 3.0), strict=True):
+        law = [2 + 6 / (1 + s / c) for s in (0.2, 1.0, 10.0)]
+        assert celsius == (20.0 if c == 1.0 else 60.0)
+        # rows a quarter of a decade apart, three digits printed
+        assert factors[:2] == pytest.approx([law[1] / law[0], law[2] / law[0]], rel=0.02)
+    assert "half-way between tension and shear" in " ".join(table.split())
+    assert "measured at" not in table
+    names = {path.name for path in target.iterdir()}
+    assert {"softening.png", "softening_factors.csv", "master_curve.png"} <= names
+
+
 def test_rubber_half_prints_what_the_data_leave_open(shell: Shell, inputs: Path) -> None:
     result = shell("fit-rubber", inputs / "dma.txt")
     rows = result.stdout[result.stdout.index("Moduli, and what") :].splitlines()[4:9]

@@ -38,7 +38,7 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     assert result.exit_code == 0, result.output
     assert result.stderr == ""
     written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
-    of_others = {"effects_chain.nc", "cut_off.nc", "figures/blocks_static.png"} | {
+    of_others = {"cut_off.nc"} | {
         name for name in RESULT_FILES if any(f"/{figure}." in name for figure in AT_TIMES)
     }
     of_others |= {name for name in RESULT_FILES if name.endswith((".pdf", ".svg"))}
@@ -209,7 +209,7 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
     case = changed("static = true", "static = false")
     figures = case.parent / "results" / "figures"
     figures.mkdir(parents=True)
-    for name in ("static.nc", "notes.txt", "figures/blocks_static.png", "figures/mine.png"):
+    for name in ("static.nc", "notes.txt", "figures/heat.png", "figures/mine.png"):
         (case.parent / "results" / name).write_text("old")
     assert shell("run", case).exit_code == 0
     left = {p.name for p in (case.parent / "results").rglob("*") if p.is_file()}

@@ -20,7 +20,7 @@ WITHOUT = f"import sys\nsys.modules |= dict.fromkeys({EXTRAS})\n"
     [
         (["run", "case.toml"], "results/figures/superposition.png"),
         (
-            ["study", "case.toml", "--vary", "speed=0.1:1:log3", "--model", "chain", "--static"],
+            ["study", "case.toml", "--vary", "speed=0.1:1:log3", "--model", "chain"],
             "results/study/figures/totals.png",
         ),
     ],

@@ -1,15 +1,12 @@
 """The area term beside the hysteresis: in the chain, in the direct contact, in files."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions, ConstantStress, GaussianStress, ThermalProperties
-from gripscale.questions.chain.findings import conditions_notices
-from gripscale.questions.chain.view import PredictionView
 from gripscale.rubber.softening import Kraus
 from tests.samples import SHIFTED_RUBBER as RUBBER
 from tests.samples import SHIFTED_SINES as SINES
@@ -63,30 +60,6 @@ def test_the_stress_is_that_at_the_temperature_in_the_contact():
     assert kelvin > 301.0
     stress = float(EVERYTHING.shear_stress.stress(1.0, kelvin))
     assert found.adhesive_friction == pytest.approx(stress * found.contact_fraction / 3e5)
-
-
-def test_the_heat_that_the_area_term_lacks_is_stated():
-    """The ratio of two friction powers mu p v on one area is that of the frictions."""
-    chain = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
-    line = gs.solve_rough_contact(
-        RUBBER, LINE, pressure=3e5, speed=1.0, periodic=True, footprint=0.05, conditions=EVERYTHING
-    )
-    notes = [n.sentence for n in conditions_notices(PredictionView(chain.to_dataset()))]
-    for found, sentences in ((chain, notes), (line, line.notes)):
-        ratio = found.adhesive_friction / found.friction
-        assert ratio > 0.01
-        assert [text for text in sentences if "heat of the area term" in text] == [
-            "Temperatures contain the heat of the hysteresis only; the heat of the area term is "
-            f"{ratio:.0%} of it."
-        ]
-
-
-@pytest.mark.parametrize("without", ["heat", "shear_stress"])
-def test_without_heat_or_area_term_none_is_lacking(without):
-    some = replace(EVERYTHING, **{without: None})
-    chain = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=some, **LOAD)
-    notes = conditions_notices(PredictionView(chain.to_dataset()))
-    assert not any("area term" in notice.sentence for notice in notes)
 
 
 def test_conditions_and_what_they_did_survive_a_file(tmp_path):

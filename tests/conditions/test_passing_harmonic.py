@@ -15,7 +15,7 @@ from gripscale.conditions import (
     uniform_at_surface,
     uniform_where_lost,
 )
-from gripscale.conditions.flash_temperature import passing_at_surface, passing_where_lost
+from gripscale.conditions.flash_temperature import PassingHarmonics
 from tests.samples import THERMAL
 
 
@@ -51,9 +51,9 @@ def test_slow_harmonics_are_the_integral_over_the_time_of_contact(
     speed: float, along: float, number: float, time: float, mean: float
 ) -> None:
     m, depth = harmonic_decay([number], [along], speed, THERMAL), LossDepth(mean)
-    [surface] = passing_at_surface(m, time, depth, THERMAL)
+    [surface] = PassingHarmonics(m, time, THERMAL).at_surface(depth)
     assert surface == pytest.approx(integrated(m[0], time, depth, "one"), rel=1e-8)
-    [lost] = passing_where_lost(m, time, depth, THERMAL)
+    [lost] = PassingHarmonics(m, time, THERMAL).where_lost(depth)
     both = (integrated(m[0], time, depth, of) for of in ("between", "sum"))
     assert lost == pytest.approx(0.5 * sum(both), rel=1e-8)
 
@@ -61,22 +61,26 @@ def test_slow_harmonics_are_the_integral_over_the_time_of_contact(
 def test_no_wavenumber_is_uniform_heat_and_a_long_time_is_steady() -> None:
     depth, time = LossDepth(2e-4), 0.1
     still = np.array([0.1 + 0j])
-    [surface] = passing_at_surface(still, time, depth, THERMAL)
-    [lost] = passing_where_lost(still, time, depth, THERMAL)
+    [surface] = PassingHarmonics(still, time, THERMAL).at_surface(depth)
+    [lost] = PassingHarmonics(still, time, THERMAL).where_lost(depth)
     assert surface.real == pytest.approx(uniform_at_surface(time, depth, THERMAL), rel=1e-6)
     assert lost.real == pytest.approx(uniform_where_lost(time, depth, THERMAL), rel=1e-6)
     m = harmonic_decay(np.geomspace(50.0, 1e5, 30), np.linspace(0.0, 40.0, 30), 1.0, THERMAL)
     long = 1e6
     steady = harmonic_at_surface(m, depth, THERMAL)
-    np.testing.assert_allclose(passing_at_surface(m, long, depth, THERMAL), steady, rtol=1e-7)
+    np.testing.assert_allclose(
+        PassingHarmonics(m, long, THERMAL).at_surface(depth), steady, rtol=1e-7
+    )
     where = harmonic_where_lost(m, depth, THERMAL)
-    np.testing.assert_allclose(passing_where_lost(m, long, depth, THERMAL), where, rtol=1e-7)
+    np.testing.assert_allclose(
+        PassingHarmonics(m, long, THERMAL).where_lost(depth), where, rtol=1e-7
+    )
 
 
 def test_across_the_way_of_sliding_a_short_contact_warms_no_more_than_its_energy() -> None:
     """It is no warmer than under the same heat everywhere; the steady one would be four times."""
     number, time, depth = 2.0 * np.pi / 6e-3, 0.1, LossDepth(0.0)
     m = np.array([number + 0j])
-    [risen] = passing_at_surface(m, time, depth, THERMAL)
+    [risen] = PassingHarmonics(m, time, THERMAL).at_surface(depth)
     assert risen.real <= uniform_at_surface(time, depth, THERMAL)
     assert harmonic_at_surface(m, depth, THERMAL)[0].real > 4.0 * risen.real

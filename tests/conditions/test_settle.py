@@ -126,7 +126,8 @@ def test_a_settled_direct_contact_is_its_own_rubber():
     assert found.converged
     assert found.passes <= 8
     state = found.scales
-    at, rise = temperature(found, BOTH, 0.05)
+    heats, rise = temperature(found, BOTH, 0.05)
+    at = [heat.wavenumber for heat in heats]
     warm = np.interp(np.log(state.wavenumber), np.log(at), rise.octave)
     assert warm == pytest.approx(state.warming, rel=5e-3, abs=0.1)
     moved = found.height + found.gap

@@ -176,7 +176,7 @@ READERS = {
     "rubber.columns": "titles of columns",
     "rubber.side_by_side": "titles of columns",
     "rubber.shift_fit": "titles of columns",
-    "rubber.softening": "titles of columns",
+    "rubber.strain_sweeps": "titles of columns",
     "surface.cut_off": "rules as typed",
     "surface.header": "measured files",
     "surface.height_grids": "measured files",

@@ -141,7 +141,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
         "--models", "chain_half_plane,direct,theory",
     ),
     "study": (
-        "study", "plain.toml", "--output", "study", "--static", "--model", "chain",
+        "study", "plain.toml", "--output", "study", "--model", "chain",
         "--vary", "speed=0.1,1", "--vary", "temperature=20 C,40 C",
     ),
     "study_direct": (

@@ -59,7 +59,7 @@ def all_numbers(folder: Path) -> Numbers:
     out |= _chain("half_plane", half_plane)
     out |= _transient(rubber, sines)
     vary = {"speed": "0.003:30:log5"}
-    study = Study(read_case(CASE), vary, static=False, model="chain").run(folder)
+    study = Study(read_case(CASE), vary, model="chain").run(folder)
     for name, variable in study.variables.items():
         if np.issubdtype(variable.dtype, np.number):
             out[f"study/{name}"] = variable.values

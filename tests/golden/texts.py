@@ -32,6 +32,12 @@ BLOCKS = {
 SILENT = {"script", "style", "svg", "math", "head"}
 """Tags whose content is no text: scripts, and drawn formulas."""
 
+KEPT = (
+    *("run", "compare", "study", "uncertainty", "sensitivity", "fit_rubber", "keys"),
+    "page_run",
+)
+"""What people compare: what these commands print, and one page."""
+
 HEADINGS = {"h1": "#", "h2": "##", "h3": "###", "h4": "####"}
 
 
@@ -43,12 +49,13 @@ def texts(made: Experiments) -> dict[str, str]:
 
 
 def write_texts(made: Experiments, folder: Path) -> None:
-    """Write the texts anew into `folder`, one file each."""
+    """Write the texts of `KEPT` anew into `folder`, one file each."""
     folder.mkdir(exist_ok=True)
     for old in folder.glob("*.txt"):
         old.unlink()
-    for name, text in texts(made).items():
-        (folder / f"{name}.txt").write_text(text, encoding="utf-8")
+    now = texts(made)
+    for name in KEPT:
+        (folder / f"{name}.txt").write_text(now[name], encoding="utf-8")
 
 
 def kept_texts(folder: Path) -> dict[str, str]:

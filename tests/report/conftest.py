@@ -121,7 +121,6 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "running_contact_fraction": (waves, running),
             "running_friction": (waves, friction),
             "friction_by_decade": ((*axes, "decade"), np.full((2, 2, 3), 0.1)),
-            "static_total_contact_fraction": (("rubber",), [0.3, 0.2]),
         },
         coords={
             "speed": speed,

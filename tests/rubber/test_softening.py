@@ -5,13 +5,13 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions
+from gripscale.conditions.conditions import softening_from_dict
 from gripscale.core import InputError
 from gripscale.rubber.softening import (
     Kraus,
     SofteningFactors,
     SofteningTable,
     softened,
-    softening_from_dict,
 )
 
 KRAUS = Kraus(

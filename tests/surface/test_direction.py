@@ -10,7 +10,7 @@ import pytest
 import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding
-from gripscale.questions.answer.direct_contact import each_measured
+from gripscale.questions.answer.measurements import each_measured
 from gripscale.surface.autocorrelation import texture_lengths
 from gripscale.surface.direction import (
     area_over_truth,

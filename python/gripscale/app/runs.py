@@ -26,7 +26,6 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.io.folders import write_text
 from gripscale.questions.chain.events import (
     AnswerSolved,
-    EffectsSolved,
     Event,
     PredictionFinished,
     RunFailed,
@@ -44,9 +43,8 @@ GRACE = 5.0  # seconds a process has to end before it is killed
 
 
 _LAST_STAGES = {
-    "waves": "all waves are solved; direct contact, effects and figures follow",
-    "direct contact": "the direct contact is solved; effects and figures follow",
-    "effects": "the effects are solved; the figures follow",
+    "waves": "all waves are solved; direct contact and figures follow",
+    "direct contact": "the direct contact is solved; the figures follow",
 }
 
 
@@ -55,7 +53,7 @@ class RunProgress:
     """How far a run is: what its last events state.
 
     The numbers of predictions and waves are known from the start. How many passes rubber and
-    contact need until they agree is not, nor how long direct contact, effects and figures take.
+    contact need until they agree is not, nor how long direct contact and figures take.
     """
 
     start: RunStarted | None = None
@@ -78,8 +76,6 @@ class RunProgress:
                     progress = replace(progress, finished=finished)
                 case AnswerSolved():
                     progress = replace(progress, last_stage="direct contact")
-                case EffectsSolved():
-                    progress = replace(progress, last_stage="effects")
         return progress
 
     @property

@@ -69,7 +69,7 @@ class Example(Described):
     """Extra of the package without which its files cannot be read, or nothing."""
 
 
-_ROAD, _RUBBER, _SURFACES = "data/road", "data/rubber", "data/surfaces"
+_ROAD, _FRICTION, _SURFACES = "data/road", "data/friction", "data/surfaces"
 
 EXAMPLES: dict[str, Example] = {
     "road": Example(
@@ -79,8 +79,10 @@ EXAMPLES: dict[str, Example] = {
             f"{_ROAD}/20211011_aylesbury_dec_station_1.dat",
             f"{_ROAD}/SOURCE.txt",
             f"{_ROAD}/LICENSE",
-            f"{_RUBBER}/measured_dma.txt",
-            f"{_RUBBER}/SOURCE.txt",
+            f"{_FRICTION}/S100_master_curve.csv",
+            f"{_FRICTION}/S100_shift.csv",
+            f"{_FRICTION}/S100_strain_sweeps.csv",
+            f"{_FRICTION}/SOURCE.txt",
         ),
     ),
     "synthetic": Example(

@@ -120,17 +120,17 @@ def free_target(
 
 _FIGURES = (
     *("profile", "correlation", "texture_levels", "master_curve", "contact_and_friction"),
-    *("summary", "direct_contact", "blocks_dynamic", "blocks_static"),
+    *("summary", "direct_contact"),
 )
 # Figures of cases with conditions, or with sweeps at several temperatures.
-AT_TIMES = ("cut_off", "heat", "effects", "superposition", "superposition_tests", "shift")
+AT_TIMES = ("cut_off", "heat", "superposition", "superposition_tests", "shift")
 # What a finished run was made from and the files it left, so that it need not be repeated.
 NOTE = ".finished.json"
 REPORT_PAGE = "report.html"
 # Everything a run may write into its folder, beside copies of the files the case names.
 RESULT_FILES = (
     *(NOTE, SAVED_CASE, REPORT_PAGE, "report.txt", "chain.txt", "summary.xlsx"),
-    *("dynamic.nc", "static.nc", "answer.nc", "cut_off.nc", "effects_chain.nc"),
+    *("dynamic.nc", "static.nc", "answer.nc", "cut_off.nc"),
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
 

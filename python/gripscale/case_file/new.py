@@ -111,6 +111,8 @@ def propose(
     shift: Mapping[str, Any] | None = None,
     layout: Mapping[str, Any] | None = None,
     thickness: str | None = None,
+    filled: bool | None = None,
+    interface: str | None = None,
 ) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
     """Return the tables of a case in a directory for measured files, and the files without use.
 
@@ -135,6 +137,10 @@ def propose(
         What the file of the rubber does not state: keys of [rubber], such as columns.
     thickness : str, optional
         Of the rubber on its base, such as "8 mm"; without it the rubber has no end, with a doubt.
+    filled : bool, optional
+        Whether the rubber is filled; without it the answer has both numbers, with a doubt.
+    interface : str, optional
+        "dry" adds the interface of a dry road to the friction of the hysteresis.
     """
     kelvin = si_value("temperature", temperature, "K")
     layout = layout or {}
@@ -167,7 +173,11 @@ def propose(
         rubber.findings.append(assumption(TENS_OF_PERCENT, _WITHOUT_END))
     else:
         rubber.add("thickness", thickness)
+    if filled is not None:
+        rubber.add("filled", filled, "as stated")
     conditions = conditions_proposal(rubber, rubbers, kelvin)
+    if interface is not None:
+        conditions.add("interface", interface, "as stated")
     tables = {"surface": surface, "rubber": rubber, "load": of_load, "conditions": conditions}
     return tables, skipped
 

@@ -41,14 +41,12 @@ from gripscale.rubber import (
     fit_prony_report,
     read_master_curve,
     read_shift_table,
-    read_strain_sweep,
     read_sweeps,
     styrene_butadiene,
     superpose_report,
 )
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
-from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
@@ -329,6 +327,9 @@ def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
     return read_shift_table(resolve(shift)) if isinstance(shift, str) else shift
 
 
+_EFFECTS = {field.name for field in fields(Conditions)} & ConditionsTable.model_fields.keys()
+
+
 @about_keys("conditions")
 def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Conditions | None:
     """Return the conditions of a case, or None where it asks for no effect.
@@ -339,15 +340,18 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
     """
     if table == ConditionsTable():
         return None
-    softening: SofteningLaw | StrainSweeps | None = table.softening
-    if isinstance(softening, StrainSweeps):
-        options = softening.model_dump(exclude={"kind", "files", "measured_at"})
-        sweeps = [read_strain_sweep(resolve(name), **options) for name in softening.files]
-        softening = softening_of_sweeps(sweeps, measured_at=softening.measured_at)
-    norm = table.strain_norm or "slope"
-    return Conditions(
-        table.temperature, softening, norm, table.heat, table.shear_stress, table.water
-    )
+    effects: dict[str, Any] = {
+        name: getattr(table, name) for name in _EFFECTS if getattr(table, name) is not None
+    }
+    if isinstance(table.softening, StrainSweeps):
+        effects["softening"] = table.softening.softening(resolve)
+    return Conditions(**effects)
+
+
+def _filled(source: RubberSource, softening: object) -> bool | None:
+    """Return whether a rubber is filled: those known by name are not, unless they are to soften."""
+    stated_or_measured = source.filled is not None or source.name is None or softening is not None
+    return source.filled if stated_or_measured else False
 
 
 @about_keys("below_measurement")
@@ -435,8 +439,9 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 thickness=file.case.rubber.thickness,
                 static=load.static,
                 chain=chain,
-                conditions=chain.conditions,
-                water=file.case.conditions.water,
+                conditions=prepare_conditions(file.case.conditions, file.resolve),
+                filled=_filled(file.case.rubber, file.case.conditions.softening),
+                interface=file.case.conditions.interface,
                 below_measurement=_below_measurement(file),
                 klueppel_heinrich=klueppel_heinrich,
                 friction=friction,

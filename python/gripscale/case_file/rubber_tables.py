@@ -7,6 +7,8 @@ those of the package: their fields say which keys a case states them with.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, InstanceOf, model_validator
@@ -27,13 +29,16 @@ from gripscale.case_file.schema import (
     unit_of_file,
 )
 from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
-from gripscale.conditions.conditions import FLOODED
+from gripscale.conditions.conditions import FLOODED, OFF
+from gripscale.conditions.defaults import Interface
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core.units import parse_quantity
 from gripscale.io.text_table import MOST_LINES
 from gripscale.rubber.shift import SHIFTS, Shift, ShiftTable
-from gripscale.rubber.softening import Kraus
+from gripscale.rubber.softening import Kraus, SofteningTable, softening_of_sweeps
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
+from gripscale.rubber.strain_sweeps import read_strain_sweeps
+from gripscale.rubber.typical_tread import TypicalTread
 
 NAMED_RUBBERS = ("styrene_butadiene",)
 
@@ -42,7 +47,8 @@ SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable
 
 # Keys of [rubber] that a named rubber may have.
 OF_ANY_RUBBER = {
-    *("file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift", "thickness")
+    *("file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift", "thickness"),
+    "filled",
 }
 
 
@@ -113,6 +119,9 @@ class RubberSource(LayoutKeys):
     """Times the typical scatter beyond which a measured row is left out of the fit."""
     bulk_modulus: Pressure | None = None
     """Bulk modulus, which a DMA measurement does not give."""
+    filled: bool | None = None
+    """Whether the rubber is filled (carbon black, silica), as of every tread; without a word the
+    answer has both numbers. Filled rubber with no softening of its own is a typical tread."""
     thickness: Length | None = None
     """Thickness of the rubber on a rigid base; without it the rubber has no end."""
     extrapolate: Annotated[Literal["warn", "refuse"], BeforeValidator(_warn_or_refuse)] = "warn"
@@ -146,16 +155,31 @@ class StrainSweeps(LayoutKeys):
     """Measured strain sweeps."""
     files: list[str] = Field(min_length=1)
     """Files of strain sweeps."""
-    measured_at: Strain
-    """Strain of the DMA measurement, where nothing is softened."""
+    measured_at: Strain | None = None
+    """Strain of the DMA measurement, where nothing is softened; 0.1 % by default."""
+    deformation: Literal["tension", "shear"] | None = None
+    """What the strain is, where its title does not say; half-way between by default."""
     amplitude: Literal["single", "peak-to-peak"] | None = None
     """What the strain column holds, where its title does not say."""
     strain_unit: Annotated[str, unit_of_file("strain")] | None = None
     """Unit of strains where the file does not name it."""
 
+    def softening(self, resolve: Callable[[str], Path] = Path) -> SofteningTable:
+        """Return the law of the sweeps; `resolve` turns the name of a file into its path."""
+        options = self.model_dump(exclude={"kind", "files", "measured_at"})
+        sweeps = read_strain_sweeps([resolve(name) for name in self.files], **options)
+        return softening_of_sweeps(sweeps, measured_at=self.measured_at)
+
 
 # How a case states softening: a law with its numbers, or where one was measured.
-SOFTENING: dict[str, type] = {"kraus": Kraus, "table": StrainSweeps}
+SOFTENING: dict[str, type] = {
+    "kraus": Kraus,
+    "table": StrainSweeps,
+    TypicalTread.kind: TypicalTread,
+}
+
+
+_Softening = InstanceOf[Kraus] | StrainSweeps | InstanceOf[TypicalTread]
 
 
 def _film(value: Any) -> Any:
@@ -169,25 +193,33 @@ def _film(value: Any) -> Any:
 
 
 class ConditionsTable(CaseTable):
-    """Effects beside the rubber as measured, each off unless asked for."""
+    """Effects beside the rubber as measured."""
 
     temperature: Temperature | None = None
     """Temperature of the rubber before the contact; that of the master curve by default."""
-    softening: Annotated[InstanceOf[Kraus] | StrainSweeps, by_kind(SOFTENING)] | None = None
-    """Softening by strain."""
+    softening: Annotated[_Softening | Literal["none"], by_kind(SOFTENING, off=OFF)] | None = None
+    """Softening by strain; that of a typical tread for filled rubber by default, or "none"."""
     strain_norm: Literal["slope", "stretch"] | None = None
     """Of a wave: by the rms slope in its contact (the default), or the largest stretch less one."""
-    heat: Annotated[InstanceOf[ThermalProperties], stated_law(ThermalProperties)] | None = None
-    """The rubber warms by its own friction."""
+    heat: (
+        Annotated[
+            InstanceOf[ThermalProperties] | Literal["none"], stated_law(ThermalProperties, off=OFF)
+        ]
+        | None
+    ) = None
+    """The rubber warms by its own friction, with typical constants by default where it has a
+    temperature shift, or "none"."""
+    counterface: Annotated[InstanceOf[ThermalProperties], stated_law(ThermalProperties)] | None = (
+        None
+    )
+    """What takes up heat through the contact; stone by default, of a floor concrete and of a
+    counterface steel."""
+    interface: Interface | None = None
+    """A dry interface: the real contact area is sheared at the stress of typical treads, unless
+    shear_stress states another. Without it the friction is that of the hysteresis alone."""
     shear_stress: Annotated[InstanceOf[InterfacialShearStress], by_kind(SHEAR_STRESSES)] | None = (
         None
     )
     """The area term: the real contact area sheared at this stress."""
     water: Annotated[Any, Reading('"flooded" or a length', _film)] = None
     """Water on a measured map that contact can trap: flooded, or a film of this thickness."""
-
-    @model_validator(mode="after")
-    def _norm_of_softening(self) -> ConditionsTable:
-        if self.strain_norm is not None and self.softening is None:
-            raise ValueError("strain_norm belongs to softening, which is not asked for")
-        return self

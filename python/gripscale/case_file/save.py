@@ -27,7 +27,7 @@ from gripscale.case_file.read import CaseFile, validate
 from gripscale.case_file.schema import kelvin_text, law_keys, toml_text
 from gripscale.case_file.tables import CaseTables, SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
-from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.conditions import OFF, Conditions
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent
 from gripscale.core import Array, FileError, InputError, quantity_in_si
 from gripscale.core.provenance import version_of
@@ -141,12 +141,14 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         "surface": _surface_keys(case, inputs)
         | {"kind": None if case.kind == "surface" else case.kind},
         "rubber": _rubber_keys(case.measured_rubber, inputs)
-        | {"thickness": load.thickness, "extrapolate": case.chain.extrapolate},
+        | {"thickness": load.thickness, "extrapolate": case.chain.extrapolate}
+        | {"filled": case.filled},
         "load": {name: getattr(load, name) for name in ("pressure", "speed", "footprint")}
         | {"static": case.static, "load_time": load.load_time, "tester": case.tester or None},
         "solver": _solver_keys(case.chain),
         "chain": {"pressure_classes": case.chain.pressure_classes},
-        "conditions": _conditions_keys(case.conditions, inputs),
+        "conditions": _conditions_keys(case.stated_conditions, inputs)
+        | {"interface": case.interface},
         "below_measurement": below,
         "measured": measured,
         "compare": {} if case.klueppel_heinrich is None else law_keys(case.klueppel_heinrich),
@@ -263,28 +265,35 @@ def _solver_keys(chain: Chain) -> dict[str, Any]:
 def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str, Any]:
     if conditions is None:
         return {}
-    effects = {name: getattr(conditions, name) for name in ("softening", "heat", "shear_stress")}
-    keys = {name: None if law is None else law_keys(law) for name, law in effects.items()}
+    names = ("softening", "heat", "counterface", "shear_stress")
+    effects = {name: getattr(conditions, name) for name in names}
+    keys: dict[str, Any] = {
+        name: None if law is None else law_keys(law) for name, law in effects.items()
+    }
     law, kelvin = conditions.softening, conditions.temperature
     if isinstance(law, SofteningTable):  # shear moduli are read as thirds of Young's
         letter, divisor = ("G", 3.0) if law.deformation == "shear" else ("E", 1.0)
         files = []
         for at, strain in enumerate(law.strain):
             columns: dict[str, ArrayLike] = {
-                "strain [1]": strain,
+                "strain amplitude [1]": strain,
                 f"{letter}' [Pa]": np.array(law.storage[at]) / divisor,
                 f"{letter}'' [Pa]": np.array(law.loss[at]) / divisor,
             }
             if law.temperature is not None:
                 columns["temperature [K]"] = np.full(len(strain), law.temperature[at])
             files.append(inputs.add_table("strain_sweep", columns))
-        sweeps = {"files": files, "measured_at": law.measured_at, "amplitude": "single"}
-        keys["softening"] = {"kind": "table", **sweeps}
+        sweeps: dict[str, Any] = {"measured_at": law.measured_at, "deformation": law.deformation}
+        sweeps["amplitude"] = None if law.amplitude_assumed else "single"
+        stating = {key: value for key, value in sweeps.items() if value is not None}
+        keys["softening"] = {"kind": "table", "files": files, **stating}
+    keys |= dict.fromkeys(conditions.off, OFF)
     return {
         "temperature": None if kelvin is None else kelvin_text(kelvin),
         "softening": keys["softening"],
         "strain_norm": None if law is None else conditions.strain_norm,
         "heat": keys["heat"],
+        "counterface": keys["counterface"],
         "shear_stress": keys["shear_stress"],
         "water": conditions.to_dict()["water"],
     }

@@ -352,12 +352,15 @@ def toml_text(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def stated_law(law: type) -> Reading:
-    """Return what reads the table of `law`, such as { conductivity = "0.25 W/(m K)", ... }."""
-    words = f"a table with {', '.join(table_of(law).model_fields)}"
+def stated_law(law: type, *, off: str = "") -> Reading:
+    """Return what reads the table of `law`, such as { conductivity = "0.25 W/(m K)", ... }.
+
+    The word `off` stands for none.
+    """
+    words = f"{_or_word(off)}a table with {', '.join(table_of(law).model_fields)}"
 
     def read(value: Any) -> Any:
-        if isinstance(value, law):
+        if isinstance(value, law) or (off and value == off):
             return value
         if not isinstance(value, Mapping):
             raise ValueError(f"expected {words}")
@@ -366,13 +369,23 @@ def stated_law(law: type) -> Reading:
     return Reading(words, read, {"": law})
 
 
-def by_kind(laws: Mapping[str, type], *, or_file: bool = False) -> Reading:
-    """Return what reads the table of one of `laws` by its kind, or the name of a file."""
+def _or_word(word: str) -> str:
+    return f'"{word}" or ' if word else ""
+
+
+def by_kind(laws: Mapping[str, type], *, or_file: bool = False, off: str = "") -> Reading:
+    """Return what reads the table of one of `laws` by its kind, or the name of a file.
+
+    The word `off` stands for none.
+    """
     kinds = ", ".join(laws)
-    words = f"{'the name of a file or ' * or_file}a table with kind (one of {kinds}) and its keys"
+    file = f"{_or_word(off)}{'the name of a file or ' * or_file}"
+    words = f"{file}a table with kind (one of {kinds}) and its keys"
 
     def read(value: Any) -> Any:
         if isinstance(value, tuple(laws.values())) or (or_file and isinstance(value, str)):
+            return value
+        if off and value == off:
             return value
         if not isinstance(value, Mapping):
             raise ValueError(f"expected {words}")

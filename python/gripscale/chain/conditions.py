@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from gripscale.chain.heat import Warming, WaveHeat, strains, warming
+from gripscale.chain.heat import Warming, WaveHeat, strains, warming_with_interface
 from gripscale.chain.prediction import ChainResult, ChainSolve
 from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
@@ -150,8 +150,14 @@ class _ChainEvaluation:
 
 def chain_warming(conditions: Conditions, solved: ChainResult) -> list[Warming]:
     """Return the temperature rise of the rubber on each wave of a solved chain."""
-    assert conditions.heat is not None
     heats = [WaveHeat.of(wave, wave.rubber or solved.rubber) for wave in solved.scales]
-    speed = solved.load.speed
-    time = solved.load.footprint / speed if speed > 0.0 else 0.0
-    return warming(heats, speed=speed, time=time, thermal=conditions.heat)
+    load, kelvin = solved.load, conditions.temperature_of(solved.rubber)
+    time = load.footprint / load.speed if load.speed > 0.0 else 0.0
+
+    def friction_at(rise: float) -> float:
+        warm = None if kelvin is None else kelvin + rise
+        return conditions.adhesive_friction(
+            solved.contact_fraction, load.pressure, load.speed, warm
+        )
+
+    return warming_with_interface(heats, conditions, friction_at, speed=load.speed, time=time)

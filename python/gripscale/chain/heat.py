@@ -9,21 +9,23 @@ loss. So the temperature rise on wave i is
     + the harmonics of each wave l <= i         v p_l (mu_l own pattern + sum_(j > l) mu_j contact)
 
 each from `gripscale.conditions.flash_temperature`: for l < i averaged over the contact, weighted by
-its pressure; for l = i averaged over the loss of wave i. The road takes up no heat, so that this is
-an upper bound of what the heat of the hysteresis does; that of an area term is left out. The strain
-of a wave, for the softening, is that of `gripscale.conditions.strain_rule`.
+its pressure; for l = i averaged over the loss of wave i. An area term, less what a counterface
+takes up of all heat, counts as a further wave below the last, at the surface: it is distributed as
+the pressure on each wave. The strain of a wave, for the softening, is that of
+`gripscale.conditions.strain_rule`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from gripscale.conditions import flash_temperature as rise
-from gripscale.conditions.conditions import StrainNorm
+from gripscale.conditions.conditions import Conditions, StrainNorm
 from gripscale.conditions.strain_rule import SLOPE_FACTOR
 from gripscale.core import Array, ComplexArray, InputError
 from gripscale.rubber import Rubber
@@ -99,12 +101,55 @@ class Warming:
         return self.uniform + self.larger_waves + self.own_pattern
 
 
+_SURFACE = rise.LossDepth(0.0)
+
+
+def warming_with_interface(
+    waves: Sequence[WaveHeat],
+    conditions: Conditions,
+    friction_at: Callable[[float], float],
+    *,
+    speed: float,
+    time: float,
+) -> list[Warming]:
+    """Return the temperature rise on each wave, with the heat of an area term and the counterface.
+
+    `friction_at` is the friction of the area term [-] at a rise in the contact [K].
+    """
+    thermal, road = conditions.heat, conditions.counterface
+    assert thermal is not None
+    part = partial(warming, waves, speed=speed, time=time, thermal=thermal)
+    cold = part()
+    if not waves or speed == 0.0 or (conditions.shear_stress is None and road is None):
+        return cold
+    by_unit, in_road = part(interface=1.0)[-1].contact - cold[-1].contact, math.inf
+    if road is not None:
+        in_road = speed * waves[0].pressure * rise.uniform_at_surface(time, _SURFACE, road)
+        for wave in waves:
+            m = rise.harmonic_decay(wave.wavenumbers, 0.0, 0.0, road)
+            harmonics = wave.contact * rise.PassingHarmonics(m, time, road).at_surface(_SURFACE)
+            in_road += speed * wave.pressure * _mean(harmonics, wave.contact)
+    divided = rise.Partition(cold[-1].contact, by_unit, in_road)
+    friction = 0.0
+    if conditions.shear_stress is not None:
+        friction = rise.settled_interface(
+            friction_at, lambda mu: cold[-1].contact + divided.net(mu) * by_unit
+        )
+    return part(interface=divided.net(friction))
+
+
 def warming(
-    waves: Sequence[WaveHeat], *, speed: float, time: float, thermal: rise.ThermalProperties
+    waves: Sequence[WaveHeat],
+    *,
+    speed: float,
+    time: float,
+    thermal: rise.ThermalProperties,
+    interface: float = 0.0,
 ) -> list[Warming]:
     """Return the temperature rise of the rubber on each wave of a chain, largest first.
 
-    `time` is the duration of the nominal contact [s].
+    `time` is the duration of the nominal contact [s], `interface` the friction whose heat enters
+    the rubber at the surface of the real contact [-].
     """
     if speed == 0.0 or not waves:
         return [Warming(0.0, 0.0, 0.0, 0.0) for _ in waves]
@@ -112,14 +157,16 @@ def warming(
     deep = [rise.uniform_where_lost(time, wave.depth, thermal) for wave in waves]
     top = [rise.uniform_at_surface(time, wave.depth, thermal) for wave in waves]
     heats = [nominal * wave.friction for wave in waves]
+    from_interface = nominal * interface
+    on_surface = from_interface * rise.uniform_at_surface(time, _SURFACE, thermal)
     out, larger_waves = [], 0.0
     for i, wave in enumerate(waves):
-        others = sum(h * t for j, (h, t) in enumerate(zip(heats, top, strict=True)) if j != i)
         # by the harmonics of this wave: where it loses energy, and in its contact
         k, heat = wave.wavenumbers, speed * wave.pressure
         m = rise.harmonic_decay(k, k, speed, thermal)
         loss = heat * wave.friction * wave.lost
-        by_smaller = np.zeros_like(m)
+        at_surface = rise.harmonic_at_surface(m, _SURFACE, thermal)
+        by_smaller = heat * interface * wave.contact * at_surface
         for other in waves[i + 1 :]:
             at_surface = rise.harmonic_at_surface(m, other.depth, thermal)
             by_smaller += heat * other.friction * wave.contact * at_surface
@@ -128,8 +175,10 @@ def warming(
         own_pattern = _mean(where_lost, wave.lost)
         in_contact = loss * rise.harmonic_at_surface(m, wave.depth, thermal) + by_smaller
         contact = _mean(in_contact, wave.contact)
-        surface = others + heats[i] * top[i] + larger_waves + contact
-        out.append(Warming(others + heats[i] * deep[i], larger_waves, own_pattern, surface))
+        surface = float(np.dot(heats, top)) + on_surface + larger_waves + contact
+        uniform = rise.uniform_from_others(heats, top, i) + heats[i] * deep[i]
+        uniform += from_interface * top[i]
+        out.append(Warming(uniform, larger_waves, own_pattern, surface))
         larger_waves += contact
     return out
 

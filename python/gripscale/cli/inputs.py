@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Iterator
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -38,6 +38,7 @@ from gripscale.questions.terminal import (
 if TYPE_CHECKING:
     from gripscale.io.table import Table
     from gripscale.rubber.measured_rubber import MeasuredRubber
+    from gripscale.rubber.softening import SofteningTable
     from gripscale.surface import Surface
 
 
@@ -229,7 +230,8 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
 def fit_rubber(
     context: typer.Context,
     file: Annotated[
-        list[str], argument("A master curve, or sweeps to make one of, in one file or several.")
+        list[str],
+        argument("A master curve, or sweeps to make one of, and strain sweeps; in several files."),
     ],
     terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
     frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
@@ -255,42 +257,75 @@ def fit_rubber(
     vertical: Annotated[
         bool, typer.Option("--vertical", help="Find vertical shifts as well; sweeps.")
     ] = False,
+    amplitude: Annotated[
+        str | None, option("single or peak-to-peak, if strain sweeps do not say.")
+    ] = None,
+    deformation: Annotated[
+        str | None, option("tension or shear, if strain sweeps do not say.")
+    ] = None,
+    measured_at: Annotated[
+        str | None, option('Strain of the master curve, beside strain sweeps; "0.1 %" by default.')
+    ] = None,
+    strain_unit: Annotated[str | None, option("1 or %, if not stated.")] = None,
     output: Annotated[Path | None, option("Folder for figures and files.", metavar="DIR")] = None,
 ) -> None:
-    """Fit a Prony series to a master curve, or to sweeps at several temperatures."""
-    from gripscale.case_file import RubberSource, prepare_rubber, validate
-    from gripscale.io.folders import require_writable
-    from gripscale.questions.inputs.page import band_table, prony_table, rubber_parts
+    """Fit a Prony series to a master curve or to sweeps at several temperatures.
 
-    values = keys_of(context, RubberSource) | {"file": file[0] if len(file) == 1 else file}
-    if columns is not None:
-        values["columns"] = columns_of(columns)
+    Strain sweeps among the files are drawn: what they keep of the moduli.
+    """
+    from gripscale.case_file import RubberSource, prepare_rubber, validate
+    from gripscale.case_file.rubber_tables import StrainSweeps
+    from gripscale.io.folders import require_writable
+    from gripscale.questions.inputs import page
+    from gripscale.rubber.strain_sweeps import holds_strain_sweeps
+
+    layout: dict[str, Any] = {} if columns is None else {"columns": columns_of(columns)}
     if sheet is not None:
-        values["sheet"] = column_of(sheet)
-    if wlf is not None:
-        values["shift"] = shift_of_wlf(wlf)
-    source = validate(RubberSource, values, "options")
+        layout["sheet"] = column_of(sheet)
+    of_strain = layout if "strain" in layout.get("columns", ()) else {}
+    by_strain = [name for name in file if holds_strain_sweeps(name, **of_strain)]
+    file = [name for name in file if name not in by_strain]
     if output is not None:
         require_writable(output)
-    console = screen()
+    console, law, prepared = screen(), None, None
     with naming_options():
-        prepared = prepare_rubber(source)
-    rubber = prepared.rubber
-    tables = [band_table(rubber), prony_table(rubber.relaxation_times, rubber.moduli)]
-    findings = () if prepared.fit is None else prepared.fit.findings
-    print_parts(console, [*rubber_parts(prepared), *findings, *filter(None, tables)])
+        if by_strain:
+            values = keys_of(context, StrainSweeps) | ({} if file else layout)
+            values |= {"kind": "table", "files": by_strain}
+            law = validate(StrainSweeps, values, "options").softening()
+        if file:
+            values = keys_of(context, RubberSource) | layout
+            values["file"] = file[0] if len(file) == 1 else file
+            if wlf is not None:
+                values["shift"] = shift_of_wlf(wlf)
+            prepared = prepare_rubber(validate(RubberSource, values, "options"))
+    if prepared is not None:
+        rubber = prepared.rubber
+        terms_table = page.prony_table(rubber.relaxation_times, rubber.moduli)
+        findings = () if prepared.fit is None else prepared.fit.findings
+        tables = filter(None, [page.band_table(rubber), terms_table])
+        print_parts(console, [*page.rubber_parts(prepared), *findings, *tables])
+    if law is not None:
+        print_parts(console, page.softening_parts(law))
     if output is not None:
-        print_parts(console, ["", f"{_written(prepared, output)} in {output}"])
+        print_parts(console, ["", f"{_written(prepared, law, output)} in {output}"])
 
 
-def _written(prepared: MeasuredRubber, output: Path) -> str:
+def _written(prepared: MeasuredRubber | None, law: SofteningTable | None, output: Path) -> str:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.io.folders import make_folder, write_text
-    from gripscale.questions.inputs.charts_of_rubber import rubber_figures
+    from gripscale.questions.inputs.charts_of_rubber import rubber_figures, softening_sheet
+    from gripscale.rubber.softening import write_softening_factors
 
     make_folder(output)
-    rubber_figures(prepared, (), FigureFolder(output, _FIGURES))
+    figures = FigureFolder(output, _FIGURES)
+    if law is not None:
+        figures.save(softening_sheet(law), "softening")
+        write_softening_factors(output / "softening_factors.csv", law)
+    if prepared is None:
+        return "Figure and factors of the softening are"
+    rubber_figures(prepared, (), figures)
     master, sweeps = prepared.master, prepared.sweeps
     if master is None or sweeps is None:
         return "The figure is"

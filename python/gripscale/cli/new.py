@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import shlex
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
+
+import click
+import typer
 
 from gripscale.core import GripscaleError, Words
 from gripscale.questions import terminal
@@ -76,6 +80,17 @@ def new(
     thickness: Annotated[
         str | None, terminal.option('Of the rubber, such as "8 mm"; it has no end by default.')
     ] = None,
+    filled: Annotated[
+        bool | None,
+        typer.Option(
+            "--filled/--unfilled",
+            help="Whether the rubber has carbon black or silica, as every tread; asked for in a "
+            "terminal, and without it the answer has both numbers.",
+        ),
+    ] = None,
+    interface: Annotated[
+        str | None, terminal.option('"dry": a dry road, which also shears the contact area.')
+    ] = None,
     step: Annotated[
         str | None,
         terminal.option(
@@ -106,6 +121,11 @@ def new(
         "temperature_unit": temperature_unit,
         "modulus_unit": modulus_unit,
     }
+    if filled is None and sys.stdin.isatty() and sys.stdout.isatty():
+        choices = click.Choice(["yes", "no", "unknown"])
+        question = "Is the rubber filled (carbon black, silica), as every tread is?"
+        reply = typer.prompt(question, default="unknown", type=choices)
+        filled = {"yes": True, "no": False}.get(reply)
     with naming_options():
         case = new_case(
             files,
@@ -116,6 +136,8 @@ def new(
             shift=None if wlf is None else shift_of_wlf(wlf),
             layout={key: value for key, value in layout.items() if value is not None},
             thickness=thickness,
+            filled=filled,
+            interface=interface,
         )
     lines = [f"Case: {case.path}"]
     if case.skipped:

@@ -16,7 +16,7 @@ from gripscale.questions.answer.page import slopes_table
 from gripscale.questions.answer.reliance import headline
 from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.chain import events
-from gripscale.questions.chain.charts import effects_sheet, heat_sheet
+from gripscale.questions.chain.charts import heat_sheet
 from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
 from gripscale.questions.chain.run import CHAIN_REPORT, DYNAMIC, ChainRun
 from gripscale.questions.chain.run_figures import background_figures
@@ -29,9 +29,6 @@ from gripscale.questions.result import warning_lines
 from gripscale.questions.summary_table import SUMMARY_FILE
 from gripscale.questions.uncertainty.page import uncertainty_lines
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
-from gripscale.questions.vary.effects import EFFECTS_FILE, case_effects
-from gripscale.questions.vary.inputs import effects_asked
-from gripscale.questions.vary.page_side_by_side import effects_table
 from gripscale.questions.words import OF_THE_PAPER
 from gripscale.report.failures import explained
 
@@ -65,7 +62,7 @@ def solve_run(
             terminal.show_step(console, "solving the direct contact ...")
             chain.answer = answer(case, folder=target)
             _print_answer(console, case, chain.answer)
-        effects = _solve(console, emit, work.file, chain, draw)
+        _solve(console, emit, work.file, chain, draw)
         if chain.answer is None:
             waves = chain.dataset(next(iter(chain.predictions)))
             chain.answer = answer_with_inputs(case, waves_answer(case, waves))
@@ -78,7 +75,7 @@ def solve_run(
         emit(events.FileWritten(str(target / ANSWER_FILE)))
         if chain.answer.curve is not None:
             cut_off_result(chain.answer.curve, case).save(target / "cut_off.nc")
-        of_chain, heat = _chain_parts(chain, effects)
+        of_chain, heat = _chain_parts(chain)
         parts, files = _parts(chain, chain.answer, target), {}
         if not measured:
             parts = [*of_chain, *parts]
@@ -90,8 +87,6 @@ def solve_run(
     def draw_conditions() -> None:
         if heat is not None:
             figures.save(heat_sheet(heat), "heat")
-        if effects is not None:
-            figures.save(effects_sheet(effects), "effects")
 
     # after the figures of the other thread: matplotlib reads formulas in one thread at a time
     report = work.conclude(
@@ -121,7 +116,7 @@ def solve_run(
 def _print_answer(console: Console, case: Case, answer: Answer) -> None:
     """Print an answer with its first findings, above the inputs of its case."""
     terminal.end_steps()
-    findings = warning_lines(answer.findings, terminal.RUN_REPORT)
+    findings = warning_lines(answer.findings, terminal.RUN_REPORT, answer.half_widths)
     terminal.print_parts(console, ["", *answer.lines, *findings, "", *_inputs(case)])
 
 
@@ -131,11 +126,9 @@ def _solve(
     file: CaseFile,
     chain: ChainRun,
     draw: events.OnEvent,
-) -> xr.Dataset | None:
-    """Solve and write the chain and, where the case asks for them, the effects of conditions."""
-    case, target = chain.case, chain.folder
-    assert target is not None
-    print_event = _event_printer(console, case.display_unit("speed"))
+) -> None:
+    """Solve and write the chain."""
+    print_event = _event_printer(console, chain.case.display_unit("speed"))
 
     def on_event(event: events.Event) -> None:
         emit(event)
@@ -143,12 +136,7 @@ def _solve(
         draw(event)
 
     terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
-    run_case(file, output=target, on_event=on_event, run=chain)
-    effects = case_effects(case, case.chain, target, target / "effects", dynamic=chain.dynamic)
-    if effects is not None:
-        emit(events.EffectsSolved(tuple(effects_asked(case.chain))))
-        emit(events.FileWritten(str(target / EFFECTS_FILE.format(model=case.chain.name))))
-    return effects
+    run_case(file, output=chain.folder, on_event=on_event, run=chain)
 
 
 def _inputs(case: Case) -> list[str]:
@@ -187,9 +175,7 @@ def _event_printer(console: Console, speed_unit: DisplayUnit) -> events.OnEvent:
     return print_event
 
 
-def _chain_parts(
-    chain: ChainRun, effects: xr.Dataset | None
-) -> tuple[list[str | Table], xr.Dataset | None]:
+def _chain_parts(chain: ChainRun) -> tuple[list[str | Table], xr.Dataset | None]:
     """Return tables of the chain, and the prediction that has heat to be drawn."""
     views = [PredictionView(chain.dataset(name), name) for name in chain.predictions]
     parts: list[str | Table] = [prediction_table(view.data, view.title) for view in views]
@@ -198,8 +184,6 @@ def _chain_parts(
     if moving is not None and moving.conditions is not None and moving.conditions.heat is not None:
         heat = chain.dataset(DYNAMIC)
         parts.append(heat_table(heat))
-    if effects is not None:
-        parts.append(effects_table(effects))
     return parts, heat
 
 

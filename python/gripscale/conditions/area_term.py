@@ -2,19 +2,21 @@
 
     mu_adh = tau_f(v, T) A_r / (A_0 p_0)
 
-Its parameters are fits to measured friction of one rubber on one surface; there are no defaults.
+Its parameters are fits to measured friction of one rubber on one surface; the only law with numbers
+of its own is that of treads on a dry road (`gripscale.conditions.dry_road`).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gripscale.conditions.dry_road import DryTread, sliding_speeds
 from gripscale.core import Array, Checked, InputError, checked, checks
 
 BOLTZMANN = 8.617333262e-5  # k_B [eV/K]: CODATA 2018
@@ -45,7 +47,7 @@ class ConstantStress(Checked):
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
-        return np.full(_speeds(speed).shape, self.stress_0)
+        return np.full(sliding_speeds(speed).shape, self.stress_0)
 
 
 class GaussianStress(Checked):
@@ -80,7 +82,7 @@ class GaussianStress(Checked):
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s] and temperatures [K], broadcast together."""
         with np.errstate(divide="ignore"):
-            shifted = np.log10(_speeds(speed) / self.speed_0)
+            shifted = np.log10(sliding_speeds(speed) / self.speed_0)
         if self.reference_temperature is not None and self.activation_energy > 0.0:
             if temperature is None:
                 raise InputError("temperature must be given [K] for an area term with it")
@@ -116,7 +118,7 @@ class LeGalKlueppelStress(Checked):
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
         with np.errstate(divide="ignore", over="ignore"):
-            slowness = (self.critical_speed / _speeds(speed)) ** self.exponent
+            slowness = (self.critical_speed / sliding_speeds(speed)) ** self.exponent
         return np.asarray(self.stress_0 * (1.0 + self.ratio / (1.0 + slowness)))
 
 
@@ -149,13 +151,14 @@ class TableStress(Checked):
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
         with np.errstate(divide="ignore"):
-            at = np.log(_speeds(speed))
+            at = np.log(sliding_speeds(speed))
         return np.asarray(np.interp(at, np.log(self.speed), self.stress_at))
 
 
 # Every law of the interfacial shear stress by its kind.
 SHEAR_STRESSES: dict[str, Any] = {
-    law.kind: law for law in (ConstantStress, GaussianStress, LeGalKlueppelStress, TableStress)
+    law.kind: law
+    for law in (ConstantStress, GaussianStress, LeGalKlueppelStress, TableStress, DryTread)
 }
 
 
@@ -184,23 +187,3 @@ def adhesive_friction(shear_stress: float, contact_fraction: float, pressure: fl
     stress = checks.not_negative("shear_stress", shear_stress, unit="Pa")
     fraction = checks.number("contact_fraction", contact_fraction)
     return stress * fraction / checks.positive("pressure", pressure, unit="Pa")
-
-
-def heat_left_out(area_term: float, hysteresis: float) -> Iterator[str]:
-    """Yield what temperatures by the heat of the hysteresis leave out, for both frictions [-].
-
-    Each is a friction power mu p v over the same nominal area; that of the area term warms nothing.
-    """
-    if area_term > 0.0 and hysteresis > 0.0:
-        yield (
-            "Temperatures contain the heat of the hysteresis only; the heat of the area term is "
-            f"{area_term / hysteresis:.0%} of it."
-        )
-
-
-def _speeds(speed: ArrayLike) -> Array:
-    """Return speeds [m/s]; raise `InputError` if one is negative or not a number."""
-    speeds = checks.real("speed", speed, unit="m/s")
-    if (speeds < 0.0).any():
-        raise InputError(f"speed must not be negative [m/s]; got {speeds.min():g}")
-    return speeds

@@ -12,8 +12,9 @@ where they are known the logarithms of the factors are linear in log |q|.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -28,7 +29,8 @@ from gripscale.conditions.area_term import (
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks, units
 from gripscale.rubber import Rubber
-from gripscale.rubber.softening import SofteningLaw, softened, softening_from_dict
+from gripscale.rubber.softening import Kraus, SofteningLaw, SofteningTable, softened
+from gripscale.rubber.typical_tread import TypicalTread
 
 StrainNorm = Literal["slope", "stretch"]
 STRAIN_NORMS = ("slope", "stretch")
@@ -38,8 +40,13 @@ _HARMONICS = np.geomspace(1.0, 16.0, 12)
 ROWS_AT_ONCE = 50_000
 
 
+# In place of an effect that a case has by default: switched off on purpose.
+OFF = "none"
+DEFAULTED = ("softening", "heat")
+
+
 def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
-    if value is not None and not isinstance(value, kind):
+    if value is not None and value != OFF and not isinstance(value, kind):
         raise InputError(f"{name} must be {expected}; got {checks.short_repr(value)}")
     return value
 
@@ -60,6 +67,15 @@ def water_film(water: object) -> float:
             f'water must be True, False, "{FLOODED}" or the thickness of a film: {error}'
         ) from error
     return checks.positive("water", film, unit="m")
+
+
+SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable, TypicalTread)}
+
+
+def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
+    """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
+    law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
+    return law
 
 
 class Conditions(Checked):
@@ -89,9 +105,19 @@ class Conditions(Checked):
     water: float | None = checked(lambda _, value: water_film(value) or None, default=None)
     """Water that contact can trap, on a map: "flooded" or True, or the thickness of a film [m].
     Only the direct contact has it, and not together with softening or heat."""
+    counterface: ThermalProperties | None = checked(
+        _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
+    )
+    """What takes up heat through the contact, with heat; None: it is insulating."""
+    off: tuple[str, ...] = checked(lambda _, value: tuple(value), default=())
+    """Effects that are switched off on purpose, by the word "none" in their place: a case has none
+    of them by default either."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        for effect in DEFAULTED:
+            if getattr(self, effect) == OFF:
+                self._set(**{effect: None}, off=(*self.off, effect))
         if self.water is not None and self.iterated:
             effect = "heat" if self.softening is None else "softening"
             raise InputError(
@@ -112,17 +138,20 @@ class Conditions(Checked):
             "softening": self.softening and self.softening.to_dict(),
             "strain_norm": self.strain_norm,
             "heat": self.heat and asdict(self.heat),
+            "counterface": self.counterface and asdict(self.counterface),
             "shear_stress": self.shear_stress and shear_stress_to_dict(self.shear_stress),
             "water": FLOODED if self.water == math.inf else self.water,
+            **({"off": list(self.off)} if self.off else {}),
         }
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Conditions:
         """Return the conditions of `to_dict`; raise `InputError` if a value cannot be used."""
         effects = dict(values)
-        laws = {
+        laws: dict[str, Callable[[Any], Any]] = {
             "softening": softening_from_dict,
-            "heat": lambda heat: checks.from_mapping(ThermalProperties, "heat", heat),
+            "heat": partial(checks.from_mapping, ThermalProperties, "heat"),
+            "counterface": partial(checks.from_mapping, ThermalProperties, "counterface"),
             "shear_stress": shear_stress_from_dict,
         }
         for name, law in laws.items():
@@ -143,6 +172,12 @@ class Conditions(Checked):
         kelvin = self.temperature if temperature is None else temperature
         stress = float(self.shear_stress.stress(speed, kelvin))
         return adhesive_friction(stress, contact_fraction, pressure)
+
+    def without(self, *effects: str) -> Conditions:
+        """Return the same with effects switched off on purpose."""
+        nothing: dict[str, Any] = dict.fromkeys(effects)
+        off = [name for name in effects if name in DEFAULTED]
+        return replace(self, **nothing, off=tuple(dict.fromkeys([*self.off, *off])))
 
     @property
     def dry(self) -> Conditions:

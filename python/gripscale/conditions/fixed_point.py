@@ -33,7 +33,7 @@ S = TypeVar("S")
 
 HISTORY = 3  # evaluations before the last one that Anderson's acceleration uses
 LONGEST_STEP = 2.0  # largest change of one component from one x to the next
-MOST_PASSES = 8  # most evaluations, on the fine mesh and in each fixed point of the coarse one
+MOST_PASSES = 10  # most evaluations, on the fine mesh and in each fixed point of the coarse one
 # Relative change still expected of contact fraction and friction at the end: a third of the 1e-3
 # that the documentation promises.
 RESULT_TOLERANCE = 3e-4
@@ -68,15 +68,17 @@ class FixedPoint(Generic[S]):
     converged: bool
 
 
-def solve_fixed_point(fine: _Solve[S], coarse: _Solve[S] | None) -> FixedPoint[S]:
-    """Return the solution that agrees with the state it assumes.
+def solve_fixed_point(
+    fine: _Solve[S], coarse: _Solve[S] | None, tolerance: float = STATE_TOLERANCE
+) -> FixedPoint[S]:
+    """Return the solution that agrees with the state it assumes, to a tolerance of its components.
 
     A `coarse` mesh that fails, or whose own fixed point is not found, is not used any more.
     """
     start = None if coarse is None else _evaluated(coarse, None, None)
     if coarse is None or start is None:
         start = fine(None, None)
-        return _solve_on_fine_mesh(fine, start, 1, 0)
+        return _solve_on_fine_mesh(fine, start, 1, 0, tolerance)
     model = _CoarseModel(coarse, start)
     last: Iteration[S] | None = None
     count, trusted = 0, model.solve(COARSE_TOLERANCE)
@@ -87,18 +89,18 @@ def solve_fixed_point(fine: _Solve[S], coarse: _Solve[S] | None) -> FixedPoint[S
         if not last.usable:
             return FixedPoint(last, count, model.count, converged=False)
         model.correct(last)
-        trusted = model.solve(STATE_TOLERANCE)
+        trusted = model.solve(tolerance)
         pairs = zip(model.last.results, before.results, strict=True)
         change = max(abs(a - b) / max(abs(b), 1e-300) for a, b in pairs)
-        if trusted and change < RESULT_TOLERANCE:
+        if trusted and change < RESULT_TOLERANCE / STATE_TOLERANCE * tolerance:
             return FixedPoint(last, count, model.count, converged=True)
     if last is not None and count == MOST_PASSES:
         return FixedPoint(last, count, model.count, converged=False)
-    return _solve_on_fine_mesh(fine, last or start, count, model.count)
+    return _solve_on_fine_mesh(fine, last or start, count, model.count, tolerance)
 
 
 def _solve_on_fine_mesh(
-    fine: _Solve[S], last: Iteration[S], count: int, coarse: int
+    fine: _Solve[S], last: Iteration[S], count: int, coarse: int, tolerance: float
 ) -> FixedPoint[S]:
     """Iterate without a coarse mesh, after `count` fine and `coarse` coarse evaluations."""
     sequence, converged = AndersonSequence(last.value), False
@@ -106,7 +108,7 @@ def _solve_on_fine_mesh(
         last = fine(sequence.x, last.solution)
         count += 1
         sequence.add(last.value)
-        converged = max(sequence.residual, sequence.step) < STATE_TOLERANCE
+        converged = max(sequence.residual, sequence.step) < tolerance
         if count >= MOST_PASSES:
             break
     return FixedPoint(last, count, coarse, converged)

@@ -1,4 +1,4 @@
-"""Flash temperature of a sliding rubber: closed forms for an insulated half-space.
+"""Flash temperature of a sliding rubber: closed forms for a half-space, and what the road takes.
 
 The rubber moves with v along x over a heat source at rest. A harmonic q exp(i k . r) of the heat
 per area [W/m^2], lost at random depths Z and Z', in the steady state gives
@@ -23,7 +23,8 @@ state by conduction alone. Switched on at t = 0 it gives
     r(z)    = (exp(-m z) erfc(z/l - m l/2) - exp(m z) erfc(z/l + m l/2)) / (2 m)
 
 which is the steady exp(-m z)/m for l to infinity and the uniform l ierfc(z/l) for m to zero: the
-integral over time of the plane source exp(-z^2/(4 D t) - D m^2 t)/sqrt(pi t) with complex decay.
+integral over time of the plane source sqrt(D/(pi s)) exp(-z^2/(4 D s) - D m^2 s) with complex
+decay. Its means over depths are integrated over time: the waves are then the same for all depths.
 
 Depths of the loss: a pressure p cos(k x) that moves along a half-plane shears it with an amplitude
 p k z exp(-k z), the same everywhere along x (K. L. Johnson, Contact Mechanics (1985), sec. 13.2,
@@ -54,38 +55,86 @@ With phi(q) the phase of the harmonic, and only the half q_x > 0 of the spectrum
 
 so that |g|^2 is a density of the loss that is never negative and has the right mean. How harmonics
 of different wavelengths share their loss at one point is a choice.
+
+The interface loses its friction at the surface, evenly over the real contact, and there the road
+conducts. In its frame the contact stays: m = |k| with the constants of the road, for the time t.
+The flux into the road is taken as even over the contact as well, and as much as makes the mean
+temperatures of both surfaces equal there (H. Blok, Proc. Instn Mech. Engrs 2 (1937) 222; J. C.
+Jaeger, J. Proc. R. Soc. N.S.W. 76 (1942) 203). With the rise a of the rubber by hysteresis alone,
+and b and c of rubber and road by a unit of flux, all means over the contact,
+
+    a + b (q - s) = c s,       s = (a + b q)/(b + c)
+
+of the interface's q goes into the road. Where all is in contact b/c is the inverse ratio of the
+effusivities sqrt(kappa rho c). The error of an even flux, against equal temperatures everywhere in
+the contact, is in docs/conditions.md.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Literal, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core import Array, Checked, ComplexArray, InputError, checked, checks
+from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks
 
 
 class ThermalProperties(Checked):
-    """Thermal properties of a rubber, which warms by its own friction; there are no defaults.
+    """Thermal properties of a rubber, or of its counterface; by default of a typical filled rubber.
+
+    Conductivity: D. Hands & F. Horsfall, Rubber Chem. Technol. 50 (1977) 253. Specific heat: C. Nah
+    et al., J. Appl. Polym. Sci. 72 (1999) 1513. Rounded, and not of one compound.
 
     Raises `InputError` if a value is no finite number above zero.
     """
 
-    conductivity: float = checked(checks.positive, unit="W/(m K)")
-    """Thermal conductivity of the rubber [W/(m K)]."""
-    density: float = checked(checks.positive, unit="kg/m^3")
+    conductivity: float = checked(checks.positive, unit="W/(m K)", default=0.25)
+    """Thermal conductivity [W/(m K)]."""
+    density: float = checked(checks.positive, unit="kg/m^3", default=1150.0)
     """Its density [kg/m^3]."""
-    specific_heat: float = checked(checks.positive, unit="J/(kg K)")
+    specific_heat: float = checked(checks.positive, unit="J/(kg K)", default=1500.0)
     """Its specific heat [J/(kg K)]."""
 
     @property
     def diffusivity(self) -> float:
         """D = conductivity / (density x specific heat) [m^2/s]."""
         return self.conductivity / (self.density * self.specific_heat)
+
+    @property
+    def effusivity(self) -> float:
+        """sqrt(conductivity x density x specific heat) [J/(m^2 K s^0.5)]."""
+        return math.sqrt(self.conductivity * self.density * self.specific_heat)
+
+    def with_effusivity(self, factor: float) -> ThermalProperties:
+        """Return the same with `factor` times the effusivity, and the same diffusivity."""
+        change = checks.positive("factor", factor)
+        return replace(
+            self,
+            conductivity=self.conductivity * change,
+            specific_heat=self.specific_heat * change,
+        )
+
+
+# One standard deviation of ln effusivity between rubbers, estimated: conductivity 20 %, specific
+# heat 15 %, density 4 %; of one kind of counterface, from the spread between rocks.
+THERMAL_SCATTER = 0.13
+COUNTERFACE_SCATTER = 0.15
+# Stone of a road: between basalt (1.7), granite (2.9) and limestone (3.2 W/(m K)), A. L. Marshall,
+# Build. Sci. 7 (1972) 167. Others: F. P. Incropera et al., Fundamentals of Heat and Mass Transfer,
+# appendix A.
+STONE = ThermalProperties(2.0, 2650.0, 800.0)
+CONCRETE = ThermalProperties(1.4, 2300.0, 880.0)
+GLASS = ThermalProperties(1.4, 2500.0, 750.0)
+STEEL = ThermalProperties(60.5, 7850.0, 434.0)
+COUNTERFACES = {"stone": STONE, "concrete": CONCRETE, "glass": GLASS, "steel": STEEL}
+"""Counterfaces by the word for their material."""
+COUNTERFACE_BY_KIND = {"surface": STONE, "road": STONE, "floor": CONCRETE, "counterface": STEEL}
+"""Counterface of each kind of surface where none is stated."""
 
 
 class DepthsOfLoss(Protocol):
@@ -109,8 +158,9 @@ class DepthsOfLoss(Protocol):
 Distances = Literal["depth", "difference", "sum"]
 DEEPEST = 60.0  # depth in units of 1/b beyond which the loss is neglected: exp(-60)
 WIDEST = 6.5  # argument beyond which ierfc is below 1e-20
-STEADY = 4.0  # Re(m) l/2 from which a harmonic is steady: erfc of it is 2e-8
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(96)
+STEADY = 2.5  # Re(m) l/2 from which a harmonic is steady: erfc of it is 4e-4
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
+_TIMES, _TIME_WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 
 def _loss_shape(name: str, value: Any) -> int:
@@ -142,14 +192,15 @@ class LossDepth(Checked):
 
     def decay(self, m: ComplexArray) -> ComplexArray:
         """Return E exp(-m Z) for `m` [1/m], same shape."""
-        return np.asarray((1.0 / (1.0 + np.asarray(m) / self.rate)) ** self.shape)
+        near = 1.0 / (1.0 + np.asarray(m) / self.rate)
+        return np.asarray(near if self.shape == 1 else near * near * near)
 
     def decay_between(self, m: ComplexArray) -> ComplexArray:
         """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
         near = 1.0 / (1.0 + np.asarray(m) / self.rate)
         if self.shape == 1:
             return np.asarray(near)
-        return np.asarray((3.0 * near + 3.0 * near**2 + 2.0 * near**3) / 8.0)
+        return np.asarray(near * (3.0 + near * (3.0 + 2.0 * near)) / 8.0)
 
     def spread(self, length: float, of: Distances = "depth") -> float:
         """Return E ierfc(distance / length)."""
@@ -232,63 +283,85 @@ def uniform_where_lost(time: float, depth: DepthsOfLoss, thermal: ThermalPropert
     return length * mean / (2.0 * thermal.conductivity)
 
 
+def uniform_from_others(
+    strength: Sequence[float], at_surface: Sequence[float], which: int
+) -> float:
+    """Return the temperature of uniform heat where `which` loses energy, by all others.
+
+    `strength` is the heat of each, `at_surface` the temperature that a unit of it has there. A
+    source warms another depth as a source at this depth would warm its own: where one lies at the
+    surface, the rise is that of the other at the surface, and of two depths the deeper one decides.
+    """
+    pairs = enumerate(zip(strength, at_surface, strict=True))
+    return sum(heat * min(top, at_surface[which]) for j, (heat, top) in pairs if j != which)
+
+
 def _diffusion_length(time: float, thermal: ThermalProperties) -> float:
     """Return 2 sqrt(D t) [m]."""
     return 2.0 * math.sqrt(thermal.diffusivity * checks.not_negative("time", time, unit="s"))
 
 
-def passing_at_surface(
-    m: ComplexArray, time: float, depth: LossDepth, thermal: ThermalProperties
-) -> ComplexArray:
-    """Return the surface temperature after a `time` [s] of harmonics per heat per area.
+@dataclass(frozen=True)
+class PassingHarmonics:
+    """Harmonics of heat that begin with a contact, after some time of it."""
 
-    In [K m^2/W], shape of `m`, which has no zero.
-    """
-    return _passing(m, time, depth, thermal, harmonic_at_surface(m, depth, thermal), "depth")
+    m: ComplexArray  # decay of the harmonics [1/m], no zero
+    time: float  # of the contact [s]
+    thermal: ThermalProperties
 
+    def at_surface(self, depth: LossDepth) -> ComplexArray:
+        """Return the surface temperature per heat per area [K m^2/W], shape of `m`."""
+        from scipy.special import erf
 
-def passing_where_lost(
-    m: ComplexArray, time: float, depth: LossDepth, thermal: ThermalProperties
-) -> ComplexArray:
-    """Return the temperature after a `time` [s], averaged over the loss, per heat per area.
-
-    In [K m^2/W], shape of `m`, which has no zero.
-    """
-    steady = harmonic_where_lost(m, depth, thermal)
-    return _passing(m, time, depth, thermal, steady, "difference", "sum")
-
-
-def _passing(
-    m: ComplexArray,
-    time: float,
-    depth: LossDepth,
-    thermal: ThermalProperties,
-    steady: ComplexArray,
-    *distances: Distances,
-) -> ComplexArray:
-    """Return the steady values, and E r over the `distances` of harmonics that still change."""
-    from scipy.special import wofz
-
-    length = _diffusion_length(time, thermal)
-    changing = m.real * (0.5 * length) < STEADY
-    if not changing.any():
+        steady = harmonic_at_surface(self.m, depth, self.thermal)
+        if depth.mean > 0.0:
+            return self._with_changing(steady, depth, "depth")
+        which, length = self._changing, _diffusion_length(self.time, self.thermal)
+        steady[which] *= erf(self.m[which] * (0.5 * length))
         return steady
-    out = steady.copy()
-    if length == 0.0:
-        out[changing] = 0.0
-        return out
-    different, inverse = np.unique(m[changing], return_inverse=True)
 
-    def rise(z: Array) -> ComplexArray:
-        """Return r at depths, by Faddeeva's w(x) = exp(-x^2) erfc(-i x)."""
-        at, half = (z / length)[:, None], (0.5 * length * different)[None, :]
-        scale = np.exp(-(at**2) - half**2)
-        faddeeva = wofz(1j * (at - half)) - wofz(1j * (at + half))
-        return np.asarray(scale * faddeeva / (2.0 * different))
+    def where_lost(self, depth: LossDepth) -> ComplexArray:
+        """Return the temperature, averaged over the loss, per heat per area, shape of `m`."""
+        steady = harmonic_where_lost(self.m, depth, self.thermal)
+        return self._with_changing(steady, depth, "difference", "sum")
 
-    means = [depth.average(of, rise, length) for of in distances]
-    out[changing] = (sum(means) / (len(means) * thermal.conductivity))[inverse]
-    return out
+    def _with_changing(
+        self, steady: ComplexArray, depth: LossDepth, *distances: Distances
+    ) -> ComplexArray:
+        """Return the steady values, and E r over the `distances` of harmonics that still change."""
+        roots, weights, waves, inverse = self._sources
+        if not inverse.size or self.time == 0.0:
+            steady[self._changing] = 0.0
+            return steady
+        spreads = 2.0 * np.sqrt(self.thermal.diffusivity) * roots
+        length = _diffusion_length(self.time, self.thermal)
+
+        def met(z: Array) -> Array:
+            """Return exp(-z^2/(4 D s)) at depths and times."""
+            return np.asarray(np.exp(-((z[:, None] / spreads) ** 2)))
+
+        mean = sum(depth.average(of, met, length) for of in distances) / len(distances)
+        steady[self._changing] = ((weights * mean) @ waves)[inverse]
+        return steady
+
+    @cached_property
+    def _changing(self) -> Mask:
+        length = _diffusion_length(self.time, self.thermal)
+        return np.asarray(self.m.real * (0.5 * length) < STEADY)
+
+    @cached_property
+    def _sources(self) -> tuple[Array, Array, ComplexArray, NDArray[np.intp]]:
+        """Return roots and weights of times s, exp(-D m^2 s) of each different m, and its index.
+
+        The cubes of the nodes resolve depths of a thousandth of 2 sqrt(D t).
+        """
+        different, inverse = np.unique(self.m[self._changing], return_inverse=True)
+        nodes, width = 0.5 * (_TIMES + 1.0), 0.5 * _TIME_WEIGHTS
+        root = math.sqrt(self.time)
+        roots, d = root * nodes**3, self.thermal.diffusivity
+        weights = 6.0 * root * nodes**2 * width * math.sqrt(d / math.pi) / self.thermal.conductivity
+        waves = np.asarray(np.exp(-d * np.multiply.outer(roots**2, different**2)))
+        return roots, weights, waves, inverse
 
 
 @dataclass(frozen=True)
@@ -356,6 +429,41 @@ def _i2erfc(x: Array) -> Array:
 def _i3erfc(x: Array) -> Array:
     """Return the integral of i2erfc from `x` to infinity."""
     return np.asarray(ierfc(x) / 6.0 - x * _i2erfc(x) / 3.0)
+
+
+@dataclass(frozen=True)
+class Partition:
+    """Rises of the contact [K], means over it, that divide heat between rubber and counterface."""
+
+    hysteresis: float  # of the rubber, by the heat of the hysteresis
+    rubber: float  # of the rubber, by a unit of friction at its surface
+    counterface: float  # of the counterface, by a unit of friction; infinite if insulating
+
+    def net(self, interface: float) -> float:
+        """Return the friction whose heat enters the rubber in the contact [-], of the interface's.
+
+        Negative where more heat of the hysteresis leaves the rubber than the interface loses.
+        """
+        into_road = (self.hysteresis + self.rubber * interface) / (self.rubber + self.counterface)
+        return interface - into_road
+
+
+def settled_interface(
+    friction_at: Callable[[float], float], rise: Callable[[float], float]
+) -> float:
+    """Return the friction mu [-] of an interface that is at its rise: mu = friction_at(rise(mu)).
+
+    `friction_at` is a function of the temperature rise in the contact [K], which is `rise(mu)`.
+    """
+    from scipy.optimize import brentq
+
+    def excess(friction: float) -> float:
+        return friction_at(rise(friction)) - friction
+
+    end = friction_at(rise(0.0))
+    while excess(end) > 0.0:
+        end *= 2.0
+    return float(brentq(excess, 0.0, end, rtol=1e-9)) if end > 0.0 else 0.0
 
 
 def loss_pattern(pressure: ComplexArray, lost: Array) -> Array:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from enum import IntEnum, StrEnum
 from typing import ClassVar
@@ -44,6 +44,9 @@ class Topic(IntEnum):
     SOURCE = 4
 
 
+FILLED = "rubber.filled"  # key of the finding that nothing states whether a rubber is filled
+
+
 @dataclass(frozen=True)
 class Finding:
     """Something that may change a result, or leaves none."""
@@ -75,6 +78,16 @@ class Finding:
             return math.inf
         changes = (abs(change) for change in (self.friction, self.area) if not math.isnan(change))
         return max(changes, default=0.0)
+
+    def exceeds(self, widths: Mapping[str, float]) -> bool:
+        """Whether it may change `friction` or `area` by more than its relative half width [-].
+
+        An unknown width is none; a finding without a known effect exceeds no known one.
+        """
+        if self.effect == math.inf or self.severity == Severity.ERROR:
+            return True
+        changes = {"friction": self.friction, "area": self.area}
+        return not widths or any(abs(changes[name]) > width for name, width in widths.items())
 
 
 def ranked(findings: Iterable[Finding]) -> list[Finding]:

@@ -23,13 +23,6 @@ from gripscale.experiment.task import Task
 Index = tuple[int, ...]
 
 CONVERGED = "converged"  # status of an answer whose numbers may be used
-WITH_AREA_TERM = "friction_with_area_term"
-# Names of what an effect changes, relative to the answer without it.
-CHANGES = {
-    "total_contact_fraction": "contact_fraction_change",
-    "total_friction": "friction_change",
-    WITH_AREA_TERM: "friction_with_area_term_change",
-}
 
 # Numbers of the whole surface that an answer may have.
 _NUMBERS = (*model.TOTALS, model.ADHESIVE_FRICTION, *model.OUTSIDE_BAND, *model.CUT_OFF_EXPONENTS)

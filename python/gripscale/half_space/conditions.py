@@ -9,26 +9,35 @@ The strain of a scale is that of `gripscale.conditions.strain_rule` in the conta
 The harmonics of an octave lose mu_b p_0 v per nominal area, and the pattern of
 `gripscale.conditions.flash_temperature` distributes this heat along the surface. Summed over
 octaves it is exactly the friction work. It is lost at a mean depth of 3/2 over the wavenumber,
-averaged over the octave by the loss, and moves over the rubber while the footprint passes. The road
-takes up none. The heat of an area term, lost in the interface, is left out.
+averaged over the octave by the loss, and moves over the rubber while the footprint passes. The heat
+of an area term is lost at the surface, evenly over the contact; through it a counterface takes up
+its part of all heat.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
 import scipy
 
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
-from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
+from gripscale.conditions.fixed_point import (
+    STATE_TOLERANCE,
+    Iteration,
+    pack_state,
+    solve_fixed_point,
+    unpack_state,
+)
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
 from gripscale.conditions.strain_rule import DEPTH_FACTOR
 from gripscale.core import Array, ComplexArray, Mask, Status
-from gripscale.half_space.grid import Grid
-from gripscale.half_space.grid_sequence import GridRecord, KnownLevels
+from gripscale.half_space.grid import Grid, PeriodicHeights
+from gripscale.half_space.grid_sequence import GridRecord, KnownLevels, levels
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 
@@ -65,6 +74,11 @@ class OctaveHeat:
     friction: float  # mu_b [-]
     density: Array  # of the loss on the grid over its mean [-], shape of the grid
     depth: LossDepth
+
+    @cached_property
+    def pattern(self) -> ComplexArray:
+        """Spectrum of the density without its mean."""
+        return _without_mean(self.density)
 
 
 def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
@@ -108,52 +122,141 @@ def grid_temperature(
 
     `flux` is the heat per nominal area and unit of friction, p_0 v [W/m^2].
     """
-
-    def without_mean(density: Array) -> ComplexArray:
-        spectrum = scipy.fft.rfftn(density)
-        spectrum.flat[0] = 0.0
-        return np.asarray(spectrum)
-
-    m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, thermal)
-    m.flat[0] = 1.0
-    sources = [flux * heat.friction * without_mean(heat.density) for heat in heats]
-    uniform = [
-        flux * heat.friction * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats
-    ]
+    m = _decay(grid, speed, thermal)
+    passing = rise.PassingHarmonics(m, time, thermal)
+    uniform = [flux * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats]
+    strengths = [heat.friction for heat in heats]
     surfaces = [
-        source * rise.passing_at_surface(m, time, heat.depth, thermal)
-        for source, heat in zip(sources, heats, strict=True)
+        flux * heat.friction * heat.pattern * passing.at_surface(heat.depth) for heat in heats
     ]
     surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
     octave = []
     for which, heat in enumerate(heats):
-        pattern = without_mean(heat.density)
         # the other octaves warm the depth of this one from the surface, its own heat where it is
         here = heat.depth.decay(m) * (surface - surfaces[which])
-        here += sources[which] * rise.passing_where_lost(m, time, heat.depth, thermal)
-        level = sum(uniform) - uniform[which]
-        level += flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
-        mean_product = float((grid.weight * (here * pattern.conj()).real).sum() / grid.points**2)
-        octave.append(level + mean_product)
-    field = scipy.fft.irfftn(surface, s=grid.shape) + sum(uniform)
+        source = flux * heat.friction * heat.pattern
+        here += source * passing.where_lost(heat.depth)
+        level = flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
+        level += rise.uniform_from_others(strengths, uniform, which)
+        octave.append(level + _mean_over(grid, here, heat.pattern))
+    field = scipy.fft.irfftn(surface, s=grid.shape) + float(np.dot(strengths, uniform))
     return GridTemperature(np.asarray(field), np.array(octave))
+
+
+def contact_source_temperature(
+    grid: Grid,
+    heats: list[OctaveHeat],
+    contact: Mask,
+    *,
+    flux: float,
+    speed: float,
+    time: float,
+    thermal: ThermalProperties,
+    counterface: ThermalProperties | None,
+) -> tuple[GridTemperature, float]:
+    """Return the rises of the rubber, and of the counterface's contact [K], by a unit of friction.
+
+    The heat is even over `contact` and at the surface; other arguments as for `grid_temperature`.
+    The counterface is at rest under the contact; insulating it would be infinitely hot.
+    """
+    pattern, at_surface = _without_mean(contact / contact.mean()), LossDepth(0.0)
+
+    def field(solid: ThermalProperties, passing: float) -> tuple[float, ComplexArray]:
+        """Return mean and harmonics of the surface of a solid that moves at a speed [m/s]."""
+        m = _decay(grid, passing, solid)
+        harmonics = rise.PassingHarmonics(m, time, solid).at_surface(at_surface)
+        return flux * rise.uniform_at_surface(time, at_surface, solid), flux * pattern * harmonics
+
+    mean, surface = field(thermal, speed)
+    m = _decay(grid, speed, thermal)
+    octave = [
+        # a source at the surface warms a depth as one at this depth warms the surface
+        flux * rise.uniform_at_surface(time, heat.depth, thermal)
+        + _mean_over(grid, heat.depth.decay(m) * surface, heat.pattern)
+        for heat in heats
+    ]
+    rises = GridTemperature(scipy.fft.irfftn(surface, s=grid.shape) + mean, np.array(octave))
+    if counterface is None:
+        return rises, np.inf
+    mean, surface = field(counterface, 0.0)
+    return rises, mean + _mean_over(grid, surface, pattern)
+
+
+def _decay(grid: Grid, speed: float, thermal: ThermalProperties) -> ComplexArray:
+    """Return the decay of the harmonics of a grid [1/m]; of the mean, which has none, one."""
+    m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, thermal)
+    m.flat[0] = 1.0
+    return m
+
+
+def _without_mean(density: Array) -> ComplexArray:
+    spectrum = scipy.fft.rfftn(density)
+    spectrum.flat[0] = 0.0
+    return np.asarray(spectrum)
+
+
+def _mean_over(grid: Grid, harmonics: ComplexArray, pattern: ComplexArray) -> float:
+    """Return the mean of a field without mean, weighted by a density of mean one."""
+    return float((grid.weight * (harmonics * pattern.conj()).real).sum() / grid.points**2)
 
 
 def temperature(
     contact: RoughContact, conditions: Conditions, time: float
-) -> tuple[Array, GridTemperature]:
-    """Return the wavenumbers of the octaves that lose energy [rad/m], and the temperature rise."""
+) -> tuple[list[OctaveHeat], GridTemperature]:
+    """Return the octaves that lose energy, and the temperature rise in a contact of `time` [s]."""
     assert conditions.heat is not None
-    heats = octave_heats(contact.grid, contact.pressure, contact.lost_by_harmonic())
-    rises = grid_temperature(
-        contact.grid,
-        heats,
-        flux=contact.nominal_pressure * contact.speed,
-        speed=contact.speed,
-        time=time,
-        thermal=conditions.heat,
+    grid, active = contact.grid, contact.active
+    heats = octave_heats(grid, contact.pressure, contact.lost_by_harmonic())
+    motion: dict[str, Any] = {
+        "flux": contact.nominal_pressure * contact.speed,
+        "speed": contact.speed,
+        "time": time,
+        "thermal": conditions.heat,
+    }
+    rises = grid_temperature(grid, heats, **motion)
+    if conditions.shear_stress is None and conditions.counterface is None:
+        return heats, rises
+    by_unit, counterface = contact_source_temperature(
+        grid, heats, active, counterface=conditions.counterface, **motion
     )
-    return np.array([heat.wavenumber for heat in heats]), rises
+    part = rise.Partition(
+        float(rises.surface[active].mean()), float(by_unit.surface[active].mean()), counterface
+    )
+    cold, unit = (
+        float(np.average(each.surface, weights=contact.pressure)) for each in (rises, by_unit)
+    )
+    friction = 0.0
+    if conditions.shear_stress is not None:
+        friction = rise.settled_interface(
+            partial(contact.adhesive_friction_at, conditions),
+            lambda friction: cold + part.net(friction) * unit,
+        )
+    net = part.net(friction)
+    return heats, GridTemperature(
+        rises.surface + net * by_unit.surface, rises.octave + net * by_unit.octave
+    )
+
+
+@dataclass(frozen=True)
+class MeanWarming:
+    """Mean temperature rises of a contact [K]."""
+
+    contact: float  # at the surface, weighted by the pressure
+    where_lost: float  # in the depth, weighted by the loss
+
+
+def warming_of(contact: RoughContact, conditions: Conditions, footprint: float) -> MeanWarming:
+    """Return the rise by the heat of `conditions` in a contact that was solved without.
+
+    The rubber needs no shift. `footprint` is the length of the nominal contact [m].
+    """
+    if contact.speed == 0.0:
+        return MeanWarming(0.0, 0.0)
+    heats, rises = temperature(contact, conditions, footprint / contact.speed)
+    return MeanWarming(
+        float(np.average(rises.surface, weights=contact.pressure)),
+        float(np.average(rises.octave, weights=[heat.friction for heat in heats])),
+    )
 
 
 @dataclass(frozen=True)
@@ -165,21 +268,40 @@ class GridSequenceResult:
 
 
 _Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
+# Tolerance of the fixed point over that of the contact, and the largest: the interval of an answer
+# is ten times wider.
+_OF_GOAL, _LOOSEST = 0.2, 1e-2
+_CLOSED = 0.5  # strain of rubber in contact over that of rubber pressed into every valley, about
 
 
 def solve_coupled_contact(
-    solve: _Solve, quick: _Solve, rubber: Rubber, conditions: Conditions, time: float
+    solve: _Solve,
+    quick: _Solve,
+    heights: PeriodicHeights,
+    rubber: Rubber,
+    conditions: Conditions,
+    time: float,
+    goal: float = 0.0,
 ) -> RoughContact:
-    """Return the contact whose strains and temperatures are those of its rubber.
+    """Return the contact on heights whose strains and temperatures are those of its rubber.
 
-    `quick` solves the contact like `solve` in less time; `time` is that of the nominal contact [s].
+    `quick` solves the contact like `solve` in less time; `time` is that of the nominal contact [s],
+    `goal` the tolerance of the contact [-]. Rubber that softens starts with a guess of its strains.
     """
-    fine = _ContactEvaluation(solve, rubber, conditions, time)
-    fixed_point = solve_fixed_point(fine, replace(fine, solve=quick))
+    wavenumber, guess = _octaves(heights), None
+    if conditions.softening is not None:
+        grid = levels(heights)[-1].grid
+        strain = strain_by_scale(
+            grid, heights.on(grid.shape), np.ones(grid.shape, bool), wavenumber
+        )
+        guess = pack_state(np.zeros(strain.size), _CLOSED * strain)
+    fine = _ContactEvaluation(solve, rubber, conditions, time, wavenumber, guess)
+    tolerance = max(STATE_TOLERANCE, min(_OF_GOAL * goal, _LOOSEST))
+    fixed_point = solve_fixed_point(fine, replace(fine, solve=quick), tolerance)
     contact, x = fixed_point.last.solution.contact, fixed_point.last.x
     out = replace(
         contact,
-        scales=None if x is None else fine.state(x, contact),
+        scales=None if x is None else fine.state(x),
         passes=fixed_point.fine,
         coarse_passes=fixed_point.coarse,
         grids=fine.grids,
@@ -197,21 +319,24 @@ class _ContactEvaluation:
     rubber: Rubber
     conditions: Conditions
     time: float
+    wavenumber: Array  # of the scales [rad/m]
+    guess: Array | None  # state of the first evaluation; None: the rubber before the contact
     grids: list[GridRecord] = field(default_factory=list, repr=False)  # of all evaluations
 
     def __call__(
         self, x: Array | None, last: GridSequenceResult | None
     ) -> Iteration[GridSequenceResult]:
         """Return the evaluation of `x`, started from the last contact."""
-        state = None if x is None or last is None else self.state(x, last.contact)
-        levels = {} if last is None or last.contact.by_scale is None else last.levels
-        solved = self.solve(None if state is None else state.rubber, levels)
+        x = self.guess if x is None else x
+        known = {} if last is None or last.contact.by_scale is None else last.levels
+        solved = self.solve(None if x is None else self.state(x).rubber, known)
         contact = solved.contact
         self.grids.extend(contact.grids)
-        number, surface = _octaves(contact), None
+        number, surface = self.wavenumber, None
         warming, strain = np.zeros(number.size), np.ones(number.size)
         if self.conditions.heat is not None and contact.speed > 0.0:
-            at, rises = temperature(contact, self.conditions, self.time)
+            heats, rises = temperature(contact, self.conditions, self.time)
+            at = [heat.wavenumber for heat in heats]
             warming = np.interp(np.log(number), np.log(at), rises.octave)
             surface = rises.surface
         if self.conditions.softening is not None:
@@ -226,20 +351,20 @@ class _ContactEvaluation:
             contact.converged,
         )
 
-    def state(self, x: Array, contact: RoughContact) -> StateByScale:
-        """Return the rubber that the state `x` makes at every scale of a contact."""
+    def state(self, x: Array) -> StateByScale:
+        """Return the rubber that the state `x` makes at every scale."""
         warming, strain = unpack_state(x)
         return state_by_scale(
             self.conditions,
             self.rubber,
-            wavenumber=_octaves(contact),
+            wavenumber=self.wavenumber,
             warming=warming,
             strain=strain,
         )
 
 
-def _octaves(contact: RoughContact) -> Array:
+def _octaves(heights: PeriodicHeights) -> Array:
     """Return the wavenumbers of the state [rad/m]: octaves down to half the smallest wave."""
-    longest = 2.0 * np.pi / max(contact.grid.lengths)
-    octaves = np.log2(4.0 * np.pi / contact.smallest_wavelength / longest)
+    longest = 2.0 * np.pi / max(heights.grid.lengths)
+    octaves = np.log2(4.0 * np.pi / heights.smallest_wavelength / longest)
     return np.asarray(longest * 2.0 ** (np.arange(int(np.ceil(octaves))) + 0.5))

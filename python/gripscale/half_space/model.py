@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
 
 from gripscale import model
-from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.core import Array, Checked, InputError, Status, checked, checks, labelled, provenance
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
+from gripscale.half_space.condition_errors import condition_errors, log_change
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
@@ -28,6 +30,19 @@ from gripscale.wave.problem import Mesh
 from gripscale.wave.result import waves_to_dataset
 
 JUDGED_TO = 0.05  # estimated relative error of the contact that every run judges its chain by
+
+
+TREAD = 8e-3  # thickness of a new tread [m]
+FELT = 1.75  # wavelength over thickness up to which a layer is as soft as a half-space, within 5 %
+TREAD_CHANGES = {
+    "contact_fraction_of_tread": "change of ln contact fraction by a tread on a rigid base",
+    "friction_of_tread": "change of ln friction by a tread on a rigid base",
+}
+# Names of standard errors over `condition`, of what is not known of the conditions.
+CONDITION_ERRORS = {
+    "contact_fraction_condition_error": "standard error of ln contact fraction by a condition",
+    "friction_condition_error": "standard error of ln friction by a condition",
+}
 
 
 def _measurement(surface: Surface, need: str) -> Measured:
@@ -180,6 +195,9 @@ class DirectContact(Checked, model.Model):
     conditions: Conditions | None = None
     traces: bool = checked(checks.flag, default=False)
     """Whether the answer holds every contact as charts draw it (`with_traces`)."""
+    alternatives: bool = checked(checks.flag, default=False)
+    """Whether the answer holds how it changes by what is not known: typical conditions, and where
+    the rubber ends."""
 
     def with_conditions(self, conditions: Conditions | None) -> DirectContact:
         """Return the direct contact under other conditions."""
@@ -198,7 +216,8 @@ class DirectContact(Checked, model.Model):
             contacts.append(self.contact(rubber, surface, measured, load))
             if on_progress is not None:
                 on_progress(contacts[-1])
-        return self._answer(contacts, surface, load)
+        answer = self._answer(contacts, surface, load)
+        return self._with_alternatives(answer, contacts[0], rubber, surface, load)
 
     def contact(
         self,
@@ -207,8 +226,12 @@ class DirectContact(Checked, model.Model):
         measured: Profile | HeightMap,
         load: Load,
         start: RoughContact | None = None,
+        by_scale: RubberByScale | None = None,
     ) -> RoughContact:
-        """Return the contact of one profile of a surface, or of its map."""
+        """Return the contact of one profile of a surface, or of its map.
+
+        Arguments as of `solve_rough_contact`.
+        """
         smallest = self.smallest_wavelength
         if smallest is None and not self.periodic:
             smallest = smallest_wavelength(surface, measured)
@@ -226,7 +249,38 @@ class DirectContact(Checked, model.Model):
             conditions=self.conditions,
             footprint=load.footprint,
             start=start,
+            by_scale=by_scale,
         )
+
+    def _with_alternatives(
+        self,
+        answer: xr.Dataset,
+        contact: RoughContact,
+        rubber: Rubber,
+        surface: Surface,
+        load: Load,
+    ) -> xr.Dataset:
+        """Return an answer with how its first contact changes by what is not known."""
+        if not (self.alternatives and contact.usable):
+            return answer
+        measured = _measurement(surface, "").surfaces[0]
+        solve = partial(
+            replace(self, tolerance=None).contact, rubber, surface, measured, start=contact
+        )
+        errors = dict(condition_errors(contact, rubber, lambda scale: solve(load, by_scale=scale)))
+        numbers = np.array(list(errors.values())).reshape(-1, 2).T
+        data = {
+            name: labelled("condition", values, "1", text, "direct")
+            for (name, text), values in zip(CONDITION_ERRORS.items(), numbers, strict=True)
+        }
+        labels = np.array(list(errors), dtype=object)
+        longest = 0.0 if surface.waves is None else float(surface.sines.wavelength[0])
+        if load.thickness is None and longest > FELT * TREAD:
+            thin = solve(replace(load, thickness=TREAD), by_scale=contact.by_scale)
+            changes = log_change(contact, thin)
+            for (name, text), change in zip(TREAD_CHANGES.items(), changes, strict=True):
+                data[name] = labelled((), change, "1", text, "direct")
+        return answer.assign_coords(condition=("condition", labels)).assign(data)
 
     def _answer(self, contacts: Sequence[RoughContact], surface: Surface, load: Load) -> xr.Dataset:
         """Return the answer of the contacts of all profiles."""

@@ -30,7 +30,6 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.conditions.area_term import heat_left_out
 from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale
 from gripscale.core import Array, InputError, Mask, Status, labelled, provenance
 from gripscale.core.described import Described, Pictured
@@ -208,11 +207,19 @@ class RoughContact(Pictured):
         """Friction coefficient of the area term [-]; NaN without an area term, and at rest."""
         if self.conditions is None:
             return math.nan
-        kelvin = self.conditions.temperature_of(self.rubber)
-        if kelvin is not None and self.surface_warming is not None:
-            kelvin += float(np.average(self.surface_warming, weights=self.pressure))
-        return self.conditions.adhesive_friction(
-            self.contact_fraction, self.nominal_pressure, self.speed, kelvin
+        warming = 0.0
+        if self.surface_warming is not None:
+            warming = float(np.average(self.surface_warming, weights=self.pressure))
+        return self.adhesive_friction_at(self.conditions, warming)
+
+    def adhesive_friction_at(self, conditions: Conditions, warming: float) -> float:
+        """Return the friction of an area term [-] at a mean rise in the contact [K]."""
+        kelvin = conditions.temperature_of(self.rubber)
+        return conditions.adhesive_friction(
+            self.contact_fraction,
+            self.nominal_pressure,
+            self.speed,
+            None if kelvin is None else kelvin + warming,
         )
 
     @property
@@ -369,8 +376,6 @@ class RoughContact(Pictured):
                 f"contact area is {self.water.dry_contact_fraction:.3g} and the friction "
                 f"{self.water.dry_friction:.3g}."
             )
-        if self.surface_warming is not None:
-            out += heat_left_out(self.adhesive_friction, self.friction)
         if self.status == Status.FRICTIONS_DISAGREE:
             out.append(
                 f"Friction is {self.friction:.3g} from traction and "

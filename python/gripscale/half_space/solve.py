@@ -80,6 +80,7 @@ def solve_rough_contact(
     conditions: Conditions | None = None,
     footprint: Quantity | None = None,
     extrapolate: str = "warn",
+    by_scale: RubberByScale | None = None,
     start: RoughContact | None = None,
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
@@ -154,6 +155,8 @@ def solve_rough_contact(
         "refuse": raise an error if the smallest wave excites the rubber, at the temperature before
         the contact, beyond its `valid_band`. The share of the friction from beyond the band is in
         `extrapolation` of the result.
+    by_scale : RubberByScale, optional
+        The rubber at each scale, such as that of another contact: conditions are not iterated then.
     start : RoughContact, optional
         Contact of a surface of the same size that starts the solution, with any cut-off, rubber,
         pressure and speed. Only the last grids are solved: without a tolerance those with all waves
@@ -163,6 +166,7 @@ def solve_rough_contact(
     load = checks.positive("pressure", pressure, unit="Pa")
     effects = Conditions() if conditions is None else conditions
     body = _rubber_before(half_space(rubber, speed, thickness), effects)
+    iterated = effects.iterated and by_scale is None
     goal = relative_tolerance("tolerance", tolerance) or math.inf
     if body.speed == 0.0:
         for solid in body.rubbers:
@@ -197,23 +201,23 @@ def solve_rough_contact(
         deadline = time.monotonic() + checks.positive("time_limit", time_limit, unit="s")
 
     def solve(
-        by_scale: RubberByScale | None, earlier: KnownLevels, reach: float
+        scales: RubberByScale | None, earlier: KnownLevels, reach: float
     ) -> GridSequenceResult:
         sequence = GridSequence(
-            replace(body, by_scale=by_scale),
+            replace(body, by_scale=scales),
             heights,
             load,
             threads,
             iterations,
             earlier,
-            other=None if effects.iterated else other,
+            other=None if iterated else other,
             on_iteration=on_iteration,
             deadline=deadline,
         )
         return _solve_sequence(sequence, most, reach, on_grid)
 
-    if not effects.iterated:
-        contact = solve(None, {}, goal).contact
+    if not iterated:
+        contact = solve(by_scale, {}, goal).contact
         if film > 0.0 and contact.status in (Status.CONVERGED, Status.TOLERANCE_NOT_MET):
             contact = with_water(contact, film, workers=threads, most=iterations)
         return replace(contact, conditions=conditions, status=_judged(contact, goal))
@@ -226,7 +230,7 @@ def solve_rough_contact(
         heated = checks.positive("footprint", footprint, unit="m") / body.speed
     quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
     assert isinstance(rubber, Rubber)  # iterated conditions refuse layers
-    contact = solve_coupled_contact(whole, quick, rubber, effects, heated)
+    contact = solve_coupled_contact(whole, quick, heights, rubber, effects, heated, goal)
     return replace(contact, conditions=conditions, status=_judged(contact, goal))
 
 

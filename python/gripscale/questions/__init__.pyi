@@ -13,7 +13,6 @@ from .calibration.profile_likelihood import HeldOut as HeldOut
 from .calibration.question import Calibration as Calibration
 from .chain.charts import contact_figure as contact_figure
 from .chain.charts import direct_heat_figure as direct_heat_figure
-from .chain.charts import effects_figure as effects_figure
 from .chain.charts import heat_figure as heat_figure
 from .chain.charts_of_blocks import block_figure as block_figure
 from .chain.charts_of_blocks import blocks_figure as blocks_figure
@@ -54,10 +53,6 @@ from .uncertainty.variance_shares import Shares as Shares
 from .uncertainty.variance_shares import shares as shares
 from .vary.charts import friction_master_figure as friction_master_figure
 from .vary.charts import map_figure as map_figure
-from .vary.effects import case_effects as case_effects
-from .vary.effects import effect_tasks as effect_tasks
-from .vary.effects import effects as effects
-from .vary.effects import stored_effects as stored_effects
 from .vary.page_side_by_side import Compounds as Compounds
 from .vary.page_side_by_side import Surfaces as Surfaces
 from .vary.question import Variation as Variation

@@ -11,9 +11,10 @@ class.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, ClassVar
 
 import xarray as xr
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from gripscale.core.finding import Finding
     from gripscale.report.elements import Page
 
+NO_WIDTHS: Mapping[str, float] = MappingProxyType({})
 KIND = "kind"  # attribute of a saved result: the question it answers
 INPUT_GROUP = "inputs"  # group of a saved result: the record of the inputs of its case
 _WIDTH = 100  # characters of a line of a printed result
@@ -75,6 +77,11 @@ class Result(Described, ABC):
     def findings(self) -> Sequence[Finding]:
         """What may change the result, the most important first; at least what its inputs tell."""
         return tuple(input_findings(InputRecord(self.inputs)))
+
+    @property
+    def half_widths(self) -> Mapping[str, float]:
+        """Relative half widths of `friction` and `area`, where the result has an interval [-]."""
+        return NO_WIDTHS
 
     def parts(self) -> Iterator[str | Table]:
         """Yield tables and sentences that stand below the answer."""
@@ -136,7 +143,7 @@ class Result(Described, ABC):
 
     def text(self, width: int = _WIDTH) -> str:
         """Return the answer, the findings and the tables as text with lines of a width."""
-        above = [*self.lines, *warning_lines(self.findings)]
+        above = [*self.lines, *warning_lines(self.findings, widths=self.half_widths)]
         below = list(self.parts())
         return as_text(*above, *(["", *below] if below else []), width=width)
 
@@ -156,18 +163,23 @@ class Result(Described, ABC):
         return with_figure(text, self)
 
 
-_MOST_OPEN = 3  # findings that a terminal opens with; the others are in a file beside the result
+_MOST_OPEN = 5  # findings that a result opens with
 
 
-def warning_lines(findings: Sequence[Finding], rest: str = "") -> Iterator[str]:
-    """Yield ranked findings as lines; with `rest`, a file that has them all, the first only.
+def warning_lines(
+    findings: Sequence[Finding], rest: str = "`findings`", widths: Mapping[str, float] = NO_WIDTHS
+) -> Iterator[str]:
+    """Yield the ranked findings that stand open as lines; `rest` has them all.
 
-    These are `_MOST_OPEN`, and all that leave open whether the answer is that of another case.
+    These are the first `_MOST_OPEN` of those that may change a number of the result by more than
+    its half width in `widths`, which are relative. Without `rest` all stand open.
     """
-    if findings:
+    counting = [finding for finding in findings if finding.exceeds(widths)][:_MOST_OPEN]
+    counting = counting if rest else list(findings)
+    if counting:
         yield "Warnings, by what they change:"
-    doubts = sum(finding.effect == float("inf") for finding in findings)
-    count = max(_MOST_OPEN, doubts) if rest else len(findings)
-    yield from (f"  {finding.sentence}" for finding in findings[:count])
-    if len(findings) > count:
-        yield f"  ... and {len(findings) - count} more in {rest}"
+    yield from (f"  {finding.sentence}" for finding in counting)
+    more = len(findings) - len(counting)
+    if more:
+        lead = "  ... and" if counting else "Warnings within the interval:"
+        yield f"{lead} {more}{' more' if counting else ''} in {rest}"

@@ -159,7 +159,8 @@ def print_result(result: Result, case: Path, files: Sequence[NamedFile]) -> None
     elif manner.quiet:
         console = screen()
         console.quiet = False
-        print_parts(console, [*result.lines, *warning_lines(result.findings)])
+        lines = warning_lines(result.findings, widths=result.half_widths)
+        print_parts(console, [*result.lines, *lines])
 
 
 def command(body: Callable[P, None]) -> Callable[P, None]:
@@ -463,9 +464,10 @@ class CaseCommand:
 
         target, console, findings = self.target, self.console, result.findings
         end_steps()
-        lead = () if answer_printed else (*result.lines, *warning_lines(findings, text))
+        warnings = warning_lines(findings, text, result.half_widths)
+        lead = () if answer_printed else (*result.lines, *warnings)
         print_parts(console, ["", *lead, *parts])
-        answer = [*result.lines, *warning_lines(findings)]
+        answer = [*result.lines, *warning_lines(findings, rest="")]
         above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
         texts = {text: as_text(*above, *parts, width=width), **(files or {})}
         for name, content in texts.items():

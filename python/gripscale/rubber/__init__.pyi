@@ -33,8 +33,6 @@ from .shift_fit import fit_arrhenius as fit_arrhenius
 from .shift_fit import fit_wlf as fit_wlf
 from .shift_fit import read_shift_table as read_shift_table
 from .shift_fit import write_shift_table as write_shift_table
-from .softening import StrainSweep as StrainSweep
-from .softening import read_strain_sweep as read_strain_sweep
 from .strain_energy import STRAIN_ENERGIES as STRAIN_ENERGIES
 from .strain_energy import Isihara as Isihara
 from .strain_energy import KrausEnergy as KrausEnergy
@@ -43,6 +41,9 @@ from .strain_energy import NeoHookean as NeoHookean
 from .strain_energy import StrainEnergy as StrainEnergy
 from .strain_energy import Yeoh as Yeoh
 from .strain_energy import strain_energy as strain_energy
+from .strain_sweeps import StrainSweep as StrainSweep
+from .strain_sweeps import read_strain_sweep as read_strain_sweep
+from .strain_sweeps import read_strain_sweeps as read_strain_sweeps
 from .superposition import Overlap as Overlap
 from .superposition import Superposition as Superposition
 from .superposition import superpose as superpose

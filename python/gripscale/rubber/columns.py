@@ -61,6 +61,8 @@ _LOGARITHM = re.compile(
 )
 _RAISED = re.compile(r"(log10|ln)_(.*)")
 _SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
+# A symbol before what it stands for: f = storage over its small-strain value.
+_SYMBOL = re.compile(r"^\w{1,2}'*\s*=\s*(?=[A-Za-z])")
 _OTHER = re.compile(
     r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch"
 )
@@ -88,7 +90,7 @@ _STATED = {
 
 def quantity(name: str) -> str | None:
     """Return the quantity a column `name` clearly means, else None."""
-    text = _SHIFTED.sub("", name.strip().translate(_PRIMES))
+    text = _SYMBOL.sub("", _SHIFTED.sub("", name.strip().translate(_PRIMES)))
     if logarithm := _RAISED.fullmatch(text):
         return quantity(logarithm[2])
     if _PHASE.fullmatch(text):

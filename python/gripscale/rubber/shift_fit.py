@@ -210,34 +210,34 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
 def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -> ShiftTable:
     """Read a shift table from CSV or text, such as `write_shift_table` writes.
 
-    Titles that say temperature and log a (log10 a_T, log_aT, log aT) name the columns; b, log b and
-    errors are read where they are, and a reference temperature from a comment. `temperature_unit`
-    is K, C or F, if the header does not state it. Raises `FileError` if the file cannot be read or
-    has no such columns, `InputError` if the unit of the temperatures is neither stated nor given,
-    or the numbers are no table.
+    Titles that say temperature and log a (log10 a_T, log_aT, log aT) or a (a_T) name the columns;
+    b, log b and errors are read where they are, and a reference temperature from a comment.
+    `temperature_unit` is K, C or F, if the header does not state it. Raises `FileError` if the file
+    cannot be read or has no such columns, `InputError` if the unit of the temperatures is neither
+    stated nor given, or the numbers are no table.
     """
     file = file_path(path)
     table = read_table(
         file,
-        "rows of temperature and log10 a_T",
+        "rows of temperature and a_T or log10 a_T",
         kinds=("temperature",),
         named=lambda name: _meaning(name) is not None,
     )
     titles = {_meaning(name): at for at, name in enumerate(table.names)}
-    if not {"temperature", "log_a"} <= set(titles):
+    if "temperature" not in titles or not {"a", "log_a"} & titles.keys():
         raise FileError(
-            f"{file}: expected columns of temperature and log10 a_T; the header has "
+            f"{file}: expected columns of temperature and a_T or log10 a_T; the header has "
             f"{', '.join(table.names) or 'no names'}"
         )
     columns = {str(n): table.numbers(at, "a number", missing=True) for n, at in titles.items()}
     layout = FileLayout(temperature_unit=temperature_unit)
     unit = layout.unit(table, titles["temperature"], "temperature")
     kelvin = quantity_in_si(columns["temperature"], unit, "temperature")
-    vertical = columns.get("log_b")
-    if vertical is None and "b" in columns:
-        if not (columns["b"] > 0.0).all():
-            raise FileError(f"{file}: expected b_T above zero; got {np.nanmin(columns['b']):g}")
-        vertical = np.log10(columns["b"])
+    for name in {"a", "b"} & columns.keys():
+        if not (columns[name] > 0.0).all():
+            least = np.nanmin(columns[name])
+            raise FileError(f"{file}: expected {name}_T above zero; got {least:g}")
+        columns.setdefault(f"log_{name}", np.log10(columns[name]))
     reference = None
     if match := _REFERENCE.search(read_text(file)):
         try:
@@ -248,6 +248,7 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
             ) from error
     errors = columns.get("log_a_error"), columns.get("log_b_error")
     with about_file(file, InputError):
+        vertical = columns.get("log_b")
         return ShiftTable(kelvin, columns["log_a"], errors[0], vertical, errors[1], reference)
 
 
@@ -261,4 +262,4 @@ def _meaning(name: str) -> str | None:
         return None
     if "error" in low or "uncertainty" in low:
         return f"log_{factor}_error"
-    return f"log_{factor}" if "log" in low else (factor if factor == "b" else None)
+    return f"log_{factor}" if "log" in low else factor

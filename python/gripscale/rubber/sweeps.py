@@ -78,7 +78,7 @@ class Sweeps(Checked, eq=False):
         super().__post_init__()
         columns = {name: getattr(self, name) for name in _ROW}
         checks.same_length(1, **columns)
-        order = np.lexsort((self.frequency, _groups(self.temperature, self.tolerance)))
+        order = np.lexsort((self.frequency, neighbours_of(self.temperature, self.tolerance)))
         self._set(**{name: column[order] for name, column in columns.items()})
         for rows in self._rows():
             inside = self.temperature[rows]
@@ -94,7 +94,7 @@ class Sweeps(Checked, eq=False):
         return gripscale.superpose(self, **options)
 
     def _rows(self) -> list[slice]:
-        group = _groups(self.temperature, self.tolerance)
+        group = neighbours_of(self.temperature, self.tolerance)
         cuts = [0, *(np.flatnonzero(np.diff(group)) + 1).tolist(), len(group)]
         return [slice(a, b) for a, b in pairwise(cuts)]
 
@@ -147,7 +147,7 @@ class Sweeps(Checked, eq=False):
         return f"{where}, {low:.3g} to {high:.3g} Hz, {len(self.frequency)} rows"
 
 
-def _groups(values: Array, tolerance: float) -> NDArray[np.intp]:
+def neighbours_of(values: Array, tolerance: float) -> NDArray[np.intp]:
     """Return which group of neighbouring values each belongs to, counted from the lowest."""
     order = np.argsort(values, kind="stable")
     group = np.empty(len(values), dtype=np.intp)
@@ -242,7 +242,7 @@ def sweeps_from_ramps(
     step = checks.positive("step", si_value("step", step, "K", "temperature difference"), unit="K")
     if step < _LEAST_STEP:
         raise InputError(f"step must be at least {_LEAST_STEP:g} K; got {step:g}")
-    group = _groups(np.log(rows["frequency"]), _ONE_FREQUENCY)
+    group = neighbours_of(np.log(rows["frequency"]), _ONE_FREQUENCY)
     parts = []
     for of_one_frequency in range(int(group.max()) + 1):
         chosen = np.flatnonzero(group == of_one_frequency)

@@ -11,6 +11,9 @@ J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626; the factor S, for the sma
 inside asperity contacts, M. Scaraggi & B. N. J. Persson, J. Phys.: Condens. Matter 27 (2015)
 105102, doi:10.1088/0953-8984/27/10/105102, which finds gamma about 1/2.
 
+Softening multiplies M' and M'' of waves q by f and g at the strain of all waves down to q, half
+their rms gradient: the convention of the theory.
+
 A cut-off multiplies C by the square of what its Gaussian transmits
 (`gripscale.surface.low_pass.transmission`); results along the wavelength are those of cut-offs
 there. Without one the surface ends with its spectrum, and the waves down to each wavelength count
@@ -26,7 +29,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -34,7 +37,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from gripscale import model
-from gripscale.core import Array, Described, InputError, Quantity, Status, checks, provenance
+from gripscale.conditions.conditions import Conditions
+from gripscale.core import (
+    ZERO_CELSIUS,
+    Array,
+    Described,
+    InputError,
+    Quantity,
+    Status,
+    checks,
+    provenance,
+)
 from gripscale.core.checks import Checked, checked
 from gripscale.cut_off_exponents import NOT_CONVERGED, of_curve
 from gripscale.model import Load, Model, OnProgress
@@ -196,11 +209,41 @@ class PerssonResult(TheoryResult):
     """Of the surface, down to the smallest wavelength: areal [-]."""
     profile_rms_slope: float
     """Of lines through the same waves: the areal number over sqrt(2) [-]."""
+    conditions: Conditions | None = None
 
     @property
     def contact_fraction(self) -> float:
         """Real over nominal contact area [-]."""
         return float(self.running_contact_fraction[-1])
+
+    @property
+    def notes(self) -> str:
+        """What of the conditions the theory does not have, and a strain beyond their law."""
+        if self.conditions is None:
+            return ""
+        out = [word for word in ("heat", "water") if getattr(self.conditions, word) is not None]
+        text = f"Without {' and '.join(out)}, which Persson's theory does not have." if out else ""
+        law, strain = self.conditions.softening, STRAIN_OF_GRADIENT * self.rms_gradient
+        kelvin = self.conditions.temperature_of(self.rubber)
+        if law is not None and np.any(law.factors(strain, kelvin).outside):
+            text += f" Strain or temperature of the softening ends before {strain:.2g}"
+            text += "." if kelvin is None else f" or {kelvin - ZERO_CELSIUS:.3g} C."
+        return text.strip()
+
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield the notes first."""
+        yield from [("notes", self.notes)] if self.notes else []
+        yield from super().shown_rows()
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return everything over `scale`, with the area term of the conditions."""
+        data, effects = super().to_dataset(), self.conditions
+        if effects is None:
+            return data
+        area = self.contact_fraction if self.converged else math.nan
+        kelvin = effects.temperature_of(self.rubber)
+        term = effects.adhesive_friction(area, self.load.pressure, self.load.speed, kelvin)
+        return model.with_area_term(data, term).assign_attrs(notes=self.notes)
 
 
 def persson(
@@ -213,6 +256,7 @@ def persson(
     gamma: float = 0.5,
     footprint: Quantity | None = None,
     thickness: Quantity | None = None,
+    conditions: Conditions | None = None,
 ) -> PerssonResult:
     """Return contact and friction of a randomly rough surface by Persson's theory.
 
@@ -237,8 +281,12 @@ def persson(
         Length of the nominal contact [m]: recorded, without effect; the largest wave by default.
     thickness : float, optional
         Thickness of the rubber on a rigid base [m]; None: a half-space.
+    conditions : Conditions, optional
+        Temperature, softening and area term count; heat and water do not, see `.notes`.
     """
     checks.instance("rubber", rubber, Rubber)
+    effects = Conditions() if conditions is None else replace(conditions, heat=None, water=None)
+    solid = effects.before(rubber)
     if isinstance(spectrum, ProfileSpectrum):
         spectrum = areal_spectrum(spectrum)
     if not isinstance(spectrum, ArealSpectrum):
@@ -262,7 +310,7 @@ def persson(
     length = 2.0 * np.pi / nodes[0] if footprint is None else footprint
     load = Load(pressure, speed, length, thickness=thickness)
     (area, friction), (area_error, friction_error), status = refine_intervals(
-        partial(integrals, rubber, spectrum, load, share, nodes, ends),
+        partial(integrals, solid, effects, spectrum, load, share, nodes, ends),
         _COARSEST,
         _FINEST,
         _TOLERANCE,
@@ -279,9 +327,12 @@ def persson(
         gamma=share,
         rms_gradient=kept.rms_gradient(),
         profile_rms_slope=kept.profile_rms_slope(),
+        conditions=conditions,
     )
 
 
+# Uniaxial strain of all waves over their rms gradient, by the theory.
+STRAIN_OF_GRADIENT = 0.5
 # Largest wavenumber that counts over that of a cut-off: the Gaussian transmits 1/500 there.
 LAST_OVER_CUT_OFF = 3.0
 
@@ -294,6 +345,7 @@ def gaussian_power(q: Array, ends: Array) -> Array:
 
 def integrals(
     rubber: Rubber,
+    effects: Conditions,
     spectrum: ArealSpectrum,
     load: Load,
     gamma: float,
@@ -303,18 +355,24 @@ def integrals(
 ) -> tuple[Array, Array]:
     """Return P and mu with cut-offs at `ends` [rad/m], by the trapezoidal rule in log q.
 
-    Without `ends` they are those of the waves down to each of the nodes [rad/m], in full.
+    Without `ends` they are those of the waves down to each of the nodes [rad/m], in full. `effects`
+    soften the rubber.
     """
     from scipy.special import erf
 
     log_q = divided(np.log(nodes), intervals)
     q = np.exp(log_q)
-    stiff, lossy = over_angles(rubber, load, q, intervals)
+    real, imaginary, lossy = over_angles(rubber, load, q, intervals)
     weight = q**4 * spectrum.at(q)  # q^3 C dq with dq = q d(log q)
     if ends is not None:
         weight = weight * gaussian_power(q, ends)
+    if effects.softening is not None:
+        strain = STRAIN_OF_GRADIENT * np.sqrt(2.0 * np.pi * running_integral(weight, log_q))
+        ratios = effects.softening.factors(strain, effects.temperature_of(rubber))
+        real, imaginary = ratios.storage**2 * real, ratios.loss**2 * imaginary
+        lossy = ratios.loss * lossy
     with np.errstate(divide="ignore"):
-        area = erf(1.0 / np.sqrt(running_integral(weight * stiff / 2.0, log_q)))
+        area = erf(1.0 / np.sqrt(running_integral(weight * (real + imaginary) / 2.0, log_q)))
     factor = gamma + (1.0 - gamma) * area**2
     friction = running_integral(weight * lossy * factor * area / 2.0, log_q)
     if ends is None:
@@ -322,24 +380,26 @@ def integrals(
     return area[:, -1], friction[:, -1]
 
 
-def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[Array, Array]:
-    """Return int |M/p_0|^2 dphi and int cos(phi) Im M/p_0 dphi over a turn, at each `q`.
+def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[Array, Array, Array]:
+    """Return int (M'/p_0)^2, int (M''/p_0)^2 and int cos(phi) M''/p_0, dphi over a turn, at `q`.
 
     Four times a quarter turn: with cos(phi) = sin(psi) and psi = pi/2 s^4 Gauss points in s are
     dense where the frequency q v sin(psi) runs through many decades.
     """
     abscissae, weights = np.polynomial.legendre.leggauss(_ANGLES + intervals)
     s = 0.5 * (1.0 + abscissae)
-    stiff, lossy = np.zeros(q.size), np.zeros(q.size)
+    real, imaginary, lossy = np.zeros((3, q.size))
     for cosine, width in zip(np.sin(0.5 * np.pi * s**4), 4.0 * np.pi * s**3 * weights, strict=True):
         modulus = rubber.plane_strain_modulus(q * load.speed * cosine)
         if load.thickness is not None:
             young = rubber.complex_modulus(q * load.speed * cosine)
             compression = layers.shear_and_compression(young, rubber.bulk_modulus)[1]
             modulus = modulus / layers.thickness_factor(q * load.thickness, compression)[0]
-        stiff += width * np.abs(modulus / load.pressure) ** 2
-        lossy += width * cosine * modulus.imag / load.pressure
-    return stiff, lossy
+        over = modulus / load.pressure
+        real += width * over.real**2
+        imaginary += width * over.imag**2
+        lossy += width * cosine * over.imag
+    return real, imaginary, lossy
 
 
 class Persson(Checked, Model):
@@ -347,6 +407,7 @@ class Persson(Checked, Model):
 
     name: ClassVar[str] = "persson"
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
+    takes_conditions: ClassVar[bool] = True
 
     smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
     """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
@@ -355,6 +416,12 @@ class Persson(Checked, Model):
     """See `persson`."""
     window: float | None = checked(checks.positive, unit="m", default=None)
     """See `profile_spectrum` [m]."""
+    conditions: Conditions | None = None
+    """See `persson`."""
+
+    def with_conditions(self, conditions: Conditions | None) -> Persson:
+        """Return the theory under other conditions."""
+        return replace(self, conditions=conditions)
 
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
@@ -371,6 +438,7 @@ class Persson(Checked, Model):
             smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,
             gamma=self.gamma,
             thickness=load.thickness,
+            conditions=self.conditions,
         )
         return answer_of(replace(result, load=load), on_progress)
 

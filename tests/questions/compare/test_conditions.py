@@ -9,6 +9,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.case_file import read_case
+from gripscale.conditions import Conditions
 from gripscale.io.table import as_text, significant
 from gripscale.questions import SolvedLadder
 from gripscale.questions.answer.page import answer_lines
@@ -76,21 +77,27 @@ def test_chain_and_direct_contact_know_every_effect(made: SolvedLadder) -> None:
     )
 
 
-def test_a_theory_knows_the_temperature_only(made: SolvedLadder) -> None:
+def test_a_theory_knows_temperature_and_softening(made: SolvedLadder) -> None:
     subject, persson = made.setups[0], made.data.sel(model="persson")
-    warm = subject.rubber.at(308.15)
     spectrum = gs.surface.areal_spectrum(
         gs.surface.profile_spectrum(subject.surface.measured.cleaned[0])  # type: ignore[union-attr]
     )
     smallest = max(
         float(subject.surface.sines.wavelength[-1]), 2 * math.pi / spectrum.wavenumber[-1]
     )
-    alone = gs.theory.persson(warm, spectrum, pressure=3e5, speed=0.1, smallest_wavelength=smallest)
+    load = {"pressure": 3e5, "speed": 0.1, "smallest_wavelength": smallest}
+    asked = Conditions(temperature=308.15, softening=subject.conditions.softening)
+    alone = gs.theory.persson(subject.rubber, spectrum, conditions=asked, **load)
+    warm = gs.theory.persson(subject.rubber.at(308.15), spectrum, **load)
+    assert alone.friction > 1.5 * warm.friction  # full contact: g alone counts, near its peak
     assert persson.total_friction == pytest.approx(alone.friction, rel=1e-9)
     own = 2e6 * alone.contact_fraction / 3e5
     assert persson.total_adhesive_friction == pytest.approx(own, rel=1e-9)
     data = made.data
-    assert any("Softening: in the chains" in line for line in remarks(data))
+    assert any(
+        "Softening: in the chains, the direct contacts and Persson" in line
+        for line in remarks(data)
+    )
 
 
 def test_table_and_answer_have_the_area_term(made: SolvedLadder) -> None:

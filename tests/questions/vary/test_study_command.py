@@ -17,7 +17,7 @@ def test_command_solves_prints_draws_and_resumes(
 ) -> None:
     monkeypatch.setenv(PROGRESS_LINES, "1")
     asked = ("study", case, "--vary", "speed=0.01:1:log3", "--vary", "pressure=1 bar,3 bar")
-    result = shell(*asked, "--static")
+    result = shell(*asked)
     assert result.exit_code == 0, result.output
     target = case.parent / "results" / "study"
     written = {
@@ -25,14 +25,14 @@ def test_command_solves_prints_draws_and_resumes(
     }
     files = {"case.toml", "study.nc", "study.txt", "summary.xlsx"}
     assert written == files | {".case", "report.html", "figures/totals.png"}
-    for words in ("speed (3) x pressure (2); 8 different predictions", "[8/8] static, pressure"):
+    for words in ("speed (3) x pressure (2); 6 different predictions", "[6/6] speed"):
         assert words in result.stdout
     data = netcdf.load_dataset(target / "study.nc")
     assert f"{float(data.total_friction[2, 1]):.3f}" in result.stdout
     assert result.stdout.count("converged") == 6
     assert max(len(line) for line in result.stdout.splitlines() if "in /" not in line) <= 100
-    again = shell(*asked, "--static")
-    assert "[8/8]" not in again.stdout, "a whole study is read"
+    again = shell(*asked)
+    assert "[6/6]" not in again.stdout, "a whole study is read"
     assert again.stdout.partition("Answer")[2] == result.stdout.partition("Answer")[2]
 
 
@@ -56,7 +56,7 @@ def test_over_one_axis_of_numbers_every_wave_is_drawn(
 
 def test_table_keeps_its_status_beside_long_names(shell: Shell, case: Path, tmp_path: Path) -> None:
     named = "surface=case,synthetic_dense_asphalt"
-    asked = ("study", case, "--vary", "rubber=styrene_butadiene", "--vary", named, "--static")
+    asked = ("study", case, "--vary", "rubber=styrene_butadiene", "--vary", named)
     result = shell(*asked, "--output", tmp_path)
     assert result.exit_code == 0, result.output
     rows = [line for line in result.stdout.splitlines() if line.startswith("styrene butadiene")]

@@ -19,10 +19,10 @@ from gripscale.half_space.model import DirectContact
 from gripscale.io.table import as_text
 from gripscale.questions import Study
 from gripscale.questions.vary.axis import axes_of
-from gripscale.questions.vary.page import collapse_sentences, shift_sentence, study_table
+from gripscale.questions.vary.page import shift_sentence, study_table
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
-from gripscale.theory import HalfPlane, Persson
+from gripscale.theory import HalfPlane, KlueppelHeinrich, Persson
 from tests.samples import THERMAL as HEAT
 from tests.samples import Shell
 
@@ -76,6 +76,15 @@ def over(case: Path, model: Any, temperatures: Any = COMMON, speeds: str = SPEED
     return Study(read_case(case), vary, model=model).run(case.parent / "study")
 
 
+def apart(result: xr.Dataset, name: str) -> float:
+    """Return how far temperatures lie apart at the same a_T v [-]; they share points of it."""
+    reduced = np.log(result.reduced_speed.values).ravel()
+    values = result[name].transpose(*result.reduced_speed.dims).values.ravel()
+    same = np.triu(np.abs(reduced[:, None] - reduced) < 1e-6, 1)
+    assert same.sum() > 2
+    return float(np.abs(values[:, None] / values - 1.0)[same].max())
+
+
 @pytest.mark.parametrize("model", ["chain", direct()], ids=["chain", "direct"])
 def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -> None:
     """To the residual of the solvers where points are common: nothing is interpolated."""
@@ -84,12 +93,8 @@ def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -
     np.testing.assert_allclose(result.reduced_speed[:, 1], result.speed * 10**2.5, rtol=1e-9)
     np.testing.assert_allclose(result.vertical_shift_factor, 1.0)
     assert float(np.ptp(result.total_friction.values)) > 0.05
-    for name in ("friction_collapse", "contact_fraction_collapse"):
-        assert float(result[name]) < 1e-5
-        assert int(result[name].attrs["points"]) > 6
-    told = dict(collapse_sentences(result))
-    assert {*told} == {"friction", "A_r/A_0"}
-    assert all(text.startswith("one curve") for text in told.values())
+    assert apart(result, "total_friction") < 1e-5
+    assert apart(result, "total_contact_fraction") < 1e-5
 
 
 @pytest.mark.parametrize(
@@ -99,12 +104,11 @@ def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -
 )
 def test_heat_makes_them_several(case: Path, model: Any) -> None:
     result = over(case, model, COMMON[1:], "0.1:10:log5")
-    assert float(result.friction_collapse) > 4e-3  # 400 times that of one curve
-    assert all(not text.startswith("one curve") for _, text in collapse_sentences(result))
+    assert apart(result, "total_friction") > 2e-3  # 200 times that of one curve
 
 
 def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:
-    """As a comparison does: a model that knows no conditions is given the shifted rubber."""
+    """As a comparison does: a theory without conditions gets those of the case."""
     case.write_text(f'{CASE}\n[conditions]\ntemperature = "40 C"\n')
     result = Study(read_case(case), {"speed": [0.1]}, model=Persson()).run(case.parent / "study")
     compared = gs.compare(read_case(case), models=["persson"]).to_dataset()
@@ -123,21 +127,7 @@ def test_a_vertical_shift_makes_them_several(case: Path) -> None:
     study.rubbers = [replace(study.rubbers[0], shift=table)]
     result = study.run(case.parent / "study")
     np.testing.assert_allclose(result.vertical_shift_factor, [1.1, 1.0], rtol=1e-9)
-    assert float(result.contact_fraction_collapse) > 0.02
-
-
-@pytest.mark.verification
-def test_any_temperatures_are_one_curve_by_interpolation(case: Path) -> None:
-    result = over(case, Chain(HalfPlane(points=512)), "-5.5 C, -4 C", "0.1:1:log9")
-    assert float(result.friction_collapse) < 1e-3
-    assert float(result.friction_collapse.attrs["interpolation_error"]) > 0.0
-    assert int(result.friction_collapse.attrs["points"]) > 5
-
-
-def test_too_few_speeds_are_said_to_be_so(case: Path) -> None:
-    result = over(case, "chain", "20 C, 27 C", "0.1:1:log3")
-    assert np.isnan(result.friction_collapse)
-    assert all("cannot be compared" in text for _, text in collapse_sentences(result))
+    assert apart(result, "total_contact_fraction") > 0.02
 
 
 def test_temperature_is_that_of_the_conditions(case: Path, tmp_path: Path) -> None:
@@ -179,7 +169,8 @@ def test_effects_are_left_out_by_name(case: Path, tmp_path: Path) -> None:
     result = study.run(tmp_path / "out")
     task = study.points[0].task
     assert result.effects.values.tolist() == ["all", "no heat", "no temperature", "none"]
-    for i, left_out in enumerate(({}, {"heat": None}, {"temperature": None})):
+    none = {"heat": None, "temperature": None}
+    for i, left_out in enumerate(({}, {"heat": None}, {"temperature": None}, none)):
         own = replace(model, conditions=replace(conditions, **left_out))
         alone = own.predict(task.rubber, task.surface, task.load)
         assert float(result.total_friction[i]) == float(alone.total_friction)
@@ -195,7 +186,11 @@ def test_effects_are_left_out_by_name(case: Path, tmp_path: Path) -> None:
         ({"temperature": "20, 30"}, "chain", 'temperature must have a unit, such as "20 C"'),
         ({"temperature": "20:60:lin3"}, "chain", "temperature must have a unit"),
         ({"temperature": "-300 C"}, "chain", "temperature must be greater than zero"),
-        ({"temperature": ["20 C"]}, Persson(), "such as chain and direct; got the model persson"),
+        (
+            {"temperature": ["20 C"]},
+            KlueppelHeinrich(1.0, 1e-3),
+            "such as chain and direct; got the model klueppel_heinrich",
+        ),
         ({"temperature": "20 C, -150 C"}, "chain", "temperature must lie within"),
         ({"temperature": "20 C"}, "toy", "model must be one of chain, direct; got 'toy'"),
         ({"effects": "all, no luck"}, "chain", "effects must be one of all, none; got"),
@@ -230,5 +225,5 @@ def test_command_draws_map_and_master_curve_of_the_direct_contact(shell: Shell, 
     assert result.exit_code == 0, result.output
     figures = {path.stem for path in (case.parent / "results/study/figures").glob("*.png")}
     assert {"map", "friction_master_curve", "totals"} <= figures
-    for words in ("60 °C *", "60 °C lies beyond", "Over a_T v, friction: cannot be"):
+    for words in ("60 °C *", "60 °C lies beyond"):
         assert words in result.output

@@ -9,7 +9,8 @@ lines to a surface (`gripscale.questions.answer.estimate`). `gripscale run` prin
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 
@@ -22,13 +23,19 @@ from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
 from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
+from gripscale.questions.answer.filler import with_filled
 from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
 from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
-from gripscale.questions.answer.reliance import answer_number, is_measured, no_answer
+from gripscale.questions.answer.reliance import (
+    answer_number,
+    headline_name,
+    is_measured,
+    no_answer,
+)
 from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.record import InputRecord
-from gripscale.questions.result import Result
+from gripscale.questions.result import NO_WIDTHS, Result
 from gripscale.report.elements import Page
 
 ANSWER_FILE = "answer.nc"  # name of the saved answer in a results folder
@@ -94,6 +101,14 @@ class Answer(NumbersWithIntervals):
         return str(self.data["prediction_status"].item())
 
     @property
+    def half_widths(self) -> Mapping[str, float]:
+        if not self.reliable:
+            return NO_WIDTHS
+        names = {"friction": headline_name(self.data, "friction"), "area": "contact_fraction"}
+        widths = {key: float(self.data[f"answer_{name}_half_width"]) for key, name in names.items()}
+        return {key: width for key, width in widths.items() if math.isfinite(width)}
+
+    @property
     def basis(self) -> Sequence[str]:
         """What the numbers are for, the factors they are made of, and what they rest on."""
         return tuple(basis_lines(self.data))
@@ -146,7 +161,14 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
         return answer_with_inputs(case, waves_answer(case, predicted))
     curve = direct_contact.continued_curve(case, case.load, folder)
     data = direct_contact.direct_contact_totals(samples, case, case.load, curve)
-    data.attrs[FINDINGS] = to_json(direct_contact.tread_findings(case, samples, data))
+    if case.softening_doubts:
+        filled = case.replace(filled=True)
+        of_filled = direct_contact.solve_direct_contact(filled)
+        assert of_filled is not None  # of the same surface
+        continued = direct_contact.continued_curve(filled, case.load, folder)
+        totals = direct_contact.direct_contact_totals(of_filled, filled, case.load, continued)
+        data = with_filled(data, totals)
+    data.attrs[FINDINGS] = to_json(direct_contact.tread_findings(samples, data))
     result = answer_with_inputs(case, data)
     result.curve = curve
     return result

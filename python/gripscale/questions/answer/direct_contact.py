@@ -7,8 +7,6 @@ The direct contact of each profile is a sample of the road, solved to an estimat
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import xarray as xr
@@ -21,18 +19,18 @@ from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.solve import Bench, bench_in
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import trace_variables
-from gripscale.half_space.model import JUDGED_TO, DirectContact, resolved_wavelength
+from gripscale.half_space.model import JUDGED_TO, TREAD_CHANGES, DirectContact, resolved_wavelength
 from gripscale.half_space.result import TRAPPED_WATER
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.estimate import (
     DIRECT,
-    ESTIMATED,
     Factor,
     LogNormalValue,
     SampledErrors,
     answer_of_samples,
 )
+from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.reliance import estimated_names, has_answer
 from gripscale.questions.cut_off.curve import (
     AREA,
@@ -44,24 +42,6 @@ from gripscale.questions.cut_off.curve import (
     refusals,
 )
 from gripscale.questions.inputs.findings import in_words
-from gripscale.surface import HeightMap, Measured, Profile, Surface
-
-
-def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> Surface:
-    """Return the waves of `surface` with one profile or map as the only measurement."""
-    heights = measured if isinstance(measured, HeightMap) else [measured]
-    return Surface(surface.sines, measured.name, measured=Measured.of(heights))
-
-
-def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
-    """Return names of the profiles of `surface`, or of its map, each with a surface of it alone."""
-    measured: Sequence[Profile | HeightMap] = (
-        [] if surface.measured is None else surface.measured.surfaces
-    )
-    return [
-        (part.name or f"profile {i}", with_single_measurement(surface, part))
-        for i, part in enumerate(measured, 1)
-    ]
 
 
 def direct_contact_design(
@@ -80,7 +60,9 @@ def direct_contact_design(
     profiles = each_measured(case.surface)
     if not profiles:
         return None
-    direct = DirectContact(tolerance=tolerance, conditions=case.conditions, traces=traces)
+    direct = DirectContact(
+        tolerance=tolerance, conditions=case.conditions, traces=traces, alternatives=True
+    )
     points = [
         Point((at,), f"{label}{name}", Task(case.rubber, surface, load, direct))
         for at, (name, surface) in enumerate(profiles)
@@ -107,27 +89,19 @@ def solve_direct_contact(case: Case) -> xr.Dataset | None:
 
 # Attribute of an answer: that profiles across each other showed no ridges.
 ISOTROPIC = "isotropic_road"
-TREAD = 8e-3  # thickness of a new tread [m]
-FELT = 1.75  # wavelength over thickness up to which a layer is as soft as a half-space, within 5 %
 
 
-def tread_findings(case: Case, samples: xr.Dataset, totals: xr.Dataset) -> list[Finding]:
+def tread_findings(samples: xr.Dataset, totals: xr.Dataset) -> list[Finding]:
     """Return what a tread of 8 mm changes in an answer for rubber without end.
 
     Nothing for a stated thickness, for waves that do not feel the base, or if the changes are
-    within the sampling error of the answer or that of its grids. The thin rubber is solved on its
-    first full grid: on the shipped road that is right to 2 %.
+    within the sampling error of the answer or that of its grids.
     """
-    felt = float(case.surface.sines.wavelength[0]) > FELT * TREAD
-    if case.load.thickness is not None or not felt or not has_answer(totals):
+    if not {*TREAD_CHANGES} <= {*samples.data_vars} or not has_answer(totals):
         return []
-    design = direct_contact_design(case, replace(case.load, thickness=TREAD), tolerance=None)
-    assert design is not None
-    thin = solve_design(design, Bench(None), reduce.sample_numbers)
     changes, counting = {}, False
     for name in estimated_names(totals):
-        means = [reduce.mean(part, ESTIMATED[name]) for part in (thin, samples)]
-        changes[name] = float(means[0] / means[1]) - 1.0
+        changes[name] = math.expm1(float(samples[f"{name}_of_tread"].mean()))
         sampling = float(totals[f"answer_{name}_sampling_error"])
         counting |= abs(changes[name]) > max(JUDGED_TO, 0.0 if math.isnan(sampling) else sampling)
     if not counting or not all(map(math.isfinite, changes.values())):
@@ -201,12 +175,14 @@ def direct_contact_totals(
         samples.expand_dims(model=[DIRECT]),
         continuation_factors(case, curve),
         sampled=sampled,
+        conditions=case.conditions,
     )
     if curve is not None and not any(refusals(curve)):
         best[CONTINUED_TO] = case.below_measurement.down_to
     end = resolved_wavelength(case.surface)
     best["cutoff_wavelength"] = xr.Variable((), end, {"units": "m"})
     of_curve = [] if curve is None else list(continuation_doubts(curve))
+    of_curve += case.softening_doubts
     doubts = model.input_doubts([case.surface, case.measured_rubber], [load], case.units, of_curve)
     totals = model.predicted_answer(
         best,

@@ -20,6 +20,9 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.dry_road import DRY_TREAD, STRESS_SCATTER
+from gripscale.conditions.strain_rule import LOG_AREA, LOG_FRICTION
 from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
@@ -93,12 +96,14 @@ def answer_of_samples(
     *,
     sampled: SampledErrors | None = None,
     solved_finite_strain: FactorNumbers | None = None,
+    conditions: Conditions | None = None,
 ) -> xr.Dataset:
     """Return the answer of the solved models.
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
     known one replaces it, `solved_finite_strain` the assumed factor of finite strain.
+    Typical laws among the `conditions` add their errors.
 
     `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
     ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
@@ -118,6 +123,7 @@ def answer_of_samples(
         heights = direct.get("upper_height")
         if heights is not None and bool(heights.notnull().any()):  # lines of a surface, no map
             factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
+        factors |= _of_conditions(direct, conditions, unknown)
         for factor in supplied:
             factors[factor.name] = factor.label, _numbers_of(factor, unknown)
     labels, solved = [label for label, _ in factors.values()], [n for _, n in factors.values()]
@@ -158,13 +164,19 @@ def answer_of_samples(
     if direct is not None and "adhesive_friction" in direct:
         term = reduce.mean(direct, "adhesive_friction")
         data = with_total_friction(
-            data, term * data["answer_contact_fraction_factor"].prod("factor"), errors_of
+            data,
+            term * data["answer_contact_fraction_factor"].prod("factor"),
+            errors_of,
+            _stress_error(conditions),
         )
     return described(data)
 
 
 def with_large_strain(
-    answer: xr.Dataset, samples: xr.Dataset, supplied: Sequence[Factor] = ()
+    answer: xr.Dataset,
+    samples: xr.Dataset,
+    supplied: Sequence[Factor] = (),
+    conditions: Conditions | None = None,
 ) -> xr.Dataset:
     """Return an answer with what it becomes by the solved factor of finite strain.
 
@@ -183,7 +195,7 @@ def with_large_strain(
             return answer
         changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
         factor[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
-    large = answer_of_samples(samples, supplied, solved_finite_strain=factor)
+    large = answer_of_samples(samples, supplied, solved_finite_strain=factor, conditions=conditions)
     names = {name: name.replace(LARGE_STRAIN, "answer_") for name in LARGE_STRAIN_NUMBERS}
     numbers = {name: large[answered] for name, answered in names.items() if answered in large}
     for name, number in numbers.items():
@@ -220,12 +232,13 @@ def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, 
 
 
 def with_total_friction(
-    data: xr.Dataset, term: xr.DataArray, errors: Mapping[str, LogError]
+    data: xr.Dataset, term: xr.DataArray, errors: Mapping[str, LogError], stress_error: float = 0.0
 ) -> xr.Dataset:
     """Return an answer with the friction of its area term, and the total friction of both.
 
     Unchanged where the term is NaN. Errors of hysteresis and contact area have common sources, such
-    as the surface: at worst they add up in full.
+    as the surface: at worst they add up in full. That of the stress, of the logarithm, has none in
+    common with them.
     """
     if not bool(term.notnull().any()):
         return data
@@ -233,6 +246,7 @@ def with_total_friction(
     share = term / total
     friction, area = errors["friction"], errors["contact_fraction"]
     sigma = (1.0 - share) * friction.sigma + share * area.sigma
+    sigma = (sigma**2 + (share * stress_error) ** 2) ** 0.5
     freedom = xr.apply_ufunc(np.minimum, friction.freedom, area.freedom)
     error = LogError(sigma, freedom)
     return data.assign({AREA_TERM: term} | with_interval("total_friction", total, error))
@@ -255,6 +269,35 @@ def _of_surface(direct: xr.Dataset) -> FactorNumbers:
         sigma = lines.copy(data=surface.uncertainty)
         numbers[name] = lines.copy(data=surface.ratio), LogError(sigma, freedom)
     return numbers
+
+
+def _of_conditions(
+    direct: xr.Dataset, conditions: Conditions | None, unknown: xr.DataArray
+) -> dict[str, tuple[str, FactorNumbers]]:
+    """Return factors of one with the errors of the strain rule and of what else is not known."""
+    factors: dict[str, tuple[str, FactorNumbers]] = {}
+    if conditions is not None and conditions.softening is not None:
+        values = LogNormalValue(1.0, LOG_AREA), LogNormalValue(1.0, LOG_FRICTION)
+        rule = Factor("strain_rule", "strain rule", *values)
+        factors[rule.name] = rule.label, _numbers_of(rule, unknown)
+    if "condition" not in direct.dims:
+        return factors
+    for at, label in enumerate(direct.condition.values):
+        numbers = {}
+        for name in ESTIMATED:
+            sigma = direct[f"{name}_condition_error"].isel(condition=at, drop=True).mean("sample")
+            numbers[name] = xr.ones_like(sigma), _certain(sigma)
+        factors[str(label)] = str(label), numbers
+    return factors
+
+
+def _stress_error(conditions: Conditions | None) -> float:
+    """Return the standard error of the logarithm of the shear stress of the area term [-].
+
+    That between compounds for the typical stress of a dry road; a stated stress is taken as it is.
+    """
+    typical = conditions is not None and conditions.shear_stress == DRY_TREAD
+    return STRESS_SCATTER if typical else 0.0
 
 
 def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:

@@ -6,26 +6,27 @@ A case that allows no good answer says so first. What may change a good one foll
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
 import xarray as xr
 
-from gripscale.core.finding import Finding
+from gripscale.core.finding import FILLED, Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
 from gripscale.questions.answer.estimate import LINES_TO_SURFACE
+from gripscale.questions.answer.filler import both_answers
 from gripscale.questions.answer.findings import (
     MEASURED_FRICTION,
     measured_words,
     no_answer_notices,
 )
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.answer.reliance import headline
+from gripscale.questions.answer.reliance import AnswerNumber, headline
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.inputs.page import rubber_section, surface_section
@@ -38,6 +39,10 @@ from gripscale.report.equations import method_section
 from gripscale.surface.direction import ERROR_OF_RIDGES
 from gripscale.testers import TESTER, tester_reading
 
+HYSTERESIS_ALONE = (
+    "Hysteresis alone is a lower bound: far below the friction of a dry road, which interface = "
+    '"dry" in [conditions] adds, and nearer to that of a lubricated one.'
+)
 _SHORT = {"friction": "μ", "contact_fraction": "area"}
 _WORDS = {"friction": "friction", "contact_fraction": "area"}
 _PICTURE = (
@@ -49,16 +54,23 @@ _PICTURE = (
 
 def answer_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the answer of a result of one load, then what it rests on; or why there is none."""
-    statement = reliance.no_answer(data)
+    both = list(both_answers(data))
+    statement = reliance.no_answer(data, FILLED if both else "")
     if not reliance.has_answer(data):
         yield f"Answer: {statement}"
         return
     lead = f"{statement} It would be " if statement else ""
+    if both:
+        yield f"Answer: {lead}{_by_filler(data, both)}"
+        yield from (f"  {line}" for line in basis_lines(data))
+        return
     numbers = [
         f"{SYMBOLS[name]} = {headline(data, name)}" for name in reliance.estimated_names(data)
     ]
     if parts := friction_parts(data):
         numbers[0] += f": {parts}"
+    elif reliance.is_moving(data):
+        numbers[0] = f"hysteresis friction {numbers[0]}"
     rest = "" if reliance.is_moving(data) else "no friction at rest; "
     by = "" if reliance.is_measured(data) else " by the chain of waves"
     intervals = f" ({100.0 * LEVEL:.0f} % intervals)"
@@ -66,6 +78,21 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
         intervals = f"{',' if by else ''} without an interval"
     yield f"Answer: {lead}{rest}{('; ' if parts else ', ').join(numbers)}{by}{intervals}"
     yield from (f"  {line}" for line in basis_lines(data))
+
+
+def _by_filler(data: xr.Dataset, both: Sequence[tuple[str, Mapping[str, AnswerNumber]]]) -> str:
+    """Return both numbers where it is not known whether the rubber is filled."""
+    friction = "" if friction_parts(data) else "hysteresis friction "
+    kinds = {"filled": "filled, as a typical tread", "unfilled": "unfilled"}
+    texts = []
+    for filler, numbers in both:
+        words = [f"{SYMBOLS[name]} = {numbers[name]}" for name in reliance.estimated_names(data)]
+        start = friction if reliance.is_moving(data) else ""
+        texts.append(f"{kinds[filler]}: {start}{', '.join(words)}")
+    return (
+        "one question decides, whether the rubber is filled (carbon black, silica), as every tread "
+        f"is. {'; '.join(texts)} ({100.0 * LEVEL:.0f} % intervals). State filled in [rubber]."
+    )
 
 
 def friction_parts(data: xr.Dataset) -> str:
@@ -92,6 +119,8 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
         thickness = display_unit_of(data.attrs, "thickness").text(float(data.thickness))
         thick = f", rubber {thickness} thick on a rigid base"
     yield f"For {pressure} {motion}, roughness down to {end}{thick}."
+    if reliance.is_moving(data) and not friction_parts(data):
+        yield HYSTERESIS_ALONE
     if reading := tester_reading(data.attrs.get(TESTER, ""), *headline(data, "friction")):
         yield f"{reading}."
     if MEASURED_FRICTION in data:
@@ -139,10 +168,9 @@ def _corrections(data: xr.Dataset) -> str:
         if not all(map(math.isfinite, values.values())):
             continue
         text = ", ".join(f"{word} {signed_percent(value - 1.0)}" for word, value in values.items())
-        if np.allclose(list(values.values()), 1.0):  # assumed to change nothing
-            sigma = float(data[f"answer_{names[0]}_factor_uncertainty"][at])
-            steps.append(f"{label} ± {percent_text(sigma)} (assumed)")
-        else:
+        if not np.allclose(
+            list(values.values()), 1.0
+        ):  # some change nothing and widen the interval
             steps.append(f"{label}: {text}")
     where = "your profiles" if LINES_TO_SURFACE in labels else "the measured surface"
     corrected = f", then corrected: {'; '.join(steps)}" if steps else ""
@@ -150,11 +178,24 @@ def _corrections(data: xr.Dataset) -> str:
 
 
 def _in_interval(data: xr.Dataset) -> Iterator[str]:
-    """Yield the error of the sampling, and what is assumed, left out or not in the interval."""
-    name, labels = reliance.estimated_names(data)[0], data.factor_label.values
-    sampling = float(data[f"answer_{name}_sampling_error"])
-    if math.isfinite(sampling):
-        yield f"sampling of the surface: ± {percent_text(sampling)} (standard error)"
+    """Yield the errors in the interval, and what is assumed, left out or not in the interval."""
+    names, labels = reliance.estimated_names(data), data.factor_label.values
+    name, rows = names[0], {"sampling of the surface": "sampling_error"}
+    sizes = {
+        label: [float(data[f"answer_{each}_{end}"]) for each in names]
+        for label, end in rows.items()
+    } | {
+        str(label): [float(data[f"answer_{each}_factor_uncertainty"][at]) for each in names]
+        for at, label in enumerate(labels)
+    }
+    parts = [
+        f"{label} {' and '.join(percent_text(size) for size in errors)}"
+        for label, errors in sizes.items()
+        if max(errors) > reliance.WORTH_NAMING
+    ]
+    if parts:
+        of = " and ".join(_WORDS[each] for each in names)
+        yield f"in the interval, standard errors of {of}: {'; '.join(parts)}"
     below = data.get(FRICTION_BELOW_MEASUREMENT)
     if below is not None and not below.ndim and float(below) > reliance.WORTH_NAMING:
         limit = in_mm(float(data.resolution_limit), 3)

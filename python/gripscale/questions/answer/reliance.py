@@ -21,6 +21,7 @@ from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
 # Share of friction or contact from what was not measured that makes an answer a guess.
 MOST_ON_GUESSES = 0.5
+ESTIMATED_AREA = "answer_contact_fraction"
 WORTH_NAMING = 0.005  # share of the contact on filled gaps that is as good as none
 
 
@@ -37,9 +38,12 @@ def direct_of(data: xr.Dataset) -> xr.Dataset:
     return data.sel(model=DIRECT) if DIRECT in data.model else data.isel(model=0)
 
 
-def no_answer(data: xr.Dataset) -> str:
-    """Return why a result has no answer, or none to rely on; empty if it has one."""
-    doubts = [doubt.sentence for doubt in model.input_doubts_of(data)]
+def no_answer(data: xr.Dataset, but: str = "") -> str:
+    """Return why a result has no answer, or none to rely on; empty if it has one.
+
+    Doubts with the key `but` do not count.
+    """
+    doubts = [d.sentence for d in model.input_doubts_of(data) if not (but and d.key == but)]
     if not has_answer(data):
         direct = direct_of(data)
         name = next((name for name in (model.STATUS, "status") if name in direct), "")
@@ -47,7 +51,8 @@ def no_answer(data: xr.Dataset) -> str:
         words = f"The {solved_model(data)} has no result: {ended}."
         return " ".join(["none.", *doubts, words])
     guessed = [share.sentence for share in guesses(data) if share.effect > MOST_ON_GUESSES]
-    reasons = [*doubts, *guessed, *_sampled_too_little(data)]
+    widths = [] if f"filled_{ESTIMATED_AREA}" in data else _sampled_too_little(data)
+    reasons = [*doubts, *guessed, *widths]
     return f"none to rely on. {' '.join(reasons)}" if reasons else ""
 
 

@@ -25,6 +25,7 @@ from gripscale.core.arrays import Array, Mask
 from gripscale.cut_off_exponents import NOT_TOLD
 from gripscale.experiment.design import CONVERGED, error_of_total
 from gripscale.experiment.task import Task
+from gripscale.half_space.model import CONDITION_ERRORS, TREAD_CHANGES
 from gripscale.half_space.result import SHARES_BY_SLOPE, TRAPPED_WATER
 from gripscale.questions.answer.intervals import LogError
 
@@ -49,6 +50,8 @@ def sample_numbers(
     for name in model.BASIS:
         numbers[name.removeprefix("total_")] = float(answer.get(name, math.nan))
     numbers |= {name: float(answer[name].item()) for name in TRAPPED_WATER if name in answer}
+    names = (*CONDITION_ERRORS, *TREAD_CHANGES)
+    numbers |= {name: answer[name] for name in names if name in answer}
     for share in SHARES_BY_SLOPE:
         if f"total_{share}" in answer:
             numbers[share] = answer[f"total_{share}"]

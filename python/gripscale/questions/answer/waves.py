@@ -65,7 +65,8 @@ def answer_of_waves(
         model.cut_off_exponents_of(numbers),
         status_word=str(numbers[model.STATUS_WORD].item()),
     )
-    doubts = model.input_doubts([case.surface, case.measured_rubber], [load], case.units)
+    inputs: list[model.Doubtful] = [case.surface, case.measured_rubber]
+    doubts = model.input_doubts(inputs, [load], case.units, case.softening_doubts)
     return answered.assign_attrs(case.attributes | doubts)
 
 

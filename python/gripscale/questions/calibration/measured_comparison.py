@@ -26,8 +26,9 @@ from gripscale.experiment.solve import Bench, OnTask
 from gripscale.experiment.task import Store, Task
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import Load, Model
-from gripscale.questions.answer.direct_contact import direct_contact_totals, each_measured
+from gripscale.questions.answer.direct_contact import direct_contact_totals
 from gripscale.questions.answer.estimate import AREA_TERM
+from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.cut_off.curve import contact_curves
 from gripscale.rubber import Rubber

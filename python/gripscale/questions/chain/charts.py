@@ -1,4 +1,4 @@
-"""Charts of waves and chains: area, friction and load by wavelength, evidence, heat, effects.
+"""Charts of waves and chains: area, friction and load by wavelength, evidence, heat.
 
 Contact area and friction against falling wavelength are figures 5 and 8 of LW.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,6 @@ from gripscale.charts.chart import (
     Bars,
     CrossLine,
     Mark,
-    Note,
     Panel,
     PlotAxis,
     Series,
@@ -28,16 +27,14 @@ from gripscale.charts.chart import (
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
-from gripscale.core import Array, InputError
+from gripscale.core import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS
-from gripscale.experiment.design import CHANGES, WITH_AREA_TERM
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.result import RoughContact
 from gripscale.model import ADHESIVE_FRICTION
 from gripscale.questions.answer.reliance import headline
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts_of_ladder import measured_points
-from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.words import ANSWER, AXIS_TITLES, HEADINGS, JUDGE, OF_THE_PAPER
 
 if TYPE_CHECKING:
@@ -67,7 +64,7 @@ def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
 
 
 def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:
-    """Return area, friction, pressure, modulus and the pressure along the waves.
+    """Return area, friction and the pressure along the waves.
 
     The totals of `direct`, what judges the predictions, are level lines. Waves that did not
     converge are red crosses.
@@ -79,31 +76,6 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
         for name, views in (("contact_fraction", predictions), ("friction", moving))
         if views
     ]
-    abscissa, pressure_unit = _wavelengths(predictions), predictions[0].display_unit("pressure")
-    panels.append(Panel(
-        abscissa,
-        PlotAxis(f"pressure, modulus [{pressure_unit.unit}]", log=True),
-        _pairs(
-            predictions,
-            {"mean pressure": "pressure_received", "|E*|": "modulus"},
-            lambda view, name: pressure_unit.of(view.column(name)),
-        ),
-        name="load",
-        caption="Mean pressure on each wave (filled), and modulus of the rubber at its frequency "
-        "(open).",
-        alt="Mean pressure and modulus against wavelength.",
-    ))  # fmt: skip
-    if any(view.shows("max_stretch") for view in predictions):
-        columns = {"largest": "max_stretch", "smallest": "min_stretch"}
-        panels.append(Panel(
-            abscissa,
-            PlotAxis("principal stretch [-]"),
-            _pairs(predictions, columns, PredictionView.usable),
-            name="stretch",
-            caption="Largest and smallest principal stretch in the block; where strains are small, "
-            "both are near one.",
-            alt="Largest and smallest principal stretch against wavelength.",
-        ))  # fmt: skip
     for view in predictions:
         if not view.has("surface_pressure"):
             continue
@@ -182,108 +154,12 @@ def _total_marks(view: PredictionView, name: str, colour: str, along: PlotAxis) 
             yield ShadedBand(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
 
 
-def _failed(views: Views, quantity: str, *, by_number: bool = False) -> Iterator[Series]:
+def _failed(views: Views, quantity: str) -> Iterator[Series]:
     for view in views:
-        x = view.number if by_number else view.column("wavelength") / MILLI
-        y = view.column(quantity)
+        x, y = view.column("wavelength") / MILLI, view.column(quantity)
         bad = ~view.converged & np.isfinite(x) & np.isfinite(y)
         if bad.any():
             yield Series(x[bad], y[bad], RED, "not converged", "", 2.3, marker="x", size=8.0)
-
-
-def _pairs(
-    views: Views, columns: dict[str, str], values: Callable[[PredictionView, str], Array]
-) -> list[Mark]:
-    """Return two labelled columns over wavelength: filled and solid, open and dotted."""
-    looks = tuple(zip(columns.items(), ("solid", "dotted"), strict=True))
-    return [
-        Series(view.column("wavelength") / MILLI, values(view, name), colour,
-               f"{view.name}, {label}", dash, marker="o", filled=dash == "solid")
-        for view, colour in zip(views, COLOURS, strict=False)
-        for (label, name), dash in looks
-    ]  # fmt: skip
-
-
-def verification_charts(predictions: Views) -> list[Chart]:
-    """Return the figures that say how far the numbers may be trusted."""
-    panels = [panel for view in predictions if view.moving for panel in _friction_panels(view)]
-    coloured = list(zip(predictions, COLOURS, strict=False))
-    if any((view.column("residual") > 0.0).any() for view in predictions):
-        residuals = [
-            Series(view.number, view.column("residual"), colour, view.name, marker="o")
-            for view, colour in coloured
-        ]
-        panels.append(Panel(
-            _wave_axis(predictions),
-            PlotAxis("residual force / applied force [-]", log=True),
-            [*residuals, *_failed(predictions, "residual", by_number=True)],
-            name="residual",
-            caption="Residual of the equations at the end of Newton's iteration.",
-            alt="Residual of each wave on a logarithmic axis.",
-        ))  # fmt: skip
-    width = 0.8 / len(predictions)
-    bars: list[Mark] = []
-    for i, (view, colour) in enumerate(coloured):
-        start, count = view.number + i * width - 0.4, view.column("newton_iterations")
-        good = view.converged
-        for rows, shade, label in ((good, colour, view.name), (~good, RED, "not converged")):
-            if rows.any():
-                ends = start[rows], start[rows] + 0.9 * width
-                bars.append(Bars(*ends, 0.0, count[rows], shade, label))
-    panels.append(Panel(
-        _wave_axis(predictions),
-        PlotAxis("Newton iterations [-]", low=0.0),
-        bars,
-        name="iterations",
-        caption="Newton iterations over all load steps; red where the wave did not converge.",
-        alt="Newton iterations of each wave.",
-    ))  # fmt: skip
-    return draw.panels_on_page(panels)
-
-
-def _wave_axis(views: Views) -> PlotAxis:
-    most = max(view.waves for view in views)
-    return PlotAxis("number of the wave [-]", ticks={float(i): str(i) for i in range(1, most + 1)})
-
-
-def _friction_panels(view: PredictionView) -> Iterator[Panel]:
-    """Yield the two frictions, their mismatch, and the error estimates that the solver gives."""
-    friction, lost = view.usable("friction"), view.usable("friction_from_dissipation")
-    yield Panel(
-        _wave_axis([view]),
-        PlotAxis("friction coefficient of the wave [-]"),
-        [
-            Series(view.number, friction, BLUE, "from the contact traction", "", marker="o",
-                   size=7.0, filled=False),
-            Series(view.number, lost, ORANGE, "from the energy lost", "", marker="+", size=7.0),
-            *_failed([view], "friction", by_number=True),
-        ],
-        name=f"two-frictions-{view.name}",
-        caption="The two measures of friction, found independently; a cross in its circle means "
-        "they agree.",
-        alt="Friction coefficient of each wave from traction and from dissipation.",
-    )  # fmt: skip
-    if not view.shows("friction_mismatch"):
-        return
-    size = np.abs(friction)
-    errors: list[tuple[str, str, str, Array | float]] = [
-        ("friction_mismatch", "mismatch of the two frictions", BLUE, 1.0),
-        ("friction_error", "estimated error of friction", ORANGE, np.where(size > 0, size, np.nan)),
-        ("contact_fraction_error", "estimated error of contact fraction", GREEN, 1.0),
-    ]
-    yield Panel(
-        _wave_axis([view]),
-        PlotAxis("error [%]", log=True),
-        [
-            Series(view.number, 100.0 * np.abs(view.usable(name)) / over, colour, label, marker="o")
-            for name, label, colour, over in errors
-            if view.has(name)
-        ],
-        name=f"errors-{view.name}",
-        caption="Errors of the discretisation: friction relative, contact fraction absolute (of "
-        "the wavelength).",
-        alt="Mismatch of the two frictions and estimated errors of each wave in per cent.",
-    )
 
 
 def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
@@ -397,74 +273,3 @@ def direct_heat_figure(contact: RoughContact, title: str = "") -> Figure:
         )
     layout = {"width_ratios": [1.0, 1.5]}
     return Sheet([octaves, surface], height=3.2, title=title, legend="", layout=layout).on_paper()
-
-
-_HEIGHT, _ROW = 1.5, 0.32  # of the figure without rows, and of each [inch]
-_INSIDE = 0.45  # share of the longest bar; in one longer than that its number stands inside
-SHARE = 0.6  # share of the height of a row that the bars of all models take
-PANELS = {
-    "total_contact_fraction": f"{AXIS_TITLES['contact_fraction']} [-]",
-    "total_friction": "friction, hysteresis $\\mu$ [-]",
-    WITH_AREA_TERM: "friction with area term [-]",
-}
-PER_CENT = "at a bar: change by the effects that are left out"
-
-
-def effects_figure(*results: xr.Dataset, title: str = "") -> Figure:
-    """Draw A_r/A_0 and friction as bars: with all effects, without each in turn, without any.
-
-    `results` are of `effects`, one for each model, one at least; all of the same conditions. A
-    dotted line goes on from the answer with all effects. At each other bar stands what the effects
-    left out change, in per cent of it. Where an area term was asked for, friction with it has a
-    panel of its own.
-    """
-    return effects_sheet(*results, title=title).on_paper()
-
-
-def effects_sheet(*results: xr.Dataset, title: str = "") -> Sheet:
-    """Describe what `effects_figure` draws; arguments and errors are its own."""
-    names = [str(name) for name in results[0].effect.values]
-    ticks = {float(i): EFFECTS.get(name, name) for i, name in enumerate(names)}
-    rows = PlotAxis("", low=len(names) - 0.5, high=-0.5, ticks=ticks, grid=False)
-    half = 0.45 * SHARE / len(results)
-    panels = []
-    for name, label in PANELS.items():
-        values = [result[name].values for result in results if name in result]
-        if not values:
-            continue
-        longest = float(np.nanmax(np.concatenate(values), initial=0.0))
-        marks: list[Mark] = []
-        for k, (result, colour) in enumerate(zip(results, COLOURS, strict=False)):
-            if name not in result:
-                continue
-            bars, model = result[name].values, str(result.attrs["model"])
-            at: Array = np.arange(float(bars.size)) + SHARE * ((k + 0.5) / len(results) - 0.5)
-            ends, label_of_model = np.nan_to_num(bars), MODELS.get(model, model)
-            marks.append(Bars(0.0, ends, at - half, at + half, colour, label_of_model))
-            if np.isfinite(bars[0]):
-                marks.append(CrossLine(bars[0], colour, "", "dotted", upright=True, order=0.9))
-            marks += _changes(at, bars, result[CHANGES[name]].values, _INSIDE * longest)
-        high = 1.3 * longest or None
-        panels.append(Panel(PlotAxis(label, low=0.0, high=high, numbers=4), rows, marks))
-    return Sheet(
-        panels,
-        len(panels),
-        height=_HEIGHT + _ROW * len(names) * max(len(results), 1.5),
-        legend_columns=len(results),
-        legend_title="\n".join(filter(None, [title, PER_CENT])),
-        gap=0.04,
-        layout={"sharey": True},
-    )
-
-
-def _changes(rows: Array, bars: Array, changes: Array, inside: float) -> Iterator[Note]:
-    """Yield at each bar what the effects left out change; in a bar longer than `inside`, in it."""
-    for y, bar, change in zip(rows.tolist(), bars.tolist(), changes.tolist(), strict=True):
-        if math.isnan(bar):
-            yield Note(0.0, y, "not converged", INK, (3.0, 0.0), boxed=True)
-        elif math.isfinite(change):
-            text = f"{100.0 * change:+.0f} %"
-            if bar > inside:
-                yield Note(bar, y, text, "white", (-3.0, 0.0), "right")
-            else:  # a short bar may end just before the dotted line, which then passes behind
-                yield Note(bar, y, text, INK, (3.0, 0.0), boxed=True)

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gripscale.charts import draw
-from gripscale.charts.page_elements import Image, Picture
+from gripscale.charts.draw import Drawing
 from gripscale.charts.style import BLUE, DASHES, DPI, FAINT, GREY, INK, ORANGE, ROUND, WIDE
 from gripscale.core import Array, checks
 from gripscale.core.units import MILLI
@@ -123,7 +122,7 @@ def _joined(rows: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Blocks(draw.Drawing):
+class Blocks(Drawing):
     """Blocks of a figure on paper, row by row."""
 
     blocks: Sequence[DrawnBlock]
@@ -212,23 +211,5 @@ def block_figure(prediction: xr.Dataset, wave: int = 1) -> Figure:
 
 def blocks_figure(prediction: xr.Dataset) -> Figure:
     """Draw every wave of a prediction, largest first, four side by side."""
-    return all_blocks(prediction).on_paper()
-
-
-def all_blocks(prediction: xr.Dataset) -> Blocks:
-    """Describe every wave of a prediction, largest first, four side by side."""
     view = PredictionView(prediction)
-    return Blocks.of(view, range(view.waves), columns=4, width=WIDE)
-
-
-def blocks_image(prediction: PredictionView) -> Image:
-    """Draw the blocks of `prediction`."""
-    picture = Picture(
-        f"blocks_{prediction.name}",
-        blocks_figure(prediction.data),
-        f"{prediction.title}: deformed rubber on each rigid wave, contact pressure above. Lengths "
-        "in wavelengths, to scale.",
-        f"{prediction.waves} panels, largest wave first: contact pressure and deformed mesh of the "
-        f"{prediction.name} prediction.",
-    )
-    return draw.image(picture)
+    return Blocks.of(view, range(view.waves), columns=4, width=WIDE).on_paper()

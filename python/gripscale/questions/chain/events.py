@@ -112,13 +112,6 @@ class AnswerSolved(Event):
 
 
 @dataclass(frozen=True)
-class EffectsSolved(Event):
-    """The effect of each condition on area and friction is solved."""
-
-    effects: tuple[str, ...]  # names of the conditions, such as "heat"
-
-
-@dataclass(frozen=True)
 class FileWritten(Event):
     """A result file is complete."""
 

@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
-from gripscale.conditions.area_term import heat_left_out
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.cut_off_exponents import NOT_CONVERGED, NOT_TOLD, OCTAVE
 from gripscale.questions.answer.reliance import friction_sentence
@@ -28,7 +27,7 @@ FLAGS = {
 
 
 def conditions_notices(view: PredictionView) -> Iterator[Finding]:
-    """Yield a warning for each flag of the rubber of the waves, and for heat left out."""
+    """Yield a warning for each flag of the rubber of the waves."""
     for name, words in FLAGS.items():
         if view.has(name):
             yield from _of_waves(view, np.nan_to_num(view.usable(name)) > 0.0, words)
@@ -36,10 +35,6 @@ def conditions_notices(view: PredictionView) -> Iterator[Finding]:
         misfit = np.nan_to_num(np.abs(view.usable("series_misfit")))
         words = f"the series misses the softened moduli by up to {misfit.max(initial=0.0):.0%}"
         yield from _of_waves(view, misfit > LARGE_MISFIT, words, misfit)
-    if view.has("contact_temperature") and model.ADHESIVE_FRICTION in view.data:
-        area_term = float(view.data[model.ADHESIVE_FRICTION])
-        for text in heat_left_out(area_term, view.total("friction")):
-            yield Finding(Severity.WARNING, text, topic=Topic.RUBBER)
 
 
 def wave_notices(view: PredictionView, bulk_modulus: float) -> Iterator[Finding]:

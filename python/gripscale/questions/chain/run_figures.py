@@ -9,7 +9,6 @@ from contextlib import contextmanager
 from gripscale.charts.figure_folder import FigureProcess, Figures
 from gripscale.questions.answer.reliance import is_measured
 from gripscale.questions.chain.charts import contact_sheet
-from gripscale.questions.chain.charts_of_blocks import all_blocks
 from gripscale.questions.chain.events import Event, OnEvent, PredictionFinished, WaveSolved
 from gripscale.questions.chain.run import ChainRun, planned
 from gripscale.questions.chain.view import PredictionView
@@ -25,8 +24,7 @@ def background_figures(run: ChainRun, figures: Figures) -> Iterator[OnEvent]:
     """Draw the figures of a case while it is being solved.
 
     Gives a function to be called with the events of `ChainRun.solve`: with the first wave the
-    folder of results is ready and the direct contact solved, with the end of a prediction its
-    blocks are complete. On leaving, what went wrong is raised.
+    folder of results is ready and the direct contact solved. On leaving, what went wrong is raised.
     """
     last = list(planned(run.case))[-1]
     with ThreadPoolExecutor(1, thread_name_prefix="figures") as pool:
@@ -43,10 +41,8 @@ def background_figures(run: ChainRun, figures: Figures) -> Iterator[OnEvent]:
                 draw(_draw_inputs)
                 if run.answer is not None:
                     draw(_draw_direct)
-            elif isinstance(event, PredictionFinished):
-                draw(_draw_blocks)
-                if event.prediction == last:
-                    draw(_draw_contact)
+            elif isinstance(event, PredictionFinished) and event.prediction == last:
+                draw(_draw_contact)
 
         if isinstance(figures, FigureProcess):
             draw(_draw_inputs)
@@ -66,11 +62,6 @@ def _draw_inputs(run: ChainRun, figures: Figures) -> None:
 def _draw_direct(run: ChainRun, figures: Figures) -> None:
     for name, figure in [] if run.answer is None else run.answer.figures():
         figures.save(figure, name)
-
-
-def _draw_blocks(run: ChainRun, figures: Figures) -> None:
-    name = next(iter(run.predictions))
-    figures.save(all_blocks(run.dataset(name)), f"blocks_{name}")
 
 
 def _draw_contact(run: ChainRun, figures: Figures) -> None:

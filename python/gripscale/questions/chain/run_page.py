@@ -28,8 +28,7 @@ from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.answer import ANSWER_FILE
 from gripscale.questions.answer.findings import case_notices, no_answer_notices
 from gripscale.questions.answer.reliance import has_answer, is_measured
-from gripscale.questions.chain.charts import contact_charts, measured_chart, verification_charts
-from gripscale.questions.chain.charts_of_blocks import blocks_image
+from gripscale.questions.chain.charts import contact_charts, measured_chart
 from gripscale.questions.chain.findings import exponent_sentence, prediction_sentence, wave_notices
 from gripscale.questions.chain.page import wave_tables
 from gripscale.questions.chain.run import DYNAMIC, STATIC
@@ -41,8 +40,6 @@ from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.stored import predicted_tree
 from gripscale.questions.uncertainty import page as uncertainty
 from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_uncertainty
-from gripscale.questions.vary.effects import stored_effects
-from gripscale.questions.vary.page_side_by_side import effects_table
 from gripscale.questions.words import OF_THE_PAPER
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import (
@@ -69,8 +66,6 @@ class RunSource:
     inputs: xr.Dataset
     # Models side by side over the same case, as far as they are there.
     compared: comparison.Compared = field(default_factory=comparison.Compared)
-    # What each effect of its conditions is worth, model by model.
-    effects: list[xr.Dataset] = field(default_factory=list)
     uncertainty: xr.Dataset | None = None  # what was sampled of it, or of another case
     direct: xr.Dataset | None = None  # totals of the direct contact of the measured profiles
     cut_off: xr.Dataset | None = None  # contact and friction against the cut-off
@@ -128,7 +123,6 @@ def read_run(folder: Path) -> RunSource | None:
     return replace(
         run,
         compared=comparison.stored_comparisons(folder / comparison.COMPARISON),
-        effects=stored_effects((folder / comparison.COMPARISON, folder), case),
         uncertainty=stored_uncertainty(folder),
         direct=of_this_case(folder / ANSWER_FILE),
         cut_off=of_this_case(folder / "cut_off.nc"),
@@ -149,10 +143,6 @@ _EVIDENCE = (
 STALE = (
     "The comparison in this folder belongs to another version of the case and is left out; run "
     "`gripscale compare` again."
-)
-_EFFECTS = (
-    "The case with all effects of its conditions, without each effect in turn, and without any. "
-    "A change is the change by the effects that are left out."
 )
 _OF_ANOTHER = Finding(Severity.WARNING, uncertainty.OF_ANOTHER, topic=Topic.SOURCE)
 
@@ -236,14 +226,6 @@ def _sections_of_results(run: RunSource) -> Iterator[Section]:
     yield Section("measured", "Measured friction", measured)
     cut_off = [] if run.cut_off is None else CutOff(run.cut_off).elements()
     yield Section("cut-off", "Against the cut-off", cut_off)
-    effects: list[Element] = []
-    if run.effects:
-        effects = [Text(_EFFECTS), effects_table(*run.effects)]
-    yield Section("effects", "What each effect is worth to the chain", effects)
-    names = ("surface_x", "surface_pressure", "mesh_x")
-    meshed = [view for view in run.predictions if all(view.has(name) for name in names)]
-    no_mesh = Text("The result holds no deformed meshes.")
-    yield Section("blocks", "Deformed blocks", [*map(blocks_image, meshed)] or [no_mesh])
     # the comparison of just this case; another's is named and left out
     same = run.compared.of(run.attrs.get("case"))
     lines: list[Element] = []
@@ -258,7 +240,6 @@ def _sections_of_results(run: RunSource) -> Iterator[Section]:
         evidence = list(run_failures(run)) or [Finding(Severity.GOOD, "Every wave converged.")]
         evidence.append(Text(_EVIDENCE))
         evidence += [tables[name] for name in ("errors", "solution", "mesh") if name in tables]
-        evidence += verification_charts(run.by_wave)
     yield Section("verification", "Verification", evidence)
 
 

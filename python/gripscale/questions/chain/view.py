@@ -69,11 +69,6 @@ class PredictionView:
         good = self.status == CONVERGED and bool(self.converged.all())
         return good and self.waves >= self.planned
 
-    @property
-    def number(self) -> Array:
-        """Numbers of the waves, from 1."""
-        return np.arange(1.0, self.waves + 1.0)
-
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
         """Whether each wave may be used."""
@@ -105,10 +100,6 @@ class PredictionView:
     def usable(self, name: str) -> Array:
         """Return a column with NaN where the wave did not converge."""
         return np.where(self.converged, self.column(name), np.nan)
-
-    def shows(self, name: str) -> bool:
-        """Return whether some wave that may be used has a number in a column."""
-        return self.has(name) and bool(np.isfinite(self.usable(name)).any())
 
     def pressure_along(self, i: int) -> tuple[Array, Array]:
         """Return x/wavelength from -1/2 to 1/2, crest at 0, and the contact pressure [Pa] there."""

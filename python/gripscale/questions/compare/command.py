@@ -12,7 +12,6 @@ from gripscale.questions import terminal
 if TYPE_CHECKING:
     import xarray as xr
 
-    from gripscale.model import Model
     from gripscale.questions.compare.comparison import SolvedLadder
 
 
@@ -55,19 +54,16 @@ def compare_command(
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.experiment.measured_friction import read_measured_friction
     from gripscale.experiment.task import PREDICTIONS
-    from gripscale.half_space.model import DirectContact
     from gripscale.io import netcdf
     from gripscale.questions.answer.page import answer_lines
     from gripscale.questions.answer.reliance import has_answer
     from gripscale.questions.calibration.page import residual_table
-    from gripscale.questions.chain.charts import effects_figure
     from gripscale.questions.compare import charts, comparison, ladder, page, question
     from gripscale.questions.page_of_folder import write_report
     from gripscale.questions.result import warning_lines
     from gripscale.questions.uncertainty.page import uncertainty_lines
     from gripscale.questions.uncertainty.propagation import stored_uncertainty
-    from gripscale.questions.vary import axis, page_side_by_side
-    from gripscale.questions.vary.effects import case_effects
+    from gripscale.questions.vary import axis
 
     axes = None if vary is None else dict([axis.parse_vary(vary, comparison.COMPARED_OVER)])
     work = terminal.CaseCommand(case)
@@ -101,21 +97,14 @@ def compare_command(
     text = f"{Path(result.file).stem}.txt"
     terminal.end_steps()
     console.print()
-    terminal.print_parts(console, [*result.lines, *warning_lines(result.findings, text)])
+    terminal.print_parts(
+        console, [*result.lines, *warning_lines(result.findings, text, result.half_widths)]
+    )
     parts = list(result.parts())
-    worth: list[xr.Dataset] = []
     residuals: xr.Dataset | None = None
     if axes is None:
         assert result.ladder is not None
-        conditioned: list[Model] = [read.chain] if read.conditions is not None else []
-        if conditioned and read.surface.measured is not None:
-            conditioned.append(DirectContact(tolerance=tolerance, conditions=read.conditions))
-        store = target / PREDICTIONS
-        effects = (case_effects(read, model, target, store, **bench) for model in conditioned)
-        worth = [effect for effect in effects if effect is not None]
-        residuals = comparison.at_measured(result.ladder, store, **bench)
-    if worth:
-        parts.append(page_side_by_side.effects_table(*worth))
+        residuals = comparison.at_measured(result.ladder, target / PREDICTIONS, **bench)
     if residuals is not None:
         netcdf.save(residuals, target / "at_measured.nc")
         parts.append(residual_table(residuals))
@@ -128,8 +117,6 @@ def compare_command(
         figures = FigureFolder(target, work.file.case.output.figures)
         for name, figure in result.figures():
             figures.save(figure, name)
-        if worth:
-            figures.save(effects_figure(*worth), "effects")
         if residuals is not None:
             data = result.data
             labels = dict(zip(data.model.values.tolist(), data.label.values.tolist(), strict=True))

@@ -77,8 +77,9 @@ class SolvedLadder(Described):
             chain = self.samples.isel(model=0, sample=0, drop=True)
             names = ["friction", "contact_fraction", "adhesive_friction"]
             return estimate_of_waves(chain[names].where(reduce.converged(chain)))
-        best = estimates.answer_of_samples(self.samples, self.factors)
-        return estimates.with_large_strain(best, self.samples, self.factors)
+        conditions = self.case.conditions
+        best = estimates.answer_of_samples(self.samples, self.factors, conditions=conditions)
+        return estimates.with_large_strain(best, self.samples, self.factors, conditions)
 
     @property
     def octaves(self) -> Array:
@@ -135,7 +136,7 @@ def comparison_setups(
     rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
     axis: Axis | None = None
     if vary is not None:
-        study = Study(case, vary, static=False, model=Chain.name)
+        study = Study(case, vary, model=Chain.name)
         axis = _axis(study)
         tasks = {point.label: point.task for point in study.points}
         rubbers = study.measured_rubbers
@@ -384,7 +385,9 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         {
             "title": "Contact and friction by model",
             **comparison.case.attributes,
-            **model.input_doubts(subjects, loads, comparison.case.units),
+            **model.input_doubts(
+                subjects, loads, comparison.case.units, comparison.case.softening_doubts
+            ),
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,
             "tolerance": setups[0].tolerance,

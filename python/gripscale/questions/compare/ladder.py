@@ -21,8 +21,8 @@ from gripscale.core import Described, InputError, checks
 from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
 from gripscale.model import Load, Model
-from gripscale.questions.answer.direct_contact import each_measured, with_single_measurement
 from gripscale.questions.answer.estimate import DIRECT
+from gripscale.questions.answer.measurements import each_measured, with_single_measurement
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, SineStack, Surface, fit_sines, height_difference
 from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
@@ -54,8 +54,8 @@ class ComparisonSetup(Described):
     continuation: ContinuedContact | None = None
     """Direct contact with roughness below the measurement, as the case says."""
     conditions: Conditions | None = None
-    """What changes the rubber. Chain and direct contact know all of it, every other model only the
-    temperature."""
+    """What changes the rubber. Chain and direct contact know all of it, Persson's theory no heat,
+    every other model only the temperature."""
 
     @property
     def of_map(self) -> bool:
@@ -84,7 +84,9 @@ class ComparisonSetup(Described):
     @property
     def direct(self) -> DirectContact:
         """The direct contact."""
-        return DirectContact(tolerance=self.tolerance, conditions=self.conditions)
+        return DirectContact(
+            tolerance=self.tolerance, conditions=self.conditions, alternatives=True
+        )
 
 
 class SampleSpec(NamedTuple):
@@ -270,7 +272,8 @@ def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
         spectra = [_spectrum(line) for line in part.measured.followed] if part.measured else []
         ends = [float(2.0 * np.pi / spectrum.wavenumber[-1]) for spectrum in spectra]
         smallest = max(part.cutoff_wavelength, *ends)
-        specs.append(SampleSpec(Persson(smallest_wavelength=smallest), part, name))
+        theory = Persson(smallest_wavelength=smallest, conditions=setup.conditions)
+        specs.append(SampleSpec(theory, part, name))
     return specs
 
 

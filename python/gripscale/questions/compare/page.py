@@ -167,17 +167,21 @@ def remarks(comparison: xr.Dataset) -> Iterator[str]:
     yield from temperature_only(comparison)
 
 
+# Which models of a comparison have an effect.
+_MODELS_WITH = {
+    "softening": "Softening: in the chains, the direct contacts and Persson's theory.",
+    "heat": "Heat: in the chains and the direct contacts.",
+}
+
+
 def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
     """Yield which models leave effects out, where strain or heat change the rubber."""
     asked = json.loads(comparison.attrs.get("conditions", "null")) or {}
-    effects = [name for name in ("softening", "heat") if asked.get(name) is not None]
     if asked.get("water") is not None:
         yield "Water: in the direct contacts of maps. All other models are dry."
+    effects = [text for name, text in _MODELS_WITH.items() if asked.get(name) is not None]
     if effects:
-        yield (
-            f"{' and '.join(effects).capitalize()}: in the chains and in the direct contacts. "
-            "Theories, windows and maps have only the temperature before the contact."
-        )
+        yield " ".join([*effects, "Else only the temperature before the contact counts."])
 
 
 def ladder_cards(ladder: xr.Dataset | None) -> Iterator[Card]:

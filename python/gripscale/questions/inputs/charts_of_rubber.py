@@ -43,6 +43,7 @@ from gripscale.rubber import (
     Sweeps,
     uniaxial_stress,
 )
+from gripscale.rubber.softening import SofteningTable
 from gripscale.rubber.superposition import temperatures_in
 
 if TYPE_CHECKING:
@@ -398,6 +399,27 @@ def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
     ]  # fmt: skip
     bar = replace(_temperatures(sweeps), first_row=True)
     return Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar)
+
+
+def softening_sheet(law: SofteningTable) -> Sheet:
+    """Draw both moduli of strain sweeps, over those of the master curve, against strain [%]."""
+    count = len(law.strain)
+    labels = [f"{kelvin - ZERO_CELSIUS:.1f} °C" for kelvin in law.temperature or ()] or [""]
+    strain = PlotAxis(f"strain amplitude, {law.deformation or 'tension or shear'} [%]", log=True)
+    references = [law.reference(at) for at in range(count)]
+    ends = "–".join(f"{100 * end:.3g}" for end in sorted({min(references), max(references)}))
+    panels = []
+    for row, (_, name, _) in enumerate(_MODULI):
+        ratios = [law.of_sweep(at, strains)[row] for at, strains in enumerate(law.strain)]
+        marks: list[Mark] = [
+            Series(100.0 * np.array(law.strain[at]), ratios[at], colour, labels[at], marker="o",
+                   size=2.5, width=0.9)
+            for at, colour in enumerate(shades(count + 1, "Plasma")[:count])
+        ]  # fmt: skip
+        marks += [CrossLine(100.0 * at, GREY, dash="dotted", upright=True) for at in references]
+        marks.append(CrossLine(1.0, GREY))
+        panels.append(Panel(strain, PlotAxis(f"{name} over that at {ends} % [-]", low=0.0), marks))
+    return Sheet(panels, legend_columns=min(count, 6))
 
 
 def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:

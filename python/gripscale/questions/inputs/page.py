@@ -27,6 +27,7 @@ from gripscale.questions.vary.axis import dimensions
 from gripscale.report.elements import Element, Facts, Section, Text, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
 from gripscale.rubber.material import BEYOND, End, fast_end, slow_end
+from gripscale.rubber.softening import SofteningTable, assumptions
 from gripscale.surface.texture import DEPTH_NOTE, TEXTURE_NUMBERS, beside_label
 
 if TYPE_CHECKING:
@@ -131,6 +132,23 @@ def shift_table(shift: ShiftTable) -> Table:
         Column("vertical", 10.0 ** np.asarray(shift.vertical), "b_T", format=fixed(3)),
     ]
     return Table("shift", columns, "Shift factors")
+
+
+def softening_parts(law: SofteningTable) -> Iterator[str | Table]:
+    """Yield what strain sweeps keep of both moduli, by temperature, and what is assumed."""
+    strains = np.array([1e-2, 0.1])
+    kept = np.array([law.of_sweep(at, strains) for at in range(len(law.strain))])
+    for at, measured in enumerate(law.strain):
+        kept[at, :, (strains < measured[0]) | (strains > measured[-1])] = math.nan
+    kelvin = np.full(len(law.strain), math.nan) if law.temperature is None else law.temperature
+    columns = [Column("temperature", kelvin, unit="°C", zero=ZERO_CELSIUS, format=fixed(1))]
+    for row, (name, symbol) in enumerate((("storage", "E'"), ("loss", "E''"))):
+        columns += [
+            Column(f"{name}_{strain:g}", kept[:, row, at], f"{symbol} at {100 * strain:g} %")
+            for at, strain in enumerate(strains)
+        ]
+    yield Table("softening", columns, "Moduli over those of the master curve, by strain")
+    yield from (f"assumed: {text}" for text in assumptions(law))
 
 
 def files_table(record: InputRecord) -> Table:
@@ -258,6 +276,7 @@ def conditions_lines(conditions: Conditions, rubber: Rubber) -> Iterator[str]:
         if law is not None:
             yield f"{name}: {_numbers(law)}"
     if conditions.softening is not None:
+        yield from (f"softening, assumed: {text}" for text in assumptions(conditions.softening))
         yield f"strain of a wave: {conditions.strain_norm}"
     if conditions.shear_stress is not None:
         yield f"area term, as stated: {_numbers(conditions.shear_stress)}"
@@ -275,7 +294,7 @@ def _numbers(law: Any) -> str:
         if isinstance(value, tuple)
         else f"{name} {value if isinstance(value, str) else format(value, 'g')}"
         for name, value in values.items()
-        if value is not None
+        if value is not None and not isinstance(value, bool)
     )
     return ", ".join([*filter(None, [getattr(law, "kind", "")]), *texts])
 

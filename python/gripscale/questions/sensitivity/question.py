@@ -331,7 +331,7 @@ def sensitivity(
         with_feedback=with_feedback,
         traces=vary is None,
     )
-    study = Study(case, axes, static=False, model=model)
+    study = Study(case, axes, model=model)
     with bench_in(folder, workers, None, on_task) as bench:
         data = solve_design(study.design, bench, derivatives_of_answer)
     data = data.assign_coords(coordinates(study.axes, case.units))

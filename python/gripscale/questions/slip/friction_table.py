@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.conditions import Conditions
+from gripscale.conditions.conditions import Conditions
 from gripscale.core import ZERO_CELSIUS, Array, InputError
 from gripscale.core.provenance import software
 from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
@@ -62,7 +62,7 @@ def friction_table(
 
 
 def _solved(case: Case, temperatures: Sequence[float], fastest: float, bench: Bench) -> xr.Dataset:
-    conditions, rubber = replace(case.conditions or Conditions(), heat=None), case.rubber
+    conditions, rubber = (case.conditions or Conditions()).without("heat"), case.rubber
     kelvins = np.array([math.nan])  # of a rubber without a temperature
     if temperatures:
         warms = case.conditions is not None and case.conditions.heat is not None

@@ -241,9 +241,7 @@ def slip_curve(
             f"{min(speeds):g} m/s and {fast:g} to {slow:g} m/s"
         )
     heat = None if case.conditions is None else case.conditions.heat
-    effusivity = None
-    if heat is not None:
-        effusivity = math.sqrt(heat.conductivity * heat.density * heat.specific_heat)
+    effusivity = None if heat is None else heat.effusivity
     brush = Brush(case.load.footprint, case.load.pressure, stiffness, effusivity)
     kelvins = [] if temperature is None else _values("temperature", temperature)
     if temperature is None and case.rubber.shift is not None:

@@ -27,7 +27,7 @@ from gripscale.questions.answer.reliance import (
 )
 from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
-from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN, ROAD
+from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
@@ -48,11 +48,6 @@ UNCERTAINTY = (
 )
 # Share of the samples of a model without an answer up to which the others stand for all.
 MOST_FAILED = 0.25
-# Share of a part in the variance of the friction from which its linearity is judged: below it the
-# samples do not know the part to a third.
-_LEAST_SHARE = 0.02
-# Ratio of errors by derivatives and by samples from which the friction is not linear.
-_APART = 4.0 / 3.0
 SUMMARY = (0.05, 0.5, 0.95)  # quantiles in the summaries of other reports
 
 
@@ -141,11 +136,6 @@ def part_table(part: xr.Dataset, title: str) -> Table:
             Column(f"{name}_error", sigma, "±", group=group, format=percent),
             Column(f"{name}_share", share, "share", group=group, format="{:.0%}".format),
         ]
-        tangent = first_order_of(part, name)
-        if tangent.keys() & set(labels):
-            column, text = f"{name}_first_order", ("± by", "derivatives")
-            values = [tangent.get(label, math.nan) for label in labels]
-            columns.append(Column(column, values, *text, group=group, format=percent))
     notes = ["±: standard error of the logarithm; share: its square over that of the interval."]
     if NOT_ALONE in labels:
         notes.append(
@@ -157,38 +147,7 @@ def part_table(part: xr.Dataset, title: str) -> Table:
     if unseen := [labels[k] for k in np.flatnonzero(columns[2].values < SIGNIFICANCE * error)]:
         count = part.sizes["sample"]
         notes.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
-    return Table("parts", columns, title, [*notes, *_not_linear(part)])
-
-
-def first_order_of(data: xr.Dataset, quantity: str) -> dict[str, float]:
-    """Return the error that each source carries to a quantity by derivatives, by its label."""
-    name = propagation.FIRST_ORDER.format(quantity)
-    if name not in data:
-        return {}
-    pairs = zip(data.label.values.tolist(), data[name].values.tolist(), strict=True)
-    return {label: error for label, error in pairs if math.isfinite(error)}
-
-
-def _not_linear(part: xr.Dataset) -> Iterator[str]:
-    """Yield the sources that samples and derivatives do not agree on.
-
-    Not the road, whose stretches are no small change.
-    """
-    tangent = first_order_of(part, "friction")
-    tangent.pop(SOURCES[ROAD].label, None)
-    least = math.sqrt(_LEAST_SHARE) * float(part.answer_friction_uncertainty)
-    errors = part.answer_friction_part_error.values.tolist()
-    apart = [
-        f"{label} ({percent(tangent[label])}, {percent(error)})"
-        for label, error in zip(part.part_label.values.tolist(), errors, strict=True)
-        if label in tangent
-        and max(error, tangent[label]) > max(least, _APART * min(error, tangent[label]))
-    ]
-    if apart:
-        yield (
-            "The friction is not linear where derivatives and samples differ by more than a third: "
-            f"{', '.join(apart)}."
-        )
+    return Table("parts", columns, title, notes)
 
 
 def share_parts(data: xr.Dataset) -> Iterator[str | Table]:

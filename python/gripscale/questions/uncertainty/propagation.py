@@ -29,12 +29,11 @@ from gripscale.experiment.solve import Bench, OnTask, bench_in
 from gripscale.experiment.task import canonical_json, load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
-from gripscale.model import Load, Model, input_doubts
+from gripscale.model import Doubtful, Load, Model, input_doubts
 from gripscale.questions.answer.direct_contact import continued_curve, direct_contact_design
 from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.answer.samples import sample_numbers, usable
 from gripscale.questions.uncertainty import sampling
-from gripscale.questions.uncertainty.first_order import first_order
 from gripscale.questions.uncertainty.sampled_answer import chain_answer, measured_answer
 from gripscale.questions.uncertainty.sampled_inputs import Inputs
 from gripscale.questions.uncertainty.sampling import SampledInputs, SampleSet, Uncertainty
@@ -184,8 +183,6 @@ def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = 
     return digests is None or sorted(json.loads(data.attrs.get(_FILES, "[]"))) == sorted(digests)
 
 
-# Name of the error of a quantity that each source carries by derivatives alone.
-FIRST_ORDER = "{}_first_order"
 # Inputs that may be varied beside the samples: those of the load, the same samples at each.
 SAMPLED_OVER = ("speed", "pressure")
 
@@ -360,13 +357,9 @@ def solve_samples(
         samples = reference.dataset(answers)
         of_case.append(measured_answer(samples, case, load, curve, drawn, direct))
     answer = xr.concat(of_case, plan.axes[0].name) if plan.axes else of_case[0]
-    if not plan.axes and DIRECT in plan.models and case.load.speed > 0.0:
-        carried = first_order(case, plan.uncertainty, seed=plan.seed)
-        carried = carried.reindex(source=data.source.values)
-        for name in PROPAGATED_QUANTITIES:
-            data[FIRST_ORDER.format(name)] = carried[f"{name}_error"]
+    inputs: list[Doubtful] = [case.surface, case.measured_rubber]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
-        case.attributes | input_doubts([case.surface, case.measured_rubber], loads, case.units),
+        case.attributes | input_doubts(inputs, loads, case.units, case.softening_doubts),
         **{_FILES: json.dumps(case.origin.digests)},
         seed=plan.seed,
         plan_key=plan.key,

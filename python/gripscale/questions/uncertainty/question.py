@@ -128,8 +128,7 @@ def uncertainty(
         `sample`: `friction`, `contact_fraction` and `status`, with what was drawn as coordinates of
         `sample`; `_case` of the case itself; `_quantile` over `quantile`; `_grid_error` of each
         sample of the direct contact; `failed` samples, which count in no quantile; `_share` of each
-        `source` in the variance (`gripscale.questions.shares`). At one load `_first_order` of each
-        source of the direct contact, its error by derivatives. The folder gets `uncertainty.nc`,
+        `source` in the variance (`gripscale.questions.shares`). The folder gets `uncertainty.nc`,
         and the predictions in `predictions`.
     """
     choice = Uncertainty.of_case(

@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import chart, draw, style
-from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW
@@ -37,15 +37,11 @@ from gripscale.questions.vary.axis import (
 from gripscale.questions.vary.schema import (
     PER_WAVE,
     VARIABLES,
-    Role,
     label_of,
-    per_prediction,
-    rest_name,
-    telling,
     variable_of,
 )
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
-from gripscale.questions.words import AXIS_TITLES, believed, is_estimated
+from gripscale.questions.words import AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -66,19 +62,10 @@ def varied_axis(data: xr.Dataset, name: str) -> tuple[PlotAxis, Array]:
 
 
 def study_charts(data: xr.Dataset) -> list[Chart]:
-    """Return a chart for each total over each numeric axis, and for each number per wave."""
+    """Return a chart of area and friction over each numeric axis, and for each number per wave."""
     axes = [axis for axis in several(data) if of_numbers(data, axis)]
     best = [name for name in map(partial(believed, data), _ESTIMATED) if name in data]
-    answered = is_estimated(data, "contact_fraction")
-    others = [
-        name
-        for name, variable in per_prediction(data, dimensions(data))
-        if variable.role in (Role.ANSWER, Role.NUMBER)
-        and not (answered and variable.role == Role.NUMBER and variable.measures)
-        and name not in best
-        and data[name].dtype.kind in "fi"
-    ]
-    totals = [name for name in (*best, *others) if telling(data[name])]
+    totals = [name for name in best if np.nan_to_num(data[name].values).any()]
     panels = [
         _total_panel(data, name, axis)
         for axis in axes
@@ -111,7 +98,7 @@ def _curves(
 
 
 def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
-    """Return which predictions rest on extrapolation; at rest, or where it is not known, none."""
+    """Return which predictions rest on extrapolation; where it is not known, none."""
     flags = data["total_friction"].copy(data=style.predictions_beyond(data))
     covered = set(flags.dims) <= set(variable.dims)
     return xr.broadcast(flags if covered else xr.DataArray(False), variable)[0]
@@ -183,33 +170,14 @@ def totals_figure(result: xr.Dataset) -> Figure:
     """Draw A_r/A_0 and friction over the first numeric axis, a line for each value of the other.
 
     They are the answers with their 90 % intervals where there are any, else the totals.
-    Without a numeric axis they are drawn as points over the names of the first one. Contact at
-    rest is dotted where it was solved. Predictions that did not converge leave gaps. What rests on
-    the rubber beyond its measured band is dashed, of names has a star.
+    Without a numeric axis they are drawn as points over the names of the first one. Predictions
+    that did not converge leave gaps. What rests on the rubber beyond its measured band is dashed,
+    of names has a star.
     """
     names = dimensions(result)
     axis = (numeric(result) or names)[0]
     area, friction = (_total_panel(result, believed(result, name), axis) for name in AXIS_TITLES)
     keys = []
-    at_rest = rest_name(believed(result, "contact_fraction"))
-    if at_rest in result:
-        # without a speed: a level, or over the same axis
-        numbers, others = of_numbers(result, axis), [name for name in names if name != axis]
-        x = varied_axis(result, axis)[1] if numbers else np.arange(result.sizes[axis], dtype=float)
-        drawn: dict[str, Any] = {"dash": "dotted"} if numbers else {"dash": "", "marker": "o"}
-        rest: list[Mark] = []
-        for at, colour, _ in _curves(result, others, thinned=False):
-            piece = result[at_rest].isel(at, missing_dims="ignore")
-            label, colour = ("", colour) if others else ("at rest", INK)
-            if axis in piece.dims:
-                rest.append(
-                    Series(x, piece.values, colour, label, width=1.1, filled=False, **drawn)
-                )
-            else:
-                rest.append(CrossLine(float(piece), colour, label, "dotted", 1.1))
-        area = area.with_marks(rest)
-        if others:
-            keys.append(Series([], [], INK, "at rest", width=1.1, filled=False, **drawn))
     if any(name.endswith(" *") for name in (area.x.ticks or {}).values()):
         keys.append(Series([], [], GREY, BEYOND_LABEL, dash="", marker="$*$"))
     named = len(area.marks) > 1 or len(friction.marks) > 1 or bool(keys)

@@ -50,10 +50,6 @@ def study_command(
     workers: Workers = None,
     cluster: Cluster = None,
     modulus: Modulus = None,
-    static: Annotated[
-        bool | None,
-        option("Also the rubber at rest; as the case says by default.", "--static/--no-static"),
-    ] = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
     from gripscale.case_file import folder
@@ -65,7 +61,7 @@ def study_command(
     axes = parse_axes(vary)
     work = terminal.CaseCommand(case)
     varied = read_named_inputs(axes, work.file, modulus)
-    planned = Study(work.case, varied, static=static, model=model, tolerance=tolerance)
+    planned = Study(work.case, varied, model=model, tolerance=tolerance)
     work.open_results(output, "study")
     stored = planned.stored(work.target)
     opening = planned.description()

@@ -18,6 +18,7 @@ from gripscale.rubber import Rubber, styrene_butadiene
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, synthetic_surface
+from gripscale.theory.persson import Persson
 
 # Attribute of a comparison of compounds: the temperature that all of them hold for [K].
 TEMPERATURE = "temperature_K"
@@ -94,8 +95,8 @@ def with_effects(model: Model, selection: str) -> Model:
     """
     asked = effects_asked(model)
     without = {ALL_EFFECTS: [], **{f"no {effect}": [effect] for effect in asked}, NO_EFFECTS: asked}
-    nothing: dict[str, Any] = dict.fromkeys(without[checks.one_of("effects", selection, without)])
-    return model.with_conditions(replace(conditions_of(model), **nothing))
+    nothing = without[checks.one_of("effects", selection, without)]
+    return model.with_conditions(conditions_of(model).without(*nothing))
 
 
 def rubber_before(rubber: Rubber, model: Model) -> Rubber:
@@ -130,6 +131,8 @@ def model_of(model: Model | str, case: Case, tolerance: float | None = JUDGED_TO
     first full grid. Raises `InputError` if the name is another, or the tolerance out of range.
     """
     if not isinstance(model, str):
+        if isinstance(model, Persson) and model.conditions is None:
+            return model.with_conditions(case.conditions)
         return model
     if checks.one_of("model", model, NAMED_MODELS) == Chain.name:
         return case.chain

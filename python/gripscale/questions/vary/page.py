@@ -14,7 +14,7 @@ from gripscale.core.arrays import Array
 from gripscale.core.finding import Finding, Severity, Topic, sentences
 from gripscale.core.units import MILLI, display_unit_of
 from gripscale.experiment.design import CONVERGED
-from gripscale.io.table import NONE, Column, Table, digits, least_to_most, percent, significant
+from gripscale.io.table import NONE, Column, Table, least_to_most, percent, significant
 from gripscale.model import (
     ADHESIVE_FRICTION,
     FRICTION_OUTSIDE_BAND,
@@ -39,26 +39,16 @@ from gripscale.questions.vary.axis import (
 from gripscale.questions.vary.charts import study_charts
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.vary.schema import (
-    Role,
     label_of,
-    per_prediction,
-    rest_name,
-    telling,
-    variable_of,
 )
-from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, COLLAPSED
+from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
 from gripscale.questions.words import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Element, Facts, Page, Section, percent_text
+from gripscale.report.elements import Card, Page, Section, percent_text
 from gripscale.report.equations import method_section
 from gripscale.report.failures import Failure, explained
 
 _MOST_ROWS = 200  # predictions in the terminal; a page has all of them
-ONE_CURVE = 1e-3  # relative distance up to which temperatures over a_T v are one curve
-COLLAPSING = {"total_friction": "friction", "total_contact_fraction": "A_r/A_0"}
-
-
-_SAME = 0.03  # relative change that is none
 # Models in words; others by their names.
 _MODELS = {"chain": "chain of sine waves", "direct": "direct contact of the measured surface"}
 
@@ -135,7 +125,7 @@ def study_cards(data: xr.Dataset) -> Iterator[Card]:
 
 
 def course(data: xr.Dataset, name: str) -> str:
-    """Return in words how `friction` or `contact_fraction` runs over the axes of a study.
+    """Return in words from where to where `friction` or `contact_fraction` goes in a study.
 
     Empty where it has no value, or nothing slides.
     """
@@ -153,28 +143,11 @@ def course(data: xr.Dataset, name: str) -> str:
     def at(i: int) -> str:
         return f"{number(i)} at {names_at(data, every[i])}"
 
-    title, axes = f"{HEADINGS[name]} {SYMBOLS[name]}", dimensions(data)
+    title = f"{HEADINGS[name]} {SYMBOLS[name]}"
     every = list(places(data))
     if values.size == 1:
         return f"{title} is {number(0)}"
-    if len(axes) == 1 and of_numbers(data, axes[0]):
-        return f"{title} {_along(values, at)}"
     return f"{title} from {at(int(np.nanargmin(values)))} to {at(int(np.nanargmax(values)))}"
-
-
-def _along(values: Array, at: Callable[[int], str]) -> str:
-    """Return how a number runs over one axis of numbers: its ends, and what is beyond them."""
-    there = np.flatnonzero(np.isfinite(values))
-    first, last = int(there[0]), int(there[-1])
-    low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
-    ends = values[[first, last]]
-    if values[high] <= values[low] * (1.0 + _SAME):
-        return f"hardly changes, from {at(low)} to {at(high)}"
-    if values[high] > ends.max() * (1.0 + _SAME):
-        return f"from {at(first)} by its highest, {at(high)}, to {at(last)}"
-    if values[low] < ends.min() * (1.0 - _SAME):
-        return f"from {at(first)} by its lowest, {at(low)}, to {at(last)}"
-    return f"{'rises' if ends[1] > ends[0] else 'falls'} from {at(first)} to {at(last)}"
 
 
 def _model(data: xr.Dataset) -> str:
@@ -219,13 +192,13 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield "intervals leave out errors of the master curve"
 
 
-def study_table(data: xr.Dataset) -> Table:
+def study_table(data: xr.Dataset, most: int = _MOST_ROWS) -> Table:
     """Return area, friction and status of each prediction of a study, over what was varied."""
     every = list(places(data))
-    shown_places = every[:_MOST_ROWS]
+    shown_places = every[:most]
 
     def each(name: str) -> Array:
-        return of_points(data, name)[:_MOST_ROWS]
+        return of_points(data, name)[:most]
 
     columns = [
         Column(axis, [name_of(data, axis, at[axis]) for at in shown_places], axis.replace("_", " "))
@@ -262,9 +235,6 @@ def study_table(data: xr.Dataset) -> Table:
     if study_sentence(data):
         shares = each(FRICTION_OUTSIDE_BAND)
         columns.append(Column("outside_band", shares, "μ", "beyond band", format=percent))
-    rest = rest_name(believed(data, "contact_fraction"))
-    if rest in data:
-        columns.append(Column("static", each(rest), "A_r/A_0", "at rest"))
     status = [str(text) for text in each("prediction_status")]
     columns.append(Column("status", status))
     more = len(every) - len(shown_places)
@@ -300,113 +270,14 @@ def shift_sentence(data: xr.Dataset) -> str:
     return f"{text} beyond the temperatures of the shift of the rubber."
 
 
-def collapse_sentences(data: xr.Dataset) -> Iterator[tuple[str, str]]:
-    """Yield quantities of a study over speed and temperature, and how far over a_T v they differ.
-
-    Nothing of other studies.
-    """
-    for name, words in COLLAPSING.items():
-        if COLLAPSED[name] not in data:
-            continue
-        distance, attrs = float(data[COLLAPSED[name]]), data[COLLAPSED[name]].attrs
-        if math.isnan(distance):
-            yield (
-                words,
-                "cannot be compared: the temperatures do not overlap, or the speeds are too far "
-                "apart to interpolate",
-            )
-            continue
-        error = float(attrs["interpolation_error"])
-        reached = (
-            f"temperatures up to {percent(distance)} apart, at {attrs['points']} of "
-            f"{attrs['overlapping_points']} points, where the interpolation errs by less than "
-            f"{percent(error)}"
-        )
-        limit = f"one curve would be below {100.0 * ONE_CURVE:g} % but for errors of the mesh"
-        one_curve = distance <= max(ONE_CURVE, error)
-        yield words, f"one curve, {reached}" if one_curve else f"{reached}; {limit}"
-
-
-def axes_table(data: xr.Dataset) -> Table:
-    """Return the axes of a study with their values."""
-    axes = dimensions(data)
-    values = [[place_text(data, name, i) for i in range(data.sizes[name])] for name in axes]
-    meanings = [str(data[name].attrs.get("long_name", name)) for name in axes]
-    columns = [
-        Column("axis", [name.replace("_", " ") for name in axes]),
-        Column("meaning", meanings),
-        Column("unit", [axis_unit(data, name) for name in axes], words=True),
-        Column("values", [str(len(each)) for each in values]),
-        Column("which", [", ".join(each) for each in values]),
-    ]
-    return Table("axes", columns, "The axes of the study")
-
-
-def place_text(data: xr.Dataset, axis: str, i: int) -> str:
-    """Return a value of an axis as tables show it, without its unit."""
-    if axis not in data.coords:
-        return str(i + 1)
-    if not of_numbers(data, axis):
-        return name_of(data, axis, i)
-    text = significant(float(axis_shown(data, axis).of(data[axis].values[i])), 4)
-    return text.rstrip("0").rstrip(".") if "." in text else text
-
-
-def axis_unit(data: xr.Dataset, axis: str) -> str:
-    """Return the unit in which an axis is shown, empty without one."""
-    return axis_shown(data, axis).unit if of_numbers(data, axis) else ""
-
-
-def totals_of(data: xr.Dataset) -> dict[str, Role]:
-    """Return what there is one number or text of per prediction, best ones first."""
-    roles = {name: variable.role for name, variable in per_prediction(data, dimensions(data))}
-    best = (Role.ANSWER, Role.END)
-    kept = [name for name, role in roles.items() if role not in (Role.EVIDENCE, Role.RECORD)]
-    return {name: roles[name] for name in sorted(kept, key=lambda name: roles[name] not in best)}
-
-
-def totals_table(data: xr.Dataset) -> Table | None:
-    """Return all totals of all predictions that tell something; None without any."""
-    totals = {name: role for name, role in totals_of(data).items() if telling(data[name])}
-    if not totals:
-        return None
-    every = list(places(data))
-    columns = [
-        Column(
-            axis,
-            [place_text(data, axis, at[axis]) for at in every],
-            label_of(data, axis),
-            axis_unit(data, axis),
-            words=axis in data.variables and data[axis].dtype.kind not in "fiub",
-        )
-        for axis in dimensions(data)
-    ]
-    for name in totals:
-        unit = str(data[name].attrs.get("units", "")).replace("1", "")
-        values = of_points(data, name).tolist()
-        columns.append(Column(name, values, label_of(data, name), unit, format=digits(4)))
-    states = [of_points(data, name) for name, role in totals.items() if role == Role.STATUS]
-    bad = np.any([status != CONVERGED for status in states], axis=0) if states else ()
-    return Table("totals", columns, f"Totals of all {len(every)} predictions", bad=bad)
-
-
 def study_failures(data: xr.Dataset) -> Iterator[Failure]:
-    """Yield each prediction that is not `converged`, or has a NaN total."""
-    roles = totals_of(data)
-    states = [name for name, role in roles.items() if role == Role.STATUS]
-    totals = [name for name in roles if variable_of(data, name).measures == "contact_fraction"]
+    """Yield each prediction that is not `converged`."""
     for index in places(data):
         row = data.isel(index)
-        where = ", ".join(
-            " ".join(filter(None, [label_of(data, n), place_text(data, n, i), axis_unit(data, n)]))
-            for n, i in index.items()
-        )
-        for name in states:
-            if (status := str(row[name].values[()])) != CONVERGED:
-                word = str(status_words(row, name).item())
-                yield Failure(f"{where}: NOT converged: {status or NONE}", word)
-        if not states and any(math.isnan(float(row[name])) for name in totals):
-            yield Failure(f"{where}: no total")
+        if (status := str(row[STATUS].values[()])) != CONVERGED:
+            word = str(status_words(row).item())
+            where = names_at(data, index)
+            yield Failure(f"{where}: NOT converged: {status or NONE}", word)
 
 
 _NAMED_FAILURES = 12  # failed predictions that have a finding each
@@ -417,7 +288,9 @@ def study_findings(data: xr.Dataset) -> Iterator[Finding]:
     failed = list(study_failures(data))
     yield from (Finding(Severity.ERROR, explained(each)) for each in failed[:_NAMED_FAILURES])
     if rest := len(failed[_NAMED_FAILURES:]):
-        yield Finding(Severity.ERROR, f"{rest} more did not converge; see the table of totals.")
+        yield Finding(
+            Severity.ERROR, f"{rest} more did not converge; see the table of predictions."
+        )
     if beyond := study_sentence(data):
         share = float(data[FRICTION_OUTSIDE_BAND].max())
         text = f"{beyond} There the Prony series is an extrapolation."
@@ -432,23 +305,17 @@ def study_page(data: xr.Dataset) -> Page:
     failed, count = len(list(study_failures(data))), len(list(places(data)))
     counts = [
         Card("Predictions", str(count), " × ".join(labels)),
-        Card("Not converged", str(failed), "see the table of totals", bad=failed > 0),
+        Card("Not converged", str(failed), "see the table of predictions", bad=failed > 0),
     ]
-    collapsed = [(f"{words} over a_T v", text) for words, text in collapse_sentences(data)]
-    axes: list[Element] = [axes_table(data)]
-    axes += [Facts("Speed and temperature", collapsed)] if collapsed else []
-    totals = totals_table(data)
     return Page.of(
         f"Study: {case_title(data.attrs)}",
         f"varied: {', '.join(labels)}",
         study_findings(data),
         [*study_cards(data), *counts],
         [
-            Section("predictions", "Predictions", [study_table(data)]),
+            Section("predictions", "Predictions", [study_table(data, count)]),
             Section("curves", "Curves", study_charts(data)),
-            Section("axes", "What was varied", axes),
             *input_sections(data),
-            Section("totals", "Totals of every prediction", [] if totals is None else [totals]),
             method_section(),
             rerun_section(data.attrs),
         ],

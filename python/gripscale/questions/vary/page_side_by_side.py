@@ -1,4 +1,4 @@
-"""Predictions side by side: effects left out one by one, and roads or compounds by rank."""
+"""Roads or compounds side by side, by rank."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from gripscale.charts.draw import image
 from gripscale.charts.page_elements import Picture
@@ -18,15 +17,14 @@ from gripscale.charts.style import power_of_ten
 from gripscale.core.arrays import Array
 from gripscale.core.finding import sentences
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
-from gripscale.experiment.design import CHANGES, CONVERGED, WITH_AREA_TERM
-from gripscale.io.table import Column, Table, change, significant
-from gripscale.model import ADHESIVE_FRICTION, STATUS, input_doubts_of
+from gripscale.experiment.design import CONVERGED
+from gripscale.io.table import Column, Table, significant
+from gripscale.model import STATUS, input_doubts_of
 from gripscale.questions.inputs.page import input_sections, rubbers_of, texture_table
-from gripscale.questions.vary.axis import EFFECTS, MODELS
 from gripscale.questions.vary.inputs import READING_NOTES, TEMPERATURE
 from gripscale.questions.vary.page import answer_columns
 from gripscale.questions.vary.question import Variation
-from gripscale.questions.words import SYMBOLS, believed, is_estimated
+from gripscale.questions.words import believed, is_estimated
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.equations import method_section
@@ -40,41 +38,6 @@ if TYPE_CHECKING:
 # Confidence from which one lies over another, as outside of a two-sided 90 % interval.
 SIGNIFICANT = 0.95
 _CERTAIN = 0.995
-
-
-def effects_table(*results: xr.Dataset) -> Table:
-    """Return area and friction with all effects, without each in turn, and without any.
-
-    Beside each number stands its change by the effects that are left out. `results` are of
-    `gripscale.questions.vary.effects`, one for each model.
-    """
-
-    def every(name: str) -> list[object]:
-        return [
-            value
-            for result in results
-            for value in result.get(name, xr.full_like(result["effect"], np.nan, float)).values
-        ]
-
-    def columns_of(name: str, **head: Any) -> list[Column]:
-        changes = Column(CHANGES[name], every(CHANGES[name]), "change", format=change)
-        return [Column(name, every(name), **head), changes]
-
-    models = [str(result.attrs["model"]) for result in results for _ in result.effect]
-    columns = [
-        Column("model", [MODELS.get(name, name) for name in models]),
-        Column("effects", [EFFECTS.get(str(name), str(name)) for name in every("effect")]),
-    ]
-    for name, symbol in SYMBOLS.items():
-        columns += columns_of(f"total_{name}", heading=symbol)
-    if any(WITH_AREA_TERM in result for result in results):
-        columns.append(Column("area_term", every(ADHESIVE_FRICTION), "μ", "area term"))
-        columns += columns_of(WITH_AREA_TERM, heading="μ", unit="with it")
-    status = [str(value) for value in every(STATUS)]
-    columns.append(Column("status", status))
-    bad = [value != CONVERGED for value in status]
-    rules = np.cumsum([result.sizes["effect"] for result in results])[:-1] - 1
-    return Table("effects", columns, "What each effect is worth", keys=2, bad=bad, rules=set(rules))
 
 
 def percent_sure(confidence: float) -> str:

@@ -18,7 +18,6 @@ from gripscale.io.table import Table
 from gripscale.model import STATUS, Model
 from gripscale.questions.result import Result
 from gripscale.questions.vary import page
-from gripscale.questions.vary.schema import rest_name
 from gripscale.questions.vary.study import Study
 from gripscale.report.elements import Page
 from gripscale.report.failures import failures_in, first_of
@@ -47,15 +46,11 @@ class Variation(Result):
 
     @property
     def failure(self) -> str:
-        states = [name for name in (STATUS, rest_name(STATUS)) if name in self.data]
-        failed = [failure for name in states for failure in failures_in(self.data, name)]
-        total = sum(self.data[name].size for name in states)
-        return first_of(failed, total, f"{self.noun}s")
+        failed = failures_in(self.data, STATUS)
+        return first_of(failed, self.data[STATUS].size, f"{self.noun}s")
 
     def parts(self) -> Iterator[str | Table]:
         yield page.study_table(self.data)
-        for words, text in page.collapse_sentences(self.data):
-            yield f"Over a_T v, {words}: {text}."
 
     def table(self) -> Table:
         return page.study_table(self.data)
@@ -73,7 +68,6 @@ def vary(
     case: Case,
     *,
     model: Model | str | None = None,
-    static: bool | None = None,
     tolerance: float = JUDGED_TO,
     folder: str | Path | None = None,
     workers: int | None = None,
@@ -83,7 +77,7 @@ def vary(
 ) -> Variation:
     """Return friction and contact area of a case over one or two of its inputs.
 
-    The result is per wave and in total, over the varied axes; at rest with the prefix `static_`. A
+    The result is per wave and in total, over the varied axes; a speed of zero is rubber at rest. A
     prediction that did not converge has NaN totals and says why in `prediction_status`. Raises
     `InputError` or `FileError` for an input that cannot be used, or a result that cannot be
     written.
@@ -95,7 +89,7 @@ def vary(
     ----------
     case : Case
         What is not varied is as in the case.
-    model, static, tolerance
+    model, tolerance
         As for `gripscale.questions.Study`.
     folder : path, optional
         Keeps each prediction as soon as it is there: what was interrupted resumes.
@@ -105,6 +99,6 @@ def vary(
         One or two inputs with their values, such as `speed=[0.1, 1.0]` [m/s] or
         `temperature="0 C,20 C"`; see `gripscale.questions.Study` for all.
     """
-    study = Study(case, axes, static=static, model=model, tolerance=tolerance)
+    study = Study(case, axes, model=model, tolerance=tolerance)
     data = study.run(folder, workers=workers, client=client, on_task=on_task)
     return Variation(data)

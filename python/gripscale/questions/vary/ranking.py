@@ -94,12 +94,14 @@ def compare_compounds(
     model = model_of(default_model(case), case)
     if isinstance(model, AnswerModel):
         model = replace(model, compared=True)
-    study = Study(case, {"rubber": together}, static=False, model=model)
+    study = Study(case, {"rubber": together}, model=model)
     data = ranked_answers(study, folder, workers, on_task)
     loads = [point.task.load for point in study.points]
     kelvins = [rubber.reference_temperature for rubber in together.values()]
     data = data.assign_attrs(
-        input_doubts([*study.surfaces, *measured.values()], loads, case.units),
+        input_doubts(
+            [*study.surfaces, *measured.values()], loads, case.units, case.softening_doubts
+        ),
         title="Compounds on one surface, by friction",
         **{READING_NOTES: "\n".join([*reading_notes(rubbers.values()), *notes])},
         **({TEMPERATURE: kelvins[0]} if None not in kelvins and len({*kelvins}) == 1 else {}),
@@ -141,7 +143,7 @@ def compare_surfaces(
         else surface_of(value, case)
         for name, value in surfaces.items()
     }
-    data = ranked_answers(Study(case, {"surface": roads}, static=False), folder, workers, on_task)
+    data = ranked_answers(Study(case, {"surface": roads}), folder, workers, on_task)
     waves = [f"{name} was not measured" for name, road in roads.items() if road.measured is None]
     heights = {
         name: road.measured.heights if road.measured else None for name, road in roads.items()

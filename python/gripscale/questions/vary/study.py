@@ -48,7 +48,6 @@ from gripscale.questions.vary.friction_parts import (
     waves_by_octave,
     with_decades,
 )
-from gripscale.questions.vary.schema import VARIABLES, Role, at_rest, rest_name
 from gripscale.questions.vary.speed_and_temperature import beyond_shift, with_master_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
@@ -120,13 +119,11 @@ class Study:
         "no heat", "none"), rubber and surface (names and files, or a mapping from names to
         `Rubber`, `SineStack`, names and files), each with its values, or with a text as on the
         command line ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
-    static
-        Whether the relaxed rubber at rest is solved, too; as the case says by default.
     model
         What predicts: "direct", "chain" with the solver of the case, both under its conditions, or
-        a model. One that takes no conditions gets the rubber at the temperature of the case. By
-        default the direct contact where every surface was measured and no input of the chain alone
-        is varied, else the chain.
+        a model. Persson's theory without conditions gets those of the case, one that takes none
+        the rubber at its temperature. By default the direct contact where every surface was
+        measured and no input of the chain alone is varied, else the chain.
     tolerance
         Estimated relative error of a direct contact that is chosen by name or by default.
     """
@@ -136,13 +133,11 @@ class Study:
         case: Case,
         vary: Mapping[str, Any],
         *,
-        static: bool | None = None,
         model: Model | str | None = None,
         tolerance: float = JUDGED_TO,
     ) -> None:
         self.case = case
         self.axes: tuple[Axis, ...] = axes_of(vary)
-        self.static = case.static if static is None else static
         if model is None:
             model = inputs.default_model(case, {axis.name: axis.values for axis in self.axes})
         self.model = inputs.model_of(model, case, tolerance)
@@ -184,14 +179,13 @@ class Study:
             "case": [self.case.key, self.case.origin.text],
             "axes": {axis.name: axis.labels for axis in self.axes},
             "values": {axis.name: canonical_json(axis.values) for axis in self.axes},
-            "static": self.static,
             "model": canonical_json(self.model),
         }
         return hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()
 
     def description(self) -> list[str]:
         """Return in words what is varied, and on what."""
-        count = len({point.task.key for point in [*self.points, *self.static_design.points]})
+        count = len({point.task.key for point in self.points})
         names = " x ".join(f"{axis.name} ({len(axis.values)})" for axis in self.axes)
         return [
             f"Study of {self.case.name}",
@@ -203,13 +197,7 @@ class Study:
     @cached_property
     def design(self) -> Design:
         """The points in motion (or at rest, where the speed is zero), last axis fastest."""
-        return self._design(self.axes, static=False)
-
-    @cached_property
-    def static_design(self) -> Design:
-        """The points of the rubber at rest, without speed; none if they are not wanted."""
-        axes = tuple(axis for axis in self.axes if axis.name != "speed")
-        return self._design(axes, static=True)
+        return self._design(self.axes)
 
     @property
     def points(self) -> Sequence[Point]:
@@ -242,7 +230,7 @@ class Study:
         if data is not None:
             return data
         with bench_in(folder, workers, client, on_task) as bench:
-            answers = bench.solve(self.design.tasks | self.static_design.tasks, study_numbers)
+            answers = bench.solve(self.design.tasks, study_numbers)
             data = self.assemble(answers).assign_attrs(kind="study")
         if folder is None:
             return data
@@ -256,34 +244,27 @@ class Study:
     def assemble(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the Dataset of the study from its predictions by their keys."""
         result = with_decades(self.design.dataset(answers)).drop_vars("seconds")
-        if self.static_design.points:
-            rest = at_rest(self.static_design.dataset(answers).drop_vars("seconds"))
-            result = xr.merge([result, rest], join="outer", compat="no_conflicts")
         if {"friction", "wavelength"} <= set(result):
             result = result.assign(waves_by_octave(result))
         for name in _COMMON:
             if name in result:
                 common, *others = np.unique(result[name].values)
                 attrs = variable_attributes("shortest wavelength of the roughness", "m")
-                result = result.drop_vars([name, rest_name(name)], errors="ignore")
+                result = result.drop_vars(name)
                 result = result if others else result.assign({name: ((), common, attrs)})
         if "factor_label" in result:
             first = dict.fromkeys(self.design.sizes, 0)
             result["factor_label"] = result["factor_label"].isel(first)
-        for key, variable in result.data_vars.items():
-            declared = VARIABLES.get(str(key))
-            if declared is not None and declared.role in (Role.ANSWER, Role.END, Role.EVIDENCE):
-                variable.attrs |= variable_attributes(declared.label)
         result = result.assign_coords(coordinates(self.axes, self.case.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
         return result.assign_attrs(self.attributes)
 
-    def _design(self, axes: tuple[Axis, ...], *, static: bool) -> Design:
+    def _design(self, axes: tuple[Axis, ...]) -> Design:
         """Return the points over the axes; nothing is solved if one of them is impossible."""
         case, points, sizes = self.case, [], {axis.name: len(axis.values) for axis in axes}
-        for index in np.ndindex(*sizes.values()) if self.static or not static else ():
+        for index in np.ndindex(*sizes.values()):
             at = dict(zip(sizes, index, strict=True))
             values: dict[str, Any] = {axis.name: axis.values[at[axis.name]] for axis in axes}
             model, rubber = self.model, self.rubbers[at.get("rubber", 0)]
@@ -297,7 +278,7 @@ class Study:
                 rubber = case.conditions.before(rubber)
             inputs.rubber_before(rubber, model)
             loads = {name: values[name] for name in OF_THE_LOAD if name in values}
-            load = replace(case.load, **loads | ({"speed": 0.0} if static else {}))
+            load = replace(case.load, **loads)
             if load.speed == 0.0:
                 load = replace(load, load_time="passage")
             # each choice of waves is fitted once
@@ -307,7 +288,7 @@ class Study:
             if key not in self._varied:
                 self._varied[key] = self.surfaces[number].varied(**changes)
             words = [f"{axis.name} {axis.called(at[axis.name], case.units)}" for axis in axes]
-            label = ", ".join(["static"] * static + words)
+            label = ", ".join(words)
             points.append(Point(index, label, Task(rubber, self._varied[key], load, model)))
         return Design(sizes, points)
 
@@ -323,6 +304,7 @@ class Study:
                 [*self.surfaces, *self.measured_rubbers],
                 [point.task.load for point in self.points],
                 self.case.units,
+                self.case.softening_doubts,
             ),
             "nominal_pressure": load.pressure,
             "nominal_speed": load.speed,

@@ -1,0 +1,45 @@
+"""How far typical laws may be off: conditions with one of them a standard error away.
+
+A typical tread has the scatter between measured compounds, typical thermal constants that between
+rubbers. Whether a strain sweep was made in tension or in shear is as likely one as the other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from gripscale.conditions.conditions import Conditions
+from gripscale.conditions.flash_temperature import THERMAL_SCATTER, ThermalProperties
+from gripscale.rubber.softening import Kraus, SofteningTable
+from gripscale.rubber.typical_tread import SOFTER_TREAD, TypicalTread
+
+MEASURED_LAWS = (Kraus, SofteningTable, TypicalTread)  # in tension or in shear
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Conditions that may be true as well, or another strain or warming by them."""
+
+    label: str  # what is not known, in words
+    conditions: Conditions
+    strain: float = 1.0  # over that of the conditions as they are [-]
+    warming: float = 1.0
+    # Standard error of the logarithm of a result over its change by these conditions [-].
+    share: float = 1.0
+
+
+def alternatives(conditions: Conditions) -> Iterator[Alternative]:
+    """Yield what may be true as well, one for each thing that is not known."""
+    softening, heat = conditions.softening, conditions.heat
+    if isinstance(softening, TypicalTread):
+        softer = replace(softening, deviation=softening.deviation + SOFTER_TREAD.deviation)
+        yield Alternative("scatter between treads", replace(conditions, softening=softer))
+    if isinstance(softening, MEASURED_LAWS) and softening.deformation is None:
+        tension = replace(softening, deformation="tension")
+        # either end is as likely, and the change is from the middle to one of them
+        yield Alternative("sweeps in tension or in shear", replace(conditions, softening=tension))
+    if heat == ThermalProperties():
+        hotter = math.exp(THERMAL_SCATTER)
+        yield Alternative("typical thermal constants", conditions, warming=hotter)
