@@ -22,7 +22,7 @@ from gripscale.conditions import Conditions
 from gripscale.core import Array, ComplexArray, Mask
 from gripscale.half_space.conditions import strain_by_scale
 from gripscale.half_space.grid import Grid
-from gripscale.rubber.softening import UNIAXIAL_OF_SHEAR, Kraus
+from gripscale.rubber.softening import Kraus
 from gripscale.rubber.strain_energy import KrausEnergy
 from gripscale.surface import Profile
 from gripscale.wave.result import ScaleResult
@@ -117,7 +117,7 @@ def solve(family: str, number: int, name: str) -> list[dict[str, float | str]]:
     """Return one row for each load of a line and sweep."""
     law, whole = sweep(name), line(family, number)
     flat = Profile(whole.x, FLATTER * whole.z)
-    shear = FLATTER / UNIAXIAL_OF_SHEAR
+    shear = FLATTER * np.sqrt(3.0)  # of a uniaxial strain that stores the same energy
     energy = KrausEnergy(law.ratio, law.critical * shear, MEASURED_AT * shear)
     bulk = 1e3 * MODULUS
     hard = gs.Rubber(MODULUS, (), (), bulk_modulus=bulk)
