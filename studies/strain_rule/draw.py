@@ -2,33 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from studies.strain_rule.tables import Row, by_family, sliding_error, static_error
+from studies.strain_rule.tables import Row, by_family, sliding_error, static_error, unsoftened
 
+Rules = dict[str, tuple[str, Callable[[Row], float]]]
 GREY, BLUE, RED = "#8a8a8a", "#4f8fb8", "#c1502e"
 
 
 def draw(static: Sequence[Row], sliding: Sequence[Row], path: Path) -> None:
     """Draw rule over block by family: area at rest, then area and friction in sliding."""
-    at_rest = {
-        "no softening": (GREY, lambda r: -np.log(float(r["block"]) / float(r["block_hard"]))),
-        "half the rms slope": (BLUE, lambda r: static_error(r, "slope 0.5")),
+    at_rest: Rules = {
+        "no softening": (GREY, unsoftened),
+        "half the rms slope": (BLUE, partial(static_error, rule="slope 0.5")),
         "strain at the depth of the scale": (RED, static_error),
     }
-    slides = {
+    slides: dict[str, Rules] = {
         what: {
-            "no softening": (GREY, lambda r, w=what: sliding_error(r, w, "hard")),
-            "strain at the depth of the scale": (RED, lambda r, w=what: sliding_error(r, w)),
+            "no softening": (GREY, partial(sliding_error, what=what, rule="hard")),
+            "strain at the depth of the scale": (RED, partial(sliding_error, what=what)),
         }
         for what in ("area", "friction")
     }
     figure, panels = plt.subplots(1, 3, figsize=(10.5, 4.8), sharey=True)
-    shown = [
+    shown: list[tuple[str, Sequence[Row], Rules]] = [
         ("area at rest: half-space / block", static, at_rest),
         ("area in sliding: half-space / layers", sliding, slides["area"]),
         ("friction: half-space / layers", sliding, slides["friction"]),

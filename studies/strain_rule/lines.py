@@ -41,16 +41,16 @@ def band(heights: Array) -> Array:
     """Return heights without their mean and without waves beyond `WAVES`."""
     spectrum = scipy.fft.rfft(heights)
     spectrum[0], spectrum[WAVES + 1 :] = 0.0, 0.0
-    return np.asarray(scipy.fft.irfft(spectrum, POINTS))
+    return np.asarray(scipy.fft.irfft(spectrum, POINTS), dtype=np.float64)
 
 
 def _wavenumbers() -> Array:
-    return 2.0 * np.pi / LENGTH * np.arange(POINTS // 2 + 1)
+    return np.asarray(2.0 * np.pi / LENGTH * np.arange(POINTS // 2 + 1), dtype=np.float64)
 
 
 def _sloped(heights: Array, slope: float) -> Array:
     filtered = band(heights)
-    return filtered * (slope / rms_slope(filtered))
+    return np.asarray(filtered * (slope / rms_slope(filtered)))
 
 
 def _waves(numbers: list[int], slopes: Array, random: np.random.Generator) -> Array:

@@ -10,6 +10,7 @@ amplitude is the rms along the layer, weighted by the energy.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.fft
@@ -159,7 +160,7 @@ def sweep_law(name: str) -> SofteningLaw:
     path = SWEEPS_AT / f"{name}_strain_sweeps.csv"
     rows = np.genfromtxt(path, delimiter=",", skip_header=1)
     rows = rows[np.abs(rows[:, 0] - AT) < 2.0]
-    strain, storage, loss = rows[:, 2] / 100.0, rows[:, 3], rows[:, 4]
+    strain, storage, loss = (rows[:, 2] / 100.0).tolist(), rows[:, 3].tolist(), rows[:, 4].tolist()
     return SofteningTable([strain], [storage], [loss], MEASURED_AT, "tension")
 
 
@@ -169,7 +170,7 @@ def solve(family: str, number: int, name: str, rubber: Rubber) -> list[dict[str,
     stiffness = abs(complex(rubber.complex_modulus(2.0 * np.pi * SPEED / (4.0 * smallest))))
     rows = []
     for load in pressures(whole.z, sweep(name)):
-        at = {"pressure": load * stiffness / MODULUS, "speed": SPEED}
+        at: dict[str, Any] = {"pressure": load * stiffness / MODULUS, "speed": SPEED}
         rule = gs.solve_rough_contact(
             rubber, whole, periodic=True, conditions=Conditions(softening=law), **at
         )

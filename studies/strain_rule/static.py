@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 from unittest.mock import patch
 
 import numpy as np
@@ -21,10 +22,10 @@ from gripscale.conditions import Conditions
 from gripscale.core import Array, ComplexArray, Mask
 from gripscale.half_space.conditions import strain_by_scale
 from gripscale.half_space.grid import Grid
-from gripscale.rubber.softening import UNIAXIAL_OF_SHEAR
-from gripscale.rubber.softening import Kraus as KrausLaw
-from gripscale.rubber.strain_energy import Kraus as KrausEnergy
+from gripscale.rubber.softening import Kraus
+from gripscale.rubber.strain_energy import KrausEnergy
 from gripscale.surface import Profile
+from gripscale.wave.result import ScaleResult
 from studies.shipped import DATA
 from studies.strain_rule.lines import line, rms_slope
 
@@ -66,7 +67,8 @@ def sweep(name: str) -> Sweep:
 
     def misfit(p: Array) -> Array:
         law = Sweep(1.0 / (1.0 + np.exp(-p[0])), float(np.exp(p[1])), 0.0)
-        return np.log([law.kept(e) for e in strain]) - np.log(storage) + p[2]
+        kept = np.log([law.kept(e) for e in strain])
+        return np.asarray(kept - np.log(storage) + p[2])
 
     p = least_squares(misfit, [-2.0, np.log(0.05), np.log(storage[0])]).x
     error = float(np.sqrt(np.mean(misfit(p) ** 2)))
@@ -76,7 +78,7 @@ def sweep(name: str) -> Sweep:
 def softening(law: Sweep, flatter: float = FLATTER) -> Conditions:
     """Return conditions with the softening of a sweep in strains `flatter` times the real ones."""
     strains = flatter * law.critical, flatter * MEASURED_AT
-    return Conditions(softening=KrausLaw(law.ratio, 0.1, *strains, "tension", 0.5))
+    return Conditions(softening=Kraus(law.ratio, 0.1, *strains, "tension", 0.5))
 
 
 def slope_rule(factor: float, heights: Array) -> Callable[[Grid, Array, Mask, Array], Array]:
@@ -115,14 +117,15 @@ def solve(family: str, number: int, name: str) -> list[dict[str, float | str]]:
     """Return one row for each load of a line and sweep."""
     law, whole = sweep(name), line(family, number)
     flat = Profile(whole.x, FLATTER * whole.z)
-    shear = FLATTER / UNIAXIAL_OF_SHEAR
+    shear = FLATTER * np.sqrt(3.0)  # of a uniaxial strain that stores the same energy
     energy = KrausEnergy(law.ratio, law.critical * shear, MEASURED_AT * shear)
     bulk = 1e3 * MODULUS
     hard = gs.Rubber(MODULUS, (), (), bulk_modulus=bulk)
     soft = gs.Rubber(MODULUS, (), (), bulk_modulus=bulk, strain_energy=energy)
-    rows, start = [], {}
+    rows: list[dict[str, float | str]] = []
+    start: dict[str, ScaleResult] = {}
     for load in pressures(whole.z, law):
-        at = {"pressure": FLATTER * load, "speed": 0.0, "periodic": True}
+        at: dict[str, Any] = {"pressure": FLATTER * load, "speed": 0.0, "periodic": True}
         row: dict[str, float | str] = {"family": family, "line": number, "sweep": name}
         row |= {"slope": rms_slope(whole.z), "pressure": load, "status": "converged"}
         for key, rubber in (("block", soft), ("block_hard", hard)):

@@ -28,6 +28,11 @@ def static_error(row: Row, rule: str = "rule") -> float:
     return float(np.log(_ratio(row, rule, "hard")) - np.log(_ratio(row, "block", "block_hard")))
 
 
+def unsoftened(row: Row) -> float:
+    """Return ln of the area without softening over that of the block [-]."""
+    return -float(np.log(_ratio(row, "block", "block_hard")))
+
+
 def sliding_error(row: Row, what: str, rule: str = "rule", judge: str = "layers") -> float:
     """Return ln of area or friction by the rule over those of the layers [-]."""
     return float(np.log(_ratio(row, f"{rule} {what}", f"{judge} {what}")))

@@ -122,7 +122,7 @@ def _rubber() -> Iterator[Door]:
     yield Door(rubber.MooneyRivlin, {"share": 0.2})
     yield Door(rubber.Yeoh, {"second": -0.1, "third": 0.02})
     yield Door(rubber.Isihara, {"share": 0.2, "second": 0.1})
-    yield Door(rubber.Kraus, {"ratio": 0.2, "critical": 0.1, "measured_at": 1e-3})
+    yield Door(rubber.KrausEnergy, {"ratio": 0.2, "critical": 0.1, "measured_at": 1e-3})
     yield Door(rubber.strain_energy, {"kind": "yeoh", "second": -0.1, "third": 0.02})
     test = {"time": [0.0, 1.0], "stretch": [1.0, 1.1], "stress": [0.0, 1e5]}
     yield Door(rubber.UniaxialTest, {"name": "test", **test})

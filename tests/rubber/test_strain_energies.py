@@ -9,7 +9,7 @@ from gripscale.core.errors import InputError
 from gripscale.rubber import (
     STRAIN_ENERGIES,
     Isihara,
-    Kraus,
+    KrausEnergy,
     MooneyRivlin,
     NeoHookean,
     Rubber,
@@ -17,10 +17,10 @@ from gripscale.rubber import (
     Yeoh,
     strain_energy,
 )
-from gripscale.rubber.softening import Kraus as SofteningLaw
+from gripscale.rubber.softening import Kraus
 
 LINEAR = [NeoHookean(), MooneyRivlin(0.3), Yeoh(-0.06, 0.005), Isihara(0.2, -0.03)]
-LAWS = [*LINEAR, Kraus(0.15, 0.08, 0.002)]
+LAWS = [*LINEAR, KrausEnergy(0.15, 0.08, 0.002)]
 
 
 def test_every_kind_is_tried_here() -> None:
@@ -56,12 +56,12 @@ def test_coefficients_give_the_law_and_its_stress(law: StrainEnergy) -> None:
 
 def test_the_secant_modulus_of_shear_is_that_of_the_sweep() -> None:
     """Kraus' closed form with the exponent 1/2, from the measured strain on; below it a third."""
-    law = SofteningLaw(0.15, 0.1, 0.08, measured_at=0.002, deformation="shear")
+    law = Kraus(0.15, 0.1, 0.08, measured_at=0.002, deformation="shear")
     shear = np.geomspace(0.02, 1.0, 9)
     factors = law.factors(shear / np.sqrt(3.0)).storage
-    assert Kraus(0.15, 0.08, 0.002).shear_factor(shear) == pytest.approx(factors, rel=2e-3)
+    assert KrausEnergy(0.15, 0.08, 0.002).shear_factor(shear) == pytest.approx(factors, rel=2e-3)
     with pytest.raises(InputError, match="linear in its parameters"):
-        Kraus.basis(np.ones(3))
+        KrausEnergy.basis(np.ones(3))
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.rubber import Kraus
-from gripscale.rubber.softening import Kraus as SofteningLaw
+from gripscale.rubber import KrausEnergy
+from gripscale.rubber.softening import Kraus
 from studies.strain_rule import static
 from studies.strain_rule.lines import FAMILIES, PER_FAMILY, SINES, WAVES, line, rms_slope
 from studies.strain_rule.sliding import solve_layers
@@ -34,9 +34,9 @@ def test_lines_have_the_slope_of_their_number_and_no_wave_beyond_the_last() -> N
 def test_the_law_of_the_half_space_is_that_of_the_block() -> None:
     """Secant modulus of shear at the same strain, a twentieth of the real one."""
     law = softening(LAW).softening
-    assert isinstance(law, SofteningLaw)
+    assert isinstance(law, Kraus)
     shear = static.FLATTER * np.array([0.05, 0.1, 0.5])
-    energy = Kraus(0.147, 0.0433 * np.sqrt(3.0) / 20.0, 1e-3 * np.sqrt(3.0) / 20.0)
+    energy = KrausEnergy(0.147, 0.0433 * np.sqrt(3.0) / 20.0, 1e-3 * np.sqrt(3.0) / 20.0)
     factors = law.factors(shear / np.sqrt(3.0)).storage
     assert energy.shear_factor(shear) == pytest.approx(factors, rel=2e-3)
     assert LAW.kept(0.05 / np.sqrt(3.0)) == pytest.approx(factors[0], rel=2e-3)
@@ -62,8 +62,8 @@ def test_layers_without_softening_are_the_half_space() -> None:
 @pytest.mark.verification
 @pytest.mark.parametrize("family", ["sine", "two waves", "mounded"])
 def test_areas_are_those_of_the_softening_block(family: str) -> None:
-    """0.13 in each case: over all cases the rms is 0.05."""
+    """Within 0.06: over all cases the rms is 0.05, and factors of 0.5 and 1.3 err by 0.1."""
     with patch.object(static, "sweep", lambda _: LAW):
         rows = solve(family, 0, "S100")
     errors = by_family([{k: str(v) for k, v in row.items()} for row in rows], static_error)
-    assert np.abs(errors[family]).max() < 0.13
+    assert np.abs(errors[family]).max() < 0.06

@@ -35,7 +35,7 @@ from .shift_fit import read_shift_table as read_shift_table
 from .shift_fit import write_shift_table as write_shift_table
 from .strain_energy import STRAIN_ENERGIES as STRAIN_ENERGIES
 from .strain_energy import Isihara as Isihara
-from .strain_energy import Kraus as Kraus
+from .strain_energy import KrausEnergy as KrausEnergy
 from .strain_energy import MooneyRivlin as MooneyRivlin
 from .strain_energy import NeoHookean as NeoHookean
 from .strain_energy import StrainEnergy as StrainEnergy

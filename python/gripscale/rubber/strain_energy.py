@@ -172,7 +172,7 @@ class Isihara(StrainEnergy):
         return shear, cls(coefficients[1] / shear, coefficients[2] / shear)
 
 
-class Kraus(StrainEnergy):
+class KrausEnergy(StrainEnergy):
     """Softening of filled rubber: the secant modulus of shear s is that of a strain sweep.
 
     w1 = w(s)/w(0), w = r + (1 - r)/(1 + sqrt(s^2 + a^2)/c), s^2 = I1 - 3. Source: G. Kraus, J.
@@ -205,7 +205,7 @@ class Kraus(StrainEnergy):
 
 
 STRAIN_ENERGIES: dict[str, type[StrainEnergy]] = {
-    law.kind: law for law in (NeoHookean, MooneyRivlin, Yeoh, Isihara, Kraus)
+    law.kind: law for law in (NeoHookean, MooneyRivlin, Yeoh, Isihara, KrausEnergy)
 }
 """Every strain energy by its kind."""
 
