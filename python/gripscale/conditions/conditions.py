@@ -180,6 +180,12 @@ class Conditions(Checked):
         return replace(self, **nothing, off=tuple(dict.fromkeys([*self.off, *off])))
 
     @property
+    def warming(self) -> Conditions:
+        """The same with the law whose friction warms the interface: that of a probe is another."""
+        law = self.shear_stress
+        return replace(self, shear_stress=getattr(law, "warming_law", law))
+
+    @property
     def dry(self) -> Conditions:
         """The same without water, for models that have no pools."""
         return replace(self, water=None)

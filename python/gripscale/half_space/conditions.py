@@ -225,10 +225,10 @@ def temperature(
     cold, unit = (
         float(np.average(each.surface, weights=contact.pressure)) for each in (rises, by_unit)
     )
-    friction = 0.0
-    if conditions.shear_stress is not None:
+    friction, warming = 0.0, conditions.warming
+    if warming.shear_stress is not None:
         friction = rise.settled_interface(
-            partial(contact.adhesive_friction_at, conditions),
+            partial(contact.adhesive_friction_at, warming),
             lambda friction: cold + part.net(friction) * unit,
         )
     net = part.net(friction)
@@ -328,8 +328,8 @@ class _ContactEvaluation:
     ) -> Iteration[GridSequenceResult]:
         """Return the evaluation of `x`, started from the last contact."""
         x = self.guess if x is None else x
-        known = {} if last is None or last.contact.by_scale is None else last.levels
-        solved = self.solve(None if x is None else self.state(x).rubber, known)
+        earlier = {} if last is None or last.contact.by_scale is None else last.levels
+        solved = self.solve(None if x is None else self.state(x).rubber, earlier)
         contact = solved.contact
         self.grids.extend(contact.grids)
         number, surface = self.wavenumber, None
