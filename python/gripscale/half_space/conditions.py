@@ -51,6 +51,8 @@ def strain_by_scale(grid: Grid, displacement: Array, active: Mask, wavenumber: A
     """
     number = np.where(grid.wavenumber > 0.0, grid.wavenumber, 1.0)
     spectrum = scipy.fft.rfftn(displacement) * grid.wavenumber
+    if len(grid.shape) == 1:
+        return _strain_of_line(spectrum, number, active, wavenumber)
     along, across = grid.direction
     # components of the strain over that into the rubber, and how often each counts in e:e
     parts = [(np.ones(1), 1.5), (1j * along, 2.0), (1j * across, 2.0)]
@@ -63,6 +65,35 @@ def strain_by_scale(grid: Grid, displacement: Array, active: Mask, wavenumber: A
         for component, times in parts:
             square += times * scipy.fft.irfftn(component * wave, s=grid.shape)[active] ** 2
         out.append(DEPTH_FACTOR * float(np.sqrt(2.0 / 3.0 * square).mean()))
+    return np.array(out)
+
+
+# Waves so many times shorter than a scale have e^-20 of their strain at its depth.
+_FELT = 20.0
+
+
+def _strain_of_line(
+    spectrum: ComplexArray, number: Array, active: Mask, wavenumber: Array
+) -> Array:
+    """Return the strains of a line: of its analytic signal, 2/sqrt(3) |e| in plane strain.
+
+    Of each scale on a grid that just resolves the waves that reach its depth.
+    """
+    out = []
+    for scale in wavenumber:
+        waves = int(np.searchsorted(number[1:], _FELT * scale)) + 1
+        blocks = active.size
+        while blocks % 2 == 0 and blocks // 2 > 2 * waves:
+            blocks //= 2
+        depth = number[:waves] / scale
+        one_sided = np.zeros(blocks, dtype=complex)
+        centre = np.exp(1j * np.pi * np.arange(waves) * (1.0 / blocks - 1.0 / active.size))
+        one_sided[:waves] = spectrum[:waves] * depth * np.exp(-depth) * centre
+        signal = np.abs(scipy.fft.ifft(one_sided)) * (2.0 * blocks / active.size)
+        in_contact = active.reshape(blocks, -1).sum(axis=1)
+        out.append(
+            2.0 / np.sqrt(3.0) * DEPTH_FACTOR * float(np.average(signal, weights=in_contact))
+        )
     return np.array(out)
 
 
