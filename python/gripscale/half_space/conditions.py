@@ -301,7 +301,7 @@ class GridSequenceResult:
 _Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
 # Tolerance of the fixed point over that of the contact, and the largest: the interval of an answer
 # is ten times wider.
-_OF_GOAL, _LOOSEST = 0.2, 1e-2
+_OF_GOAL, _LOOSEST = 0.4, 2e-2
 _CLOSED = 0.5  # strain of rubber in contact over that of rubber pressed into every valley, about
 
 
