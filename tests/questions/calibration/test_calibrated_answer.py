@@ -55,51 +55,67 @@ def made(conditions: Conditions, **load: float) -> gs.Case:
     )
 
 
-def answer_at(law: InterfacialShearStress, at: int, heat: bool) -> gs.Answer:
+def answer_at(law: InterfacialShearStress, at: int, heat: Any = "none") -> gs.Answer:
     """Return the answer of the case with `law` at a measured point."""
-    conditions = Conditions(
-        temperature=KELVINS[at], heat=THERMAL if heat else "none", shear_stress=law
-    )
+    conditions = Conditions(temperature=KELVINS[at], heat=heat, shear_stress=law)
     return gs.answer(made(conditions, speed=SPEEDS[at], pressure=PRESSURES[at % 2]))
 
 
-@pytest.fixture(scope="module", params=[False, True], ids=["without heat", "with heat"])
-def calibrated(request: pytest.FixtureRequest) -> tuple[Calibration, bool]:
+def measured_at(friction: np.ndarray) -> MeasuredFriction:
+    """Return friction of the measured points, with a little noise."""
+    noisy = friction + np.random.default_rng(0).normal(0.0, 0.003, len(SPEEDS))
+    pressure = np.resize(PRESSURES, len(SPEEDS))
+    return MeasuredFriction(SPEEDS, noisy, [0.003] * len(SPEEDS), KELVINS, pressure=pressure)
+
+
+FIXED = {"reference_temperature": 293.15}
+
+
+@pytest.fixture(scope="module")
+def calibrated() -> Calibration:
     """The fit to the friction that the case itself has with a known law, and a little noise."""
-    heat = bool(request.param)
-    noise = np.random.default_rng(0).normal(0.0, 0.003, len(SPEEDS))
-    friction = [answer_at(TRUE, at, heat).friction + noise[at] for at in range(len(SPEEDS))]
-    measured = MeasuredFriction(
-        SPEEDS, friction, [0.003] * len(SPEEDS), KELVINS, pressure=np.resize(PRESSURES, len(SPEEDS))
-    )
-    conditions = Conditions(temperature=293.15, heat=THERMAL if heat else "none")
-    return gs.calibrate(made(conditions), measured, fixed={"reference_temperature": 293.15}), heat
+    friction = np.array([answer_at(TRUE, at).friction for at in range(len(SPEEDS))])
+    case = made(Conditions(temperature=293.15, heat="none"))
+    return gs.calibrate(case, measured_at(friction), fixed=FIXED)
 
 
-def test_the_answer_is_the_fitted_friction(calibrated: tuple[Calibration, bool]) -> None:
-    result, heat = calibrated
-    data = result.data
+def test_the_answer_is_the_fitted_friction(calibrated: Calibration) -> None:
+    data = calibrated.data
     residual = np.abs(data.difference.values).max()
     assert residual < 0.01
-    # under heat a law of the mean temperature stands for the mean of the law over the lines
-    close = 1e-3 if heat else 1e-12
     for at in range(len(SPEEDS)):
-        answer = answer_at(result.law, at, heat)
+        answer = answer_at(calibrated.law, at)
         assert answer.hysteresis_friction == pytest.approx(float(data.hysteresis[at]), rel=1e-12)
         assert answer.contact_fraction == pytest.approx(float(data.contact_fraction[at]), rel=1e-12)
-        assert answer.friction == pytest.approx(float(data.friction[at]), rel=close)
+        assert answer.friction == pytest.approx(float(data.friction[at]), rel=1e-12)
         misfit = answer.friction - float(data.measured_friction[at])
-        assert abs(misfit) <= residual + close
+        assert abs(misfit) <= residual + 1e-12
 
 
-def test_the_area_is_not_that_of_the_lines(calibrated: tuple[Calibration, bool]) -> None:
-    result, heat = calibrated
-    answer = answer_at(result.law, 0, heat).data
+def test_the_area_is_not_that_of_the_lines(calibrated: Calibration) -> None:
+    answer = answer_at(calibrated.law, 0).data
     assert float(answer.answer_contact_fraction / answer.total_contact_fraction) < 0.8
     ratio = answer.answer_adhesive_friction / answer.total_adhesive_friction
     assert float(ratio) == pytest.approx(
         float(answer.answer_contact_fraction / answer.total_contact_fraction)
     )
+
+
+def test_under_heat_a_law_is_fitted_at_the_temperature_of_the_hysteresis(tmp_path: Path) -> None:
+    """The fit gives back a law at the contact that the hysteresis alone warms.
+
+    An answer with the law is warmed by the interface as well, and has less friction.
+    """
+    case = made(Conditions(temperature=293.15, heat=THERMAL))
+    first = gs.calibrate(case, measured_at(np.ones(len(SPEEDS))), fixed=FIXED, folder=tmp_path)
+    warm = first.data.contact_temperature.values
+    assert (warm > np.array(KELVINS) + 0.1).all()
+    leverage = first.data.contact_fraction.values / np.resize(PRESSURES, len(SPEEDS))
+    friction = first.data.hysteresis.values + leverage * TRUE.stress(np.array(SPEEDS), warm)
+    fit = gs.calibrate(case, measured_at(friction), fixed=FIXED, folder=tmp_path)
+    assert np.abs(fit.data.difference.values).max() < 0.01
+    answer = answer_at(fit.law, len(SPEEDS) - 1, THERMAL)
+    assert answer.hysteresis_friction < float(fit.data.hysteresis[-1])
 
 
 def test_answer_variation_and_comparison_have_one_total(tmp_path: Path) -> None:
