@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -103,13 +103,15 @@ class OctaveHeat:
 
     wavenumber: float  # in its middle [rad/m]
     friction: float  # mu_b [-]
-    density: Array  # of the loss on the grid over its mean [-], shape of the grid
+    # Spectrum of the density of the loss on the grid, over its mean and without it; of a line, the
+    # density of an octave has no waves shorter than the octave.
+    pattern: ComplexArray
     depth: LossDepth
 
-    @cached_property
-    def pattern(self) -> ComplexArray:
-        """Spectrum of the density without its mean."""
-        return _without_mean(self.density)
+    @property
+    def kept(self) -> slice:
+        """Where the pattern stands in a spectrum of the grid."""
+        return slice(self.pattern.shape[0])
 
 
 def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
@@ -125,11 +127,30 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
         loss = np.where((octave == which) & (lost > 0.0), lost, 0.0)
         total = float(loss.sum())
         if total > _ROUND_OFF * float(lost.sum()):
-            density = np.abs(grid.forward_field(np.sqrt(loss) * phase)) ** 2
+            pattern = _loss_pattern(grid, np.sqrt(loss) * phase, 2 ** (which + 1))
             mean = float((loss * 1.5 / np.maximum(number, longest)).sum() / total)
             middle = longest * 2.0 ** (which + 0.5)
-            out.append(OctaveHeat(middle, total, density / density.mean(), LossDepth(mean)))
+            out.append(OctaveHeat(middle, total, pattern, LossDepth(mean)))
     return out
+
+
+def _loss_pattern(grid: Grid, half: ComplexArray, end: int) -> ComplexArray:
+    """Return the spectrum of the loss of waves with the half spectrum `half`, over its mean.
+
+    Of a line the waves end before number `end`, and a coarser grid has them all.
+    """
+    points, waves = grid.points, half.shape[0]
+    if len(grid.shape) > 1:
+        density = np.abs(grid.forward_field(half)) ** 2
+    else:
+        while points % 2 == 0 and points // 2 >= 2 * end:
+            points //= 2
+        one_sided = np.zeros(points, dtype=complex)
+        waves = min(end, waves)
+        one_sided[:waves] = half[:waves]
+        density = np.abs(scipy.fft.ifft(one_sided)) ** 2
+    pattern = _without_mean(density / density.mean())
+    return pattern if len(grid.shape) > 1 else pattern[:waves] * (grid.points / points)
 
 
 @dataclass(frozen=True)
@@ -158,15 +179,18 @@ def grid_temperature(
     uniform = [flux * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats]
     strengths = [heat.friction for heat in heats]
     surfaces = [
-        flux * heat.friction * heat.pattern * passing.at_surface(heat.depth) for heat in heats
+        flux * heat.friction * heat.pattern * passing.at_surface(heat.depth, heat.kept)
+        for heat in heats
     ]
-    surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
+    surface = np.zeros(grid.spectrum_shape, dtype=complex)
+    for heat, part in zip(heats, surfaces, strict=True):
+        surface[heat.kept] += part
     octave = []
     for which, heat in enumerate(heats):
         # the other octaves warm the depth of this one from the surface, its own heat where it is
-        here = heat.depth.decay(m) * (surface - surfaces[which])
+        here = heat.depth.decay(m[heat.kept]) * (surface[heat.kept] - surfaces[which])
         source = flux * heat.friction * heat.pattern
-        here += source * passing.where_lost(heat.depth)
+        here += source * passing.where_lost(heat.depth, heat.kept)
         level = flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
         level += rise.uniform_from_others(strengths, uniform, which)
         octave.append(level + _mean_over(grid, here, heat.pattern))
@@ -203,7 +227,7 @@ def contact_source_temperature(
     octave = [
         # a source at the surface warms a depth as one at this depth warms the surface
         flux * rise.uniform_at_surface(time, heat.depth, thermal)
-        + _mean_over(grid, heat.depth.decay(m) * surface, heat.pattern)
+        + _mean_over(grid, heat.depth.decay(m[heat.kept]) * surface[heat.kept], heat.pattern)
         for heat in heats
     ]
     rises = GridTemperature(scipy.fft.irfftn(surface, s=grid.shape) + mean, np.array(octave))
@@ -228,7 +252,8 @@ def _without_mean(density: Array) -> ComplexArray:
 
 def _mean_over(grid: Grid, harmonics: ComplexArray, pattern: ComplexArray) -> float:
     """Return the mean of a field without mean, weighted by a density of mean one."""
-    return float((grid.weight * (harmonics * pattern.conj()).real).sum() / grid.points**2)
+    weight = grid.weight[: harmonics.shape[-1]]
+    return float((weight * (harmonics * pattern.conj()).real).sum() / grid.points**2)
 
 
 def temperature(
