@@ -328,8 +328,9 @@ class _ContactEvaluation:
     ) -> Iteration[GridSequenceResult]:
         """Return the evaluation of `x`, started from the last contact."""
         x = self.guess if x is None else x
-        known = {} if last is None or last.contact.by_scale is None else last.levels
-        solved = self.solve(None if x is None else self.state(x).rubber, known)
+        solid = None if x is None else self.state(x).rubber
+        earlier = {} if last is None or last.contact.by_scale is None else last.levels
+        solved = self.solve(None if x is None else self.state(x).rubber, earlier)
         contact = solved.contact
         self.grids.extend(contact.grids)
         number, surface = self.wavenumber, None
