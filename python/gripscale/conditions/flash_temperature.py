@@ -158,7 +158,9 @@ class DepthsOfLoss(Protocol):
 Distances = Literal["depth", "difference", "sum"]
 DEEPEST = 60.0  # depth in units of 1/b beyond which the loss is neglected: exp(-60)
 WIDEST = 6.5  # argument beyond which ierfc is below 1e-20
-STEADY = 2.5  # Re(m) l/2 from which a harmonic is steady: erfc of it is 4e-4
+# Re(m) l/2 from which a harmonic is steady. Across the sliding direction erfc of it is left, 4e-4
+# in the depth. Along it what is left falls as 1/|m l| only, and waves may begin at any phase.
+STEADY, STEADY_AT_SURFACE = 2.5, 4.0
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 _TIMES, _TIME_WEIGHTS = np.polynomial.legendre.leggauss(64)
 
@@ -320,8 +322,9 @@ class PassingHarmonics:
         steady = harmonic_at_surface(m, depth, self.thermal)
         if depth.mean > 0.0:
             return self._with_changing(steady, kept, depth, "depth")
-        which, length = self._changing[kept], _diffusion_length(self.time, self.thermal)
-        steady[which] *= erf(m[which] * (0.5 * length))
+        half = 0.5 * _diffusion_length(self.time, self.thermal)
+        which = m.real * half < STEADY_AT_SURFACE
+        steady[which] *= erf(m[which] * half)
         return steady
 
     def where_lost(self, depth: LossDepth, kept: slice = EVERY) -> ComplexArray:
