@@ -42,7 +42,6 @@ class Manner(NamedTuple):
     quiet: bool = False
     json: bool = False
     replace: bool = False
-    events: bool = False  # whether standard output has events for a program
 
 
 _USUAL = Manner()
@@ -57,7 +56,6 @@ def screen(stderr: bool = False) -> Console:
     from rich.console import Console
 
     manner = MANNER.get()
-    stderr = stderr or manner.events
     stream = sys.stderr if stderr else sys.stdout
     wide = None if stream.isatty() or "COLUMNS" in os.environ else PLAIN_WIDTH
     quiet = not stderr and (manner.quiet or manner.json)
@@ -82,8 +80,7 @@ def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
         target = RESULTS_FOLDER.get()
         if target is None or not any(target.rglob("[!.]*.nc")):
             return "Stopped; nothing was finished.", STOPPED
-        kept = f"what was finished is kept in {target}, and the same command continues from there"
-        return f"Stopped; {kept}.", STOPPED
+        return f"Stopped; what was finished is kept in {target}.", STOPPED
     from gripscale.report.failures import explained
 
     exit_code = _NOT_CONVERGED if isinstance(error, ConvergenceError) else BAD_INPUT
