@@ -129,7 +129,7 @@ NOTE = ".finished.json"
 REPORT_PAGE = "report.html"
 # Everything a run may write into its folder, beside copies of the files the case names.
 RESULT_FILES = (
-    *(NOTE, SAVED_CASE, REPORT_PAGE, "report.txt", "chain.txt", "summary.xlsx"),
+    *(NOTE, SAVED_CASE, REPORT_PAGE, "report.txt", "chain.txt"),
     *("dynamic.nc", "static.nc", "answer.nc", "cut_off.nc"),
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )

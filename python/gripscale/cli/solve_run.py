@@ -83,7 +83,6 @@ def solve_run(
         chain.answer,
         parts,
         answer_printed=True,
-        results=[chain.answer.data, *(chain.dataset(name) for name in chain.predictions)],
         text=terminal.RUN_REPORT,
         closing=terminal.RUN_CLOSING,
         page=lambda page: write_report(target, page),

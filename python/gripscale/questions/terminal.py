@@ -17,7 +17,6 @@ import typer
 from gripscale.core import ConvergenceError, GripscaleError, Words
 
 if TYPE_CHECKING:
-    import xarray as xr
     from pydantic import BaseModel
     from rich.console import Console
     from rich.status import Status
@@ -441,7 +440,6 @@ class CaseCommand:
         draw: Callable[[], object],
         opening: Sequence[str | Table] = (),
         answer_printed: bool = False,
-        results: Sequence[xr.Dataset] = (),
         width: int = PLAIN_WIDTH,
         files: Mapping[str, str] | None = None,
         page: Callable[[Path], Path] | None = None,
@@ -451,13 +449,11 @@ class CaseCommand:
         The answer, unless it is printed already, the first findings and `parts` are printed, or the
         answer alone where no more is asked for. The file `text`, with lines of `width`, has the
         answer, all findings, then `opening`, which the screen shows already, then `parts`: these
-        are returned. `files` are further texts by name; the numbers of `results` are written as a
-        flat table for Excel. `closing` says what is in the folder.
+        are returned. `files` are further texts by name. `closing` says what is in the folder.
         """
         from gripscale.io.folders import write_text
         from gripscale.io.table import as_text
         from gripscale.questions.result import warning_lines
-        from gripscale.questions.summary_table import write_summary
 
         target, console, findings = self.target, self.console, result.findings
         end_steps()
@@ -469,7 +465,6 @@ class CaseCommand:
         texts = {text: as_text(*above, *parts, width=width), **(files or {})}
         for name, content in texts.items():
             write_text(target / name, content)
-        write_summary(results or [result.data], target)
         show_step(console, "drawing figures and page ...")
         draw()
         try:
