@@ -51,27 +51,27 @@ def run(
     with figures_elsewhere(FigureFolder(target / "figures", file.case.output.figures)) as figures:
         from gripscale.cli.solve_run import solve_run  # while the other process starts
 
-        report = solve_run(work, target, figures, show_chain=chain)
-        note_finished(file, target, shown_too, report)
+        solve_run(work, target, figures, show_chain=chain)
+        note_finished(file, target, shown_too)
 
 
 def _show_again(work: terminal.CaseCommand, target: Path, *, chain: bool) -> None:
-    """Print the report on a finished run once more, as wide as the terminal is now."""
-    from gripscale.case_file.folder import finished_report
+    """Print the answer of a finished run once more."""
     from gripscale.case_file.prepare import named_files
     from gripscale.questions.answer.answer import ANSWER_FILE
     from gripscale.questions.chain.run import CHAIN_REPORT
+    from gripscale.questions.result import warning_lines
     from gripscale.questions.stored import load
 
     console, answer = work.console, load(target / ANSWER_FILE)
     time = (target / terminal.RUN_REPORT).stat().st_mtime
-    terminal.print_parts(console, finished_report(target))
+    findings = warning_lines(answer.findings, terminal.RUN_REPORT, answer.half_widths)
+    terminal.print_parts(console, [*answer.lines, *findings])
     if chain and (target / CHAIN_REPORT).is_file():
         console.print((target / CHAIN_REPORT).read_text(encoding="utf-8"), soft_wrap=True)
     finished = f"Finished {datetime.fromtimestamp(time):%Y-%m-%d %H:%M}."
     same = "Case, files and software are the same; nothing was solved again (--fresh does)."
-    closing = f"{finished} {same} {terminal.RUN_CLOSING} {target}"
-    terminal.print_parts(console, ["", closing, answer.lines[0]])
+    terminal.print_parts(console, ["", f"{finished} {same} {terminal.RUN_CLOSING} {target}"])
     terminal.print_result(answer, work.file.path, named_files(work.file))
 
 

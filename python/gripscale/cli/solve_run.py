@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,8 +40,8 @@ REPORT_WIDTH = 110  # characters of the lines of the report
 
 def solve_run(
     work: terminal.CaseCommand, target: Path, figures: Figures, *, show_chain: bool
-) -> Sequence[str | Table]:
-    """Prepare, solve, print and write a case; return its report."""
+) -> None:
+    """Prepare, solve, print and write a case."""
     case, console = work.case, work.console
     chain, measured = ChainRun(case), case.surface.measured is not None
     header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
@@ -79,7 +78,7 @@ def solve_run(
         if heat is not None:
             figures.save(heat_sheet(heat), "heat")
 
-    report = work.conclude(
+    work.conclude(
         chain.answer,
         parts,
         answer_printed=True,
@@ -97,7 +96,6 @@ def solve_run(
         terminal.print_error(explained(failure))
     if failures:
         raise failures[-1]
-    return report
 
 
 def _print_answer(console: Console, case: Case, answer: Answer) -> None:

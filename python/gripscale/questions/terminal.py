@@ -443,13 +443,13 @@ class CaseCommand:
         width: int = PLAIN_WIDTH,
         files: Mapping[str, str] | None = None,
         page: Callable[[Path], Path] | None = None,
-    ) -> Sequence[str | Table]:
+    ) -> None:
         """Print and write what the command found, draw figures and page, set the exit code.
 
         The answer, unless it is printed already, the first findings and `parts` are printed, or the
         answer alone where no more is asked for. The file `text`, with lines of `width`, has the
-        answer, all findings, then `opening`, which the screen shows already, then `parts`: these
-        are returned. `files` are further texts by name. `closing` says what is in the folder.
+        answer, all findings, then `opening`, which the screen shows already, then `parts`. `files`
+        are further texts by name. `closing` says what is in the folder.
         """
         from gripscale.io.folders import write_text
         from gripscale.io.table import as_text
@@ -477,4 +477,3 @@ class CaseCommand:
         if result.failure:
             print_error(result.failure)
             raise typer.Exit(_NOT_CONVERGED)
-        return [*above, *parts]
