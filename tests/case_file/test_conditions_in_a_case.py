@@ -16,13 +16,13 @@ from gripscale.case_file import (
     read_case_file,
 )
 from gripscale.chain import solve_chain
-from gripscale.cli.run_case import run_case
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
 from gripscale.conditions.flash_temperature import STONE
 from gripscale.core.errors import InputError
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus, SofteningTable, assumptions
 from tests.case_file.cases import refusal, written
+from tests.run_case import run_case
 from tests.samples import SOFTENING
 
 BASE = """
