@@ -328,7 +328,6 @@ class _ContactEvaluation:
     ) -> Iteration[GridSequenceResult]:
         """Return the evaluation of `x`, started from the last contact."""
         x = self.guess if x is None else x
-        solid = None if x is None else self.state(x).rubber
         earlier = {} if last is None or last.contact.by_scale is None else last.levels
         solved = self.solve(None if x is None else self.state(x).rubber, earlier)
         contact = solved.contact
