@@ -18,7 +18,6 @@ from gripscale.charts.figure_folder import FigureFolder
 from gripscale.conditions import Conditions
 from gripscale.conditions.area_term import ConstantStress
 from gripscale.io.table import significant
-from gripscale.io.text_table import read_sheets
 from gripscale.questions.answer.reliance import headline
 from gripscale.questions.page_of_folder import page_of, read_result
 from gripscale.questions.words import HEADINGS, SYMBOLS, believed
@@ -145,9 +144,7 @@ def doors(asked: Asked) -> Iterator[tuple[str, list[float]]]:
     """Yield the numbers behind each door but the slow ones."""
     yield "file of the run", asked.of(gs.load(asked.folder / "answer.nc").data)
     yield "saved", asked.of(gs.load(asked.answer.save(asked.folder / "saved.nc")).data)
-    row = dict(zip(*list(read_sheets(asked.folder / "summary.xlsx")["summary"])[:2], strict=True))
     columns = [believed(asked.answer.data, name) for name in asked.names]
-    yield "summary", [float(row[f"{column} [-]"]) for column in columns]
     table = {column.name: column for column in asked.answer.table().columns}
     if asked.case.load.speed:
         assert next(name for name in table if name.startswith("answer_")) == columns[0]

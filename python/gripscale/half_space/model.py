@@ -270,9 +270,9 @@ class DirectContact(Checked, model.Model):
         if not (self.alternatives and contact.usable):
             return answer
         measured = _measurement(surface, "").surfaces[0]
-        solve = partial(
-            replace(self, tolerance=None).contact, rubber, surface, measured, start=contact
-        )
+        # of a wet contact the change is that of the dry one, which its grids are of
+        dry = replace(self, tolerance=None, conditions=self.conditions and self.conditions.dry)
+        solve = partial(dry.contact, rubber, surface, measured, start=contact)
         errors = dict(condition_errors(contact, rubber, lambda scale: solve(load, by_scale=scale)))
         numbers = np.array(list(errors.values())).reshape(-1, 2).T
         data = {
