@@ -173,8 +173,8 @@ def calibrate(
     model : str, optional
         "direct" or "chain": what predicts the hysteresis and the real contact area; by default
         the direct contact where a surface was measured, with the factors of `gripscale.answer`:
-        the case with the fitted law then has the fitted friction as its answer, but for what the
-        interface warms: the contact of a fit is as warm as the hysteresis makes it.
+        the case with the fitted law then has the fitted friction as its answer. With heat fit and
+        contacts are repeated until the law that warms the interface is the one fitted.
     law, fixed, hold_out
         As for `gripscale.questions.fit_area_term`.
     folder : path, optional
