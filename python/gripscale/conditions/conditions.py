@@ -53,7 +53,7 @@ def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
 
 
 def _switched_off(name: str, values: Any) -> tuple[str, ...]:
-    effects = checks.instances(name, values, str) if values != () else ()
+    effects = values if isinstance(values, tuple) else checks.instances(name, values, str)
     return tuple(checks.one_of(name, effect, DEFAULTED) for effect in effects)
 
 

@@ -272,7 +272,8 @@ class DirectContact(Checked, model.Model):
         measured = _measurement(surface, "").surfaces[0]
         # of a wet contact the change is that of the dry one, which its grids are of
         dry = replace(self, tolerance=None, conditions=self.conditions and self.conditions.dry)
-        solve = partial(dry.contact, rubber, surface, measured, start=contact)
+        start = replace(contact, water=None)
+        solve = partial(dry.contact, rubber, surface, measured, start=start)
         errors = dict(condition_errors(contact, rubber, lambda scale: solve(load, by_scale=scale)))
         numbers = np.array(list(errors.values())).reshape(-1, 2).T
         data = {
