@@ -14,7 +14,6 @@ from gripscale.app.run_tabs import ComparedRun, answer_elements, runs_table
 from gripscale.case_file import read_case_file
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.page_elements import Chart
-from gripscale.cli.run_case import run_case
 from gripscale.core.finding import Finding, Severity
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import answer
@@ -22,6 +21,7 @@ from gripscale.questions.chain.run_page import RunSource
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.page_of_folder import page_of
 from gripscale.report.elements import Element, Text
+from tests.run_case import run_case
 
 from .conftest import CASE
 

@@ -12,9 +12,9 @@ import gripscale as gs
 from gripscale import surface
 from gripscale.case_file import read_case, read_case_file
 from gripscale.cli import app
-from gripscale.cli.run_case import run_case
 from gripscale.io import netcdf
 from gripscale.questions import Study
+from tests.run_case import run_case
 from tests.samples import HALF_PLANE, case_text, write_road
 
 CASE = case_text('files = ["road.txt"]\nscales = 3\n{end}', solver=HALF_PLANE, static=False)

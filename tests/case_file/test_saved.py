@@ -11,7 +11,7 @@ import pytest
 from gripscale.case_file import folder, read_case, read_case_file
 from gripscale.case_file import folder as results_folder
 from gripscale.case_file.folder import renamed, saved_case
-from gripscale.cli.run_case import run_case
+from tests.run_case import run_case
 
 
 def test_the_results_folder_alone_gives_the_same_result_elsewhere(
@@ -35,7 +35,7 @@ def test_a_saved_case_run_into_its_own_folder_keeps_its_files(inputs: Path, tmp_
     first = run_case(inputs / "case.toml", output=tmp_path / "results")
     case = tmp_path / "results" / "case.toml"
     text = case.read_text()
-    again = run_case(case, output=tmp_path / "results", fresh=True)
+    again = run_case(case, output=tmp_path / "results")
     assert case.read_text() == text
     assert read_case(case).surface.sines.wavelength.tolist() == (
         again.case.surface.sines.wavelength.tolist()

@@ -50,7 +50,7 @@ def calibrated(case: Path) -> tuple[str, Path]:
 def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
     said, target = calibrated
     figures = {f"{name}.png" for name in FIGURES}
-    texts = {"calibration.txt", "shear_stress.toml", "summary.xlsx"}
+    texts = {"calibration.txt", "shear_stress.toml"}
     files = texts | {"calibration.nc", "predictions"}
     assert {path.name for path in target.iterdir()} == figures | files | {".case", "report.html"}
     assert len(list((target / "predictions").iterdir())) == 24

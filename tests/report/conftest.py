@@ -14,13 +14,13 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.cli.run_case import run_case
 from gripscale.core.provenance import CASE_TITLE
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.model import TOTALS
 from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.vary.axis import axes_of
+from tests.run_case import run_case
 from tests.samples import COARSE_BLOCK, case_text, three_waves, write_maxwell, write_road
 
 CASE = '# A small case <b>with</b> "marks" & signs\n' + case_text(

@@ -13,9 +13,9 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from gripscale.cli.run_case import run_case
 from gripscale.questions.page_of_folder import write_report
 from tests.browsing import CURVES, Visit
+from tests.run_case import run_case
 
 from .conftest import CASE
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
-import pytest
 import xarray as xr
 
 from gripscale.core.finding import doubt, to_json
-from gripscale.io.text_table import read_sheets
-from gripscale.questions.summary_table import SUMMARY_FILE, summary_table, write_summary
+from gripscale.questions.summary_table import summary_table
 
 UNIT = {"units": "1"}
 
@@ -123,14 +120,3 @@ def test_rubber_at_rest_has_no_friction() -> None:
         for v in (1.0, 0.0)
     )
     assert [row["total_friction"] for row in rows(moving, rest)] == [0.0, None]
-
-
-def test_excel_reads_it(tmp_path: Path) -> None:
-    assert write_summary([], tmp_path) is None
-    path = write_summary([study()], tmp_path)
-    assert path == tmp_path / SUMMARY_FILE
-    titles, *cells = read_sheets(path)["summary"]
-    assert list(titles) == summary_table([study()]).titles
-    for row, expected in zip(cells, summary_table([study()]).rows(), strict=True):
-        for cell, value in zip(row, expected, strict=True):  # a cell has 16 digits
-            assert cell == (pytest.approx(value, rel=1e-15) if isinstance(value, float) else value)

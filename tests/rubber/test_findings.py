@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.cli.run_case import run_case
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, fit_prony_report
 from gripscale.rubber.material import fast_end, require_load_bearing, slow_end
 from tests.rubber.truths import TRUTHS, fractional_zener
+from tests.run_case import run_case
 
 SINES = gs.SineStack([1e-2], [1e-3])
 

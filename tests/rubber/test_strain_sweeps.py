@@ -13,7 +13,6 @@ from gripscale.rubber.softening import (
     SofteningTable,
     assumptions,
     softening_of_sweeps,
-    write_softening_factors,
 )
 from gripscale.rubber.strain_sweeps import holds_strain_sweeps
 
@@ -173,19 +172,6 @@ def test_assumptions_are_those_of_what_is_not_stated(tmp_path):
     assert [text.split()[0] for text in assumptions(law)] == ["strain", "moduli", "strain"]
     complete = SofteningTable(law.strain, law.storage, law.loss, 1e-3, "tension")
     assert not list(assumptions(complete))
-
-
-@pytest.mark.parametrize("options", [{}, {"amplitude": "single", "deformation": "tension"}])
-def test_factors_written_are_read_again(tmp_path, options):
-    lines = [TITLES, *rows(20.0, 1.0, 0.02), *rows(60.0, 1.0, 0.05)]
-    law = softening_of_sweeps(read_strain_sweeps(write(tmp_path, lines), **options))
-    again = softening_of_sweeps(
-        read_strain_sweeps(write_softening_factors(tmp_path / "f.csv", law))
-    )
-    assert (again.deformation, again.amplitude_assumed) == (law.deformation, law.amplitude_assumed)
-    at = np.geomspace(1e-3, 0.3, 7)
-    # six digits are written
-    assert again.factors(at, 310.0).loss == pytest.approx(law.factors(at, 310.0).loss, rel=1e-4)
 
 
 def test_strain_sweeps_are_told_from_frequency_sweeps(tmp_path):

@@ -2,8 +2,8 @@
 
 import pytest
 
-from gripscale.cli.run_case import run_case
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
+from tests.run_case import run_case
 from tests.verification.families import ROOT
 
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"

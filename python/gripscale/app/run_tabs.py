@@ -38,7 +38,7 @@ from gripscale.questions.registry import Form
 from gripscale.questions.words import AXIS_TITLES, HEADINGS, SYMBOLS
 from gripscale.report.elements import Element, Text
 
-POLL = 500  # milliseconds between two readings of the events of a run
+POLL = 500  # milliseconds between two readings of the text of a run
 REPORTS = "reports"  # where the server gives the pages of results, by visit and run
 NO_RUN = "<p>No case was run yet.</p>"
 
@@ -56,7 +56,7 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         label="others, by name", margin=(4, 8), sizing_mode="stretch_width", max_width=420
     )
     fields: dict[str, pn.widgets.TextInput | pn.widgets.Select] = {}
-    bar = pn.indicators.Progress(value=0, max=100, sizing_mode="stretch_width", visible=False)
+    bar = pn.indicators.Progress(value=-1, sizing_mode="stretch_width", visible=False)
     status, answer, output = elements.column(), elements.column(), elements.code("")
     folded_output = elements.folded_card("Command and output", output, visible=False)
 
@@ -90,14 +90,10 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
             run = runs.start(command, values, names if command.others else ())
             stop.visible = True
             while run.running:
-                show_progress(run)
+                bar.visible = True
+                show_output(run)
                 await asyncio.sleep(POLL / 1e3)
             await conclude(run)
-
-    def show_progress(run: AppRun) -> None:
-        share = run.progress().share
-        bar.param.update(visible=True, value=-1 if share is None else round(100 * share))
-        show_output(run)
 
     def show_output(run: AppRun) -> None:
         status.objects = [elements.html(run_status(run))]
@@ -137,7 +133,7 @@ def run_status(run: AppRun) -> Element:
     """Return the state of a run in a sentence; what it failed with is the problem of the case."""
     words = {
         "running": f"is running: {run.how_far()}.",
-        "stopped": f"was stopped ({run.how_far()}); the same case continues from there.",
+        "stopped": f"was stopped ({run.how_far()}).",
         "failed": "failed.",
         "finished": "has finished; the next tab shows its page.",
     }

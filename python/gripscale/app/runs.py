@@ -1,8 +1,7 @@
 """Runs of one visit: each is a `gripscale` command in its own process, which writes into a folder.
 
-The process of `gripscale run` writes its events to one file beside the results, each process its
-text to another. Stopping a run ends the process and all it started; what
-it finished stays, and a run of the same case continues from there.
+Each process writes its text to a file beside the results. Stopping a run ends the process and all
+it started; what it finished stays.
 """
 
 from __future__ import annotations
@@ -13,8 +12,8 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -24,88 +23,12 @@ import param
 from gripscale.app.case import CaseState
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.folders import write_text
-from gripscale.questions.chain.events import (
-    AnswerSolved,
-    Event,
-    PredictionFinished,
-    RunFailed,
-    RunStarted,
-    WaveSolved,
-    event_from_json,
-)
 from gripscale.questions.registry import Form, forms
 from gripscale.questions.terminal import PROGRESS_LINES
 
-RUN_COMMAND = "run"
-COMMANDS = (Form(RUN_COMMAND, "Contact and friction", "The case as it is stated."), *forms())
+COMMANDS = (Form("run", "Contact and friction", "The case as it is stated."), *forms())
 REPORT = "report.html"  # the page of a result in its folder, as `gripscale report` names it
 GRACE = 5.0  # seconds a process has to end before it is killed
-
-
-_LAST_STAGES = {
-    "waves": "all waves are solved; direct contact and figures follow",
-    "direct contact": "the direct contact is solved; the figures follow",
-}
-
-
-@dataclass(frozen=True)
-class RunProgress:
-    """How far a run is: what its last events state.
-
-    The numbers of predictions and waves are known from the start. How many passes rubber and
-    contact need until they agree is not, nor how long direct contact and figures take.
-    """
-
-    start: RunStarted | None = None
-    wave: WaveSolved | None = None
-    finished: tuple[str, ...] = ()  # predictions that came to their end, with a solution or without
-    last_stage: str = "waves"  # one of `_LAST_STAGES`: what was solved last
-
-    @classmethod
-    def of(cls, events: Iterable[Event]) -> RunProgress:
-        """Return how far the run is that reported `events`."""
-        progress = cls()
-        for event in events:
-            match event:
-                case RunStarted():
-                    progress = cls(event)
-                case WaveSolved():
-                    progress = replace(progress, wave=event)
-                case PredictionFinished():
-                    finished = (*progress.finished, event.prediction)
-                    progress = replace(progress, finished=finished)
-                case AnswerSolved():
-                    progress = replace(progress, last_stage="direct contact")
-        return progress
-
-    @property
-    def solved(self) -> bool:
-        """Whether all predictions came to their end."""
-        return self.start is not None and len(self.finished) == len(self.start.predictions)
-
-    @property
-    def share(self) -> float | None:
-        """Share of the waves that are solved, from 0 to 1; None where their number is unknown."""
-        if self.start is None or self.start.iterated or self.solved:
-            return None
-        share = float(len(self.finished))
-        if self.wave is not None and self.wave.prediction not in self.finished:
-            share += self.wave.number / self.wave.count
-        return share / len(self.start.predictions)
-
-    @property
-    def sentence(self) -> str:
-        """How far the run is, in words."""
-        if self.start is None or self.wave is None:
-            return "reading and fitting"
-        if self.solved:
-            return _LAST_STAGES[self.last_stage]
-        names, parts = self.start.predictions, []
-        if len(names) > 1:
-            parts.append(f"prediction {names.index(self.wave.prediction) + 1} of {len(names)}")
-        if self.start.iterated:
-            parts.append(f"pass {self.wave.pass_number} until rubber and contact agree")
-        return ", ".join([*parts, f"wave {self.wave.number} of {self.wave.count}"])
 
 
 @dataclass
@@ -122,20 +45,18 @@ class AppRun:
     _process: Any = field(default=None, init=False, repr=False)
 
     def start(self) -> None:
-        """Start the process; its events and its text go into files beside the results."""
+        """Start the process; its text goes into a file beside the results."""
         atexit.register(self.stop)
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / REPORT).unlink(missing_ok=True)
-        reports = self.command.command == RUN_COMMAND
         command = [sys.executable, "-m", "gripscale", *self.words]
-        command += ["--progress", "json"] if reports else []
         process_group: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}
-        with self._events_file.open("wb") as events, self._log_file.open("wb") as log:
+        with self._log_file.open("wb") as log:
             self._process = subprocess.Popen(
                 [*command, "--output", str(self.folder)],
                 cwd=self.case.parent,
                 stdin=subprocess.DEVNULL,
-                stdout=events if reports else log,
+                stdout=log,
                 stderr=log,
                 env=os.environ | {"PYTHONUNBUFFERED": "1", "COLUMNS": "110", PROGRESS_LINES: "1"},
                 **process_group,
@@ -201,19 +122,8 @@ class AppRun:
             self._process.terminate()
 
     @property
-    def _events_file(self) -> Path:
-        return self.folder.with_name(f"{self.folder.name}.events.jsonl")
-
-    @property
     def _log_file(self) -> Path:
         return self.folder.with_name(f"{self.folder.name}.log.txt")
-
-    def events(self) -> list[Event]:
-        """Return the events the process reported so far."""
-        if not self._events_file.exists():
-            return []
-        lines = self._events_file.read_text(encoding="utf-8", errors="replace").splitlines()
-        return [event for event in map(event_from_json, lines) if event is not None]
 
     def log(self) -> str:
         """Return the text the process printed so far."""
@@ -223,23 +133,14 @@ class AppRun:
 
     def failure(self) -> str:
         """Return the sentence the process failed with; its last line if it broke off."""
-        for event in self.events():
-            if isinstance(event, RunFailed):
-                return event.message
         return self.last_line().removeprefix("error: ") if self.state == "failed" else ""
 
     def last_line(self) -> str:
         """Return what the process printed last."""
         return self.log().rstrip().rpartition("\n")[2].strip()
 
-    def progress(self) -> RunProgress:
-        """Return how far it is."""
-        return RunProgress.of(self.events())
-
     def how_far(self) -> str:
         """Return how far it is, in words."""
-        if self.command.command == RUN_COMMAND:
-            return self.progress().sentence
         return self.last_line() or "starting"
 
 

@@ -14,7 +14,7 @@ import os
 import re
 import time
 import tomllib
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import count
@@ -35,7 +35,6 @@ from gripscale.io.folders import (
     write_text,
 )
 from gripscale.io.netcdf import write_whole
-from gripscale.io.table import Table
 from gripscale.io.text_table import read_bytes
 
 SAVED_CASE, INPUTS = "case.toml", "inputs"
@@ -129,7 +128,7 @@ NOTE = ".finished.json"
 REPORT_PAGE = "report.html"
 # Everything a run may write into its folder, beside copies of the files the case names.
 RESULT_FILES = (
-    *(NOTE, SAVED_CASE, REPORT_PAGE, "report.txt", "chain.txt", "summary.xlsx"),
+    *(NOTE, SAVED_CASE, REPORT_PAGE, "report.txt", "chain.txt"),
     *("dynamic.nc", "static.nc", "answer.nc", "cut_off.nc"),
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
@@ -208,23 +207,13 @@ def is_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> 
         return False
 
 
-def note_finished(
-    file: CaseFile, folder: Path, others: tuple[Path, ...] = (), report: Sequence[str | Table] = ()
-) -> None:
-    """Note that `folder` holds all results of a case, and the `report` on them."""
+def note_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> None:
+    """Note that `folder` holds all results of a case."""
     kept = {NOTE, REPORT_PAGE}  # a page may be written anew
     present = [name for name in RESULT_FILES if name not in kept and (folder / name).is_file()]
     present += [path.relative_to(folder).as_posix() for path in folder.glob("figures/direct_*")]
-    files = _files(folder, present)
-    parts = [part if isinstance(part, str) else [part.to_json()] for part in report]
-    noted = json.dumps({"key": _key(file, others), "files": files, "report": parts})
+    noted = json.dumps({"key": _key(file, others), "files": _files(folder, present)})
     write_whole(folder / NOTE, lambda path: path.write_text(noted, encoding="utf-8"))
-
-
-def finished_report(folder: Path) -> list[str | Table]:
-    """Return the report on the finished results of a folder."""
-    noted = json.loads((folder / NOTE).read_text(encoding="utf-8"))
-    return [part if isinstance(part, str) else Table.from_json(*part) for part in noted["report"]]
 
 
 def _key(file: CaseFile, others: tuple[Path, ...]) -> str:

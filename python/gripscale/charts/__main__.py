@@ -19,16 +19,9 @@ def messages() -> Iterator[Any]:
 
 
 def draw_messages(folder: FigureFolder) -> None:
-    """Draw each figure with its name, and write them from the message None on."""
-    held: list[tuple[dict[str, bytes], str]] = []
-    released = False
-    for message in messages():
-        if message is not None:
-            figure, name = message
-            held.append((folder.rendered(figure), name))
-        released = released or message is None
-        while released and held:
-            folder.write(*held.pop(0))
+    """Draw each figure under its name."""
+    for figure, name in messages():
+        folder.save(figure, name)
 
 
 if __name__ == "__main__":

@@ -49,10 +49,7 @@ class FigureFolder:
 
 
 class FigureProcess:
-    """A folder of figures that another process draws, in the order in which they are saved.
-
-    It writes none before `release`: a run draws its inputs before it may clear its folder.
-    """
+    """A folder of figures that another process draws, in the order in which they are saved."""
 
     def __init__(self, folder: FigureFolder) -> None:
         command = [sys.executable, "-m", "gripscale.charts"]
@@ -65,10 +62,6 @@ class FigureProcess:
     def save(self, figure: Drawing, name: str) -> None:
         """Hand over the description of a figure; what goes wrong is raised by `close`."""
         self._send((figure, name))
-
-    def release(self) -> None:
-        """Let the process write what it has drawn, and what it will draw."""
-        self._send(None)
 
     def close(self) -> None:
         """Wait for the last figure; raise `FileError` if one could not be drawn or written."""

@@ -316,15 +316,13 @@ def _written(prepared: MeasuredRubber | None, law: SofteningTable | None, output
     from gripscale.charts.figure_folder import FigureFolder
     from gripscale.io.folders import make_folder, write_text
     from gripscale.questions.inputs.charts_of_rubber import rubber_figures, softening_sheet
-    from gripscale.rubber.softening import write_softening_factors
 
     make_folder(output)
     figures = FigureFolder(output, _FIGURES)
     if law is not None:
         figures.save(softening_sheet(law), "softening")
-        write_softening_factors(output / "softening_factors.csv", law)
     if prepared is None:
-        return "Figure and factors of the softening are"
+        return "The figure is"
     rubber_figures(prepared, (), figures)
     master, sweeps = prepared.master, prepared.sweeps
     if master is None or sweeps is None:

@@ -4,28 +4,15 @@ from __future__ import annotations
 
 import importlib
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from datetime import datetime
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.core.errors import FileError
 from gripscale.questions import terminal
 from gripscale.questions.terminal import CasePath, argument, case_command, command, option
-
-if TYPE_CHECKING:
-    from gripscale.questions.chain.events import Event, OnEvent
-
-
-class ProgressFormat(StrEnum):
-    """How `gripscale run` reports what it does."""
-
-    TEXT = "text"
-    JSON = "json"
 
 
 @case_command
@@ -46,76 +33,46 @@ def run(
             "--chain", help="Print the paper's chain of waves too, wave by wave, for comparison."
         ),
     ] = False,
-    progress: Annotated[
-        ProgressFormat,
-        typer.Option(
-            help="json: write a line of JSON for each event to standard output, and all text to "
-            "standard error."
-        ),
-    ] = ProgressFormat.TEXT,
 ) -> None:
-    """Answer with contact area and friction of a case; goes on where it was stopped."""
+    """Answer with contact area and friction of a case."""
     from gripscale.case_file.folder import is_finished, note_finished
     from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
     from gripscale.io.folders import require_writable
 
-    as_json = progress == ProgressFormat.JSON
-    if as_json and terminal.MANNER.get().json:
-        raise InputError("expected either --json (the result) or --progress json (its events)")
-    terminal.MANNER.set(terminal.MANNER.get()._replace(events=as_json))
-    with _json_events(progress) as emit:
-        work = terminal.CaseCommand(case)
-        file = work.file
-        target = output if output is not None else file.resolve(file.case.output.folder)
-        shown_too = (target / "uncertainty" / "uncertainty.nc",)
-        if not (fresh or as_json) and is_finished(file, target, shown_too):
-            _show_again(work, target, chain=chain)
-            return
-        require_writable(target)
-        terminal.RESULTS_FOLDER.set(target)
-        kinds = file.case.output.figures
-        with figures_elsewhere(FigureFolder(target / "figures", kinds)) as figures:
-            from gripscale.cli.solve_run import solve_run  # while the other process starts
+    work = terminal.CaseCommand(case)
+    file = work.file
+    target = output if output is not None else file.resolve(file.case.output.folder)
+    shown_too = (target / "uncertainty" / "uncertainty.nc",)
+    if not fresh and is_finished(file, target, shown_too):
+        _show_again(work, target, chain=chain)
+        return
+    require_writable(target)
+    terminal.RESULTS_FOLDER.set(target)
+    with figures_elsewhere(FigureFolder(target / "figures", file.case.output.figures)) as figures:
+        from gripscale.cli.solve_run import solve_run  # while the other process starts
 
-            report = solve_run(work, emit, target, figures, fresh=fresh, show_chain=chain)
-            note_finished(file, target, shown_too, report)
+        solve_run(work, target, figures, show_chain=chain)
+        note_finished(file, target, shown_too)
 
 
 def _show_again(work: terminal.CaseCommand, target: Path, *, chain: bool) -> None:
-    """Print the report on a finished run once more, as wide as the terminal is now."""
-    from gripscale.case_file.folder import finished_report
+    """Print the answer of a finished run once more."""
     from gripscale.case_file.prepare import named_files
     from gripscale.questions.answer.answer import ANSWER_FILE
     from gripscale.questions.chain.run import CHAIN_REPORT
+    from gripscale.questions.result import warning_lines
     from gripscale.questions.stored import load
 
     console, answer = work.console, load(target / ANSWER_FILE)
     time = (target / terminal.RUN_REPORT).stat().st_mtime
-    terminal.print_parts(console, finished_report(target))
+    findings = warning_lines(answer.findings, terminal.RUN_REPORT, answer.half_widths)
+    terminal.print_parts(console, [*answer.lines, *findings])
     if chain and (target / CHAIN_REPORT).is_file():
         console.print((target / CHAIN_REPORT).read_text(encoding="utf-8"), soft_wrap=True)
     finished = f"Finished {datetime.fromtimestamp(time):%Y-%m-%d %H:%M}."
     same = "Case, files and software are the same; nothing was solved again (--fresh does)."
-    closing = f"{finished} {same} {terminal.RUN_CLOSING} {target}"
-    terminal.print_parts(console, ["", closing, answer.lines[0]])
+    terminal.print_parts(console, ["", f"{finished} {same} {terminal.RUN_CLOSING} {target}"])
     terminal.print_result(answer, work.file.path, named_files(work.file))
-
-
-@contextmanager
-def _json_events(progress: ProgressFormat) -> Iterator[OnEvent]:
-    """Give what writes an event to standard output, if asked for; the last tells the exit code."""
-    from gripscale.questions.chain.events import RunFailed, RunFinished, event_to_json
-
-    def emit(event: Event) -> None:
-        if progress == ProgressFormat.JSON:
-            print(event_to_json(event), flush=True)
-
-    try:
-        yield emit
-    except (GripscaleError, KeyboardInterrupt) as error:
-        emit(RunFailed(*terminal.failure_of(error)))
-        raise
-    emit(RunFinished())
 
 
 @command

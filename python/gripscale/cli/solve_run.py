@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gripscale.case_file import CaseFile
-from gripscale.cli.run_case import run_case
+from gripscale.case_file import folder
 from gripscale.core.provenance import version_of
 from gripscale.io.table import Table, as_text
 from gripscale.questions import terminal
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, answer_with_inputs
 from gripscale.questions.answer.page import slopes_table
-from gripscale.questions.answer.reliance import headline
 from gripscale.questions.answer.waves import waves_answer
-from gripscale.questions.chain import events
 from gripscale.questions.chain.charts import heat_sheet
 from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
 from gripscale.questions.chain.run import CHAIN_REPORT, DYNAMIC, ChainRun
-from gripscale.questions.chain.run_figures import background_figures
+from gripscale.questions.chain.run_figures import draw_contact, draw_inputs
 from gripscale.questions.chain.view import PredictionView, title
 from gripscale.questions.compare.page import judgement
 from gripscale.questions.cut_off.question import CutOff, cut_off_result
 from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.result import warning_lines
-from gripscale.questions.summary_table import SUMMARY_FILE
 from gripscale.questions.uncertainty.page import uncertainty_lines
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.questions.words import OF_THE_PAPER
@@ -37,80 +32,70 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from gripscale.case import Case
+    from gripscale.chain.prediction import ChainResult
     from gripscale.charts.figure_folder import Figures
-    from gripscale.core.units import DisplayUnit
 
 REPORT_WIDTH = 110  # characters of the lines of the report
 
 
 def solve_run(
-    work: terminal.CaseCommand,
-    emit: events.OnEvent,
-    target: Path,
-    figures: Figures,
-    *,
-    fresh: bool,
-    show_chain: bool,
-) -> Sequence[str | Table]:
-    """Prepare, solve, print and write a case, with an event for each step; return its report."""
+    work: terminal.CaseCommand, target: Path, figures: Figures, *, show_chain: bool
+) -> None:
+    """Prepare, solve, print and write a case."""
     case, console = work.case, work.console
-    chain, measured = ChainRun.of(case, target, fresh=fresh), case.surface.measured is not None
+    chain, measured = ChainRun(case), case.surface.measured is not None
     header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
     work.open_results(target, "", header)
-    with background_figures(chain, figures) as draw:
-        if measured:
-            terminal.show_step(console, "solving the direct contact ...")
-            chain.answer = answer(case, folder=target)
-            _print_answer(console, case, chain.answer)
-        _solve(console, emit, work.file, chain, draw)
-        if chain.answer is None:
-            waves = chain.dataset(next(iter(chain.predictions)))
-            chain.answer = answer_with_inputs(case, waves_answer(case, waves))
-            _print_answer(console, case, chain.answer)
-        chain.answer.save(target / ANSWER_FILE)
-        friction, area = (
-            headline(chain.answer.data, name).value for name in ("friction", "contact_fraction")
-        )
-        emit(events.AnswerSolved(chain.answer.status == "converged", area, friction))
-        emit(events.FileWritten(str(target / ANSWER_FILE)))
-        if chain.answer.curve is not None:
-            cut_off_result(chain.answer.curve, case).save(target / "cut_off.nc")
-        of_chain, heat = _chain_parts(chain)
-        parts, files = _parts(chain, chain.answer, target), {}
-        if not measured:
-            parts = [*of_chain, *parts]
-        else:
-            files = {CHAIN_REPORT: as_text(*of_chain, width=REPORT_WIDTH)}
-            if show_chain:
-                terminal.print_parts(console, ["", *of_chain])
+    if measured:
+        terminal.show_step(console, "solving the direct contact ...")
+        chain.answer = answer(case, folder=target)
+        _print_answer(console, case, chain.answer)
+    replaced = folder.earlier_run(target)
+    if replaced:
+        terminal.print_wrapped(console, replaced)
+    folder.prepare(target, work.file)
+    draw_inputs(chain, figures)
+    terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
+    chain.solve(target, lambda so_far: _print_wave(console, case, so_far))
+    if chain.answer is None:
+        waves = chain.dataset(next(iter(chain.predictions)))
+        chain.answer = answer_with_inputs(case, waves_answer(case, waves))
+        _print_answer(console, case, chain.answer)
+    chain.answer.save(target / ANSWER_FILE)
+    if chain.answer.curve is not None:
+        cut_off_result(chain.answer.curve, case).save(target / "cut_off.nc")
+    of_chain, heat = _chain_parts(chain)
+    parts, files = _parts(chain, chain.answer, target), {}
+    if not measured:
+        parts = [*of_chain, *parts]
+    else:
+        files = {CHAIN_REPORT: as_text(*of_chain, width=REPORT_WIDTH)}
+        if show_chain:
+            terminal.print_parts(console, ["", *of_chain])
 
-    def draw_conditions() -> None:
+    def draw() -> None:
+        draw_contact(chain, figures)
         if heat is not None:
             figures.save(heat_sheet(heat), "heat")
 
-    # after the figures of the other thread: matplotlib reads formulas in one thread at a time
-    report = work.conclude(
+    work.conclude(
         chain.answer,
         parts,
         answer_printed=True,
-        results=[chain.answer.data, *(chain.dataset(name) for name in chain.predictions)],
         text=terminal.RUN_REPORT,
         closing=terminal.RUN_CLOSING,
         page=lambda page: write_report(target, page),
         opening=[f"{header}: {case.title}", "", *_inputs(case)],
         width=REPORT_WIDTH,
         files=files,
-        draw=draw_conditions,
+        draw=draw,
     )
-    emit(events.FileWritten(str(target / terminal.RUN_REPORT)))
-    emit(events.FileWritten(str(target / SUMMARY_FILE)))
     terminal.print_wrapped(console, chain.answer.lines[0])
     failures = list(chain.failures.values())
     for failure in failures[:-1]:
         terminal.print_error(explained(failure))
     if failures:
         raise failures[-1]
-    return report
 
 
 def _print_answer(console: Console, case: Case, answer: Answer) -> None:
@@ -118,25 +103,6 @@ def _print_answer(console: Console, case: Case, answer: Answer) -> None:
     terminal.end_steps()
     findings = warning_lines(answer.findings, terminal.RUN_REPORT, answer.half_widths)
     terminal.print_parts(console, ["", *answer.lines, *findings, "", *_inputs(case)])
-
-
-def _solve(
-    console: Console,
-    emit: events.OnEvent,
-    file: CaseFile,
-    chain: ChainRun,
-    draw: events.OnEvent,
-) -> None:
-    """Solve and write the chain."""
-    print_event = _event_printer(console, chain.case.display_unit("speed"))
-
-    def on_event(event: events.Event) -> None:
-        emit(event)
-        print_event(event)
-        draw(event)
-
-    terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
-    run_case(file, output=chain.folder, on_event=on_event, run=chain)
 
 
 def _inputs(case: Case) -> list[str]:
@@ -154,25 +120,15 @@ def _inputs(case: Case) -> list[str]:
     return lines
 
 
-def _event_printer(console: Console, speed_unit: DisplayUnit) -> events.OnEvent:
-    """Return what prints a sentence for each event that a person waits for."""
-
-    def print_event(event: events.Event) -> None:
-        match event:
-            case events.ResultsReplaced():
-                terminal.print_wrapped(console, event.message)
-            case events.WaveSolved():
-                parts = [
-                    f"{title(event.speed, speed_unit)}, pass {event.pass_number}, "
-                    f"wave {event.number} of {event.count}: {event.wavelength * 1e3:.3g} mm",
-                    f"contact {event.contact_fraction:.3f}",
-                ]
-                if event.speed > 0.0:
-                    parts.append(f"friction {event.friction:.3f}")
-                parts.append("already solved" if event.stored else f"{event.seconds:.1f} s")
-                terminal.show_step(console, ", ".join(parts))
-
-    return print_event
+def _print_wave(console: Console, case: Case, so_far: ChainResult) -> None:
+    """Show how far a prediction is."""
+    wave = so_far.scales[-1]
+    terminal.show_step(
+        console,
+        f"{title(wave.speed, case.display_unit('speed'))}, "
+        f"wave {len(so_far.scales)} of {so_far.planned}: {wave.wavelength * 1e3:.3g} mm, "
+        f"contact {wave.contact_fraction:.3f}",
+    )
 
 
 def _chain_parts(chain: ChainRun) -> tuple[list[str | Table], xr.Dataset | None]:

@@ -11,7 +11,6 @@ import csv
 import html
 import io
 import itertools
-import json
 import math
 import re
 import textwrap
@@ -198,21 +197,6 @@ class Table(Described):
 
     def __len__(self) -> int:
         return len(self.columns[0].values) if self.columns else 0
-
-    def to_json(self) -> str:
-        """Return the table as shown, with the texts of its numbers."""
-        columns = [
-            {**vars(column), "format": None, "values": column.texts(), "words": column.as_words}
-            for column in self.columns
-        ]
-        content = {**vars(self), "columns": columns}
-        return json.dumps(content, default=lambda flags: np.array([*flags]).tolist())
-
-    @classmethod
-    def from_json(cls, text: str) -> Table:
-        """Return the table of `to_json`."""
-        content = json.loads(text)
-        return cls(**{**content, "columns": [Column(**column) for column in content["columns"]]})
 
     def is_bad(self, column: Column, row: int) -> bool:
         """Return whether a cell must not be trusted."""

@@ -1,4 +1,4 @@
-"""The answers of a command as one flat table for Excel: a row for each, all its numbers in it.
+"""The answers of a question as one flat table: a row for each, all its numbers in it.
 
 A row is a place on the dimensions of the status of a result: a prediction, a model of a comparison,
 a point of a study. What holds for several rows stands in each of them; of models side by side, the
@@ -8,7 +8,6 @@ answer in that of the direct contact.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,12 +15,10 @@ import xarray as xr
 
 from gripscale.core.finding import sentences
 from gripscale.io.table import Column, Table
-from gripscale.io.workbook import write_workbook
 from gripscale.model import STATUS, input_doubts_of
 from gripscale.questions.answer.estimate import ANSWER_NUMBERS, DIRECT
 from gripscale.questions.answer.reliance import has_answer, no_answer
 
-SUMMARY_FILE = "summary.xlsx"
 # Numbers of which a result has a row for each value: the first that is in it counts.
 ROWS = (STATUS, "status", "gain", "force")
 DOUBTS = "not_to_rely_on"
@@ -40,16 +37,6 @@ ABOUT = (
 )
 _UNITS = {"nominal_pressure": "Pa", "nominal_speed": "m/s", "footprint": "m"}
 LEFT_OUT = ("prediction_key", "seconds")
-
-
-def write_summary(results: Sequence[xr.Dataset], folder: Path) -> Path | None:
-    """Write the summary of results of a command into their folder; return the file.
-
-    None without any result. Raises `FileError` if it cannot be written.
-    """
-    if not results:
-        return None
-    return write_workbook([summary_table(results)], folder / SUMMARY_FILE)
 
 
 def summary_table(results: Sequence[xr.Dataset]) -> Table:

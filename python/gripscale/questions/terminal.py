@@ -17,7 +17,6 @@ import typer
 from gripscale.core import ConvergenceError, GripscaleError, Words
 
 if TYPE_CHECKING:
-    import xarray as xr
     from pydantic import BaseModel
     from rich.console import Console
     from rich.status import Status
@@ -42,7 +41,6 @@ class Manner(NamedTuple):
     quiet: bool = False
     json: bool = False
     replace: bool = False
-    events: bool = False  # whether standard output has events for a program
 
 
 _USUAL = Manner()
@@ -57,7 +55,6 @@ def screen(stderr: bool = False) -> Console:
     from rich.console import Console
 
     manner = MANNER.get()
-    stderr = stderr or manner.events
     stream = sys.stderr if stderr else sys.stdout
     wide = None if stream.isatty() or "COLUMNS" in os.environ else PLAIN_WIDTH
     quiet = not stderr and (manner.quiet or manner.json)
@@ -82,8 +79,7 @@ def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
         target = RESULTS_FOLDER.get()
         if target is None or not any(target.rglob("[!.]*.nc")):
             return "Stopped; nothing was finished.", STOPPED
-        kept = f"what was finished is kept in {target}, and the same command continues from there"
-        return f"Stopped; {kept}.", STOPPED
+        return f"Stopped; what was finished is kept in {target}.", STOPPED
     from gripscale.report.failures import explained
 
     exit_code = _NOT_CONVERGED if isinstance(error, ConvergenceError) else BAD_INPUT
@@ -444,23 +440,20 @@ class CaseCommand:
         draw: Callable[[], object],
         opening: Sequence[str | Table] = (),
         answer_printed: bool = False,
-        results: Sequence[xr.Dataset] = (),
         width: int = PLAIN_WIDTH,
         files: Mapping[str, str] | None = None,
         page: Callable[[Path], Path] | None = None,
-    ) -> Sequence[str | Table]:
+    ) -> None:
         """Print and write what the command found, draw figures and page, set the exit code.
 
         The answer, unless it is printed already, the first findings and `parts` are printed, or the
         answer alone where no more is asked for. The file `text`, with lines of `width`, has the
-        answer, all findings, then `opening`, which the screen shows already, then `parts`: these
-        are returned. `files` are further texts by name; the numbers of `results` are written as a
-        flat table for Excel. `closing` says what is in the folder.
+        answer, all findings, then `opening`, which the screen shows already, then `parts`. `files`
+        are further texts by name. `closing` says what is in the folder.
         """
         from gripscale.io.folders import write_text
         from gripscale.io.table import as_text
         from gripscale.questions.result import warning_lines
-        from gripscale.questions.summary_table import write_summary
 
         target, console, findings = self.target, self.console, result.findings
         end_steps()
@@ -472,7 +465,6 @@ class CaseCommand:
         texts = {text: as_text(*above, *parts, width=width), **(files or {})}
         for name, content in texts.items():
             write_text(target / name, content)
-        write_summary(results or [result.data], target)
         show_step(console, "drawing figures and page ...")
         draw()
         try:
@@ -485,4 +477,3 @@ class CaseCommand:
         if result.failure:
             print_error(result.failure)
             raise typer.Exit(_NOT_CONVERGED)
-        return [*above, *parts]

@@ -29,7 +29,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
@@ -37,9 +36,6 @@ from numpy.typing import ArrayLike
 
 from gripscale.core import Array, Checked, Mask, checked, checks
 from gripscale.core.errors import InputError
-from gripscale.core.units import ZERO_CELSIUS
-from gripscale.io.folders import write_text
-from gripscale.io.text_table import file_path
 from gripscale.rubber.material import Rubber, loss_shape, storage_shape
 from gripscale.rubber.strain_sweeps import DEFORMATIONS, ONE_FREQUENCY, Deformation, StrainSweep
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, neighbours_of
@@ -337,24 +333,6 @@ def softening_of_sweeps(
     return SofteningTable(
         strain, storage, loss, measured_at, sweeps[0].deformation, temperatures, assumed
     )
-
-
-def write_softening_factors(path: str | Path, law: SofteningTable) -> Path:
-    """Write moduli over those of the master curve as CSV, which `read_strain_sweeps` reads.
-
-    Raises `FileError` if it cannot be written.
-    """
-    amplitude = "" if law.amplitude_assumed else "single "
-    titles = [f"{amplitude}{law.deformation or ''} strain amplitude [-]".lstrip()]
-    titles += [f"{name} over that of the master curve [-]" for name in ("storage", "loss")]
-    sweeps = [[strains, *law.of_sweep(at, strains)] for at, strains in enumerate(law.strain)]
-    rows = np.hstack(sweeps)
-    if law.temperature is not None:
-        titles.append("temperature [C]")
-        celsius = np.repeat(law.temperature, [*map(len, law.strain)]) - ZERO_CELSIUS
-        rows = np.vstack([rows, celsius])
-    lines = (",".join(map("{:.6g}".format, row)) for row in rows.T)
-    return write_text(file_path(path), "\n".join([",".join(titles), *lines, ""]))
 
 
 def assumptions(law: SofteningLaw) -> Iterator[str]:

@@ -95,7 +95,6 @@ def test_command_and_page_lead_with_the_answer(folder, shell: Shell):
     assert "roughness down to 0.2" in " ".join(lines[answer : answer + 2])
     assert (out / "figures" / "cut_off.png").is_file()
     assert (out / "cut_off.txt").read_text(encoding="utf-8").startswith("Answer: ")
-    assert (out / "summary.xlsx").is_file()
     page = write_report(out).read_text(encoding="utf-8")
     assert " against the cut-off</h1>" in page
     refused = shell("cut-off", folder / "case.toml", "--down-to", "soon")

@@ -376,7 +376,6 @@ def test_the_command_writes_what_it_says(case: Path, shell: Shell, tmp_path: Pat
     result = shell(*arguments, "--rubber", "styrene_butadiene", "--goal", "speed=0.1 m/s")
     assert result.exit_code == 0, result.output
     text = (tmp_path / "design.txt").read_text(encoding="utf-8")
-    assert (tmp_path / "summary.xlsx").is_file()
     assert text.startswith("Answer: ")
     assert "styrene_butadiene" in text
     assert (tmp_path / "design.png").stat().st_size > 10_000

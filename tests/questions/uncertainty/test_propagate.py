@@ -247,7 +247,6 @@ def test_the_command_writes_result_table_and_figures(folder, tmp_path):
     }
     assert netcdf.load_dataset(tmp_path / "uncertainty.nc").sizes["sample"] == ENOUGH
     text = (tmp_path / "uncertainty.txt").read_text()
-    assert (tmp_path / "summary.xlsx").is_file()
     assert "Quantiles of the samples, without the factors of the answer" in text
     page = write_report(tmp_path).read_text()
     assert "Quantiles of the samples, without the factors of the answer" in page

@@ -23,7 +23,7 @@ def test_command_solves_prints_draws_and_resumes(
     written = {
         str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
     }
-    files = {"case.toml", "study.nc", "study.txt", "summary.xlsx"}
+    files = {"case.toml", "study.nc", "study.txt"}
     assert written == files | {".case", "report.html", "figures/totals.png"}
     for words in ("speed (3) x pressure (2); 6 different predictions", "[6/6] speed"):
         assert words in result.stdout
