@@ -94,7 +94,11 @@ def case_text(
     *,
     static: bool | None = None,
 ) -> str:
-    """Return the text of a case at 3 bar and 0.3 m/s with the keys of three of its tables."""
+    """Return the text of a case at 3 bar and 0.3 m/s with the keys of three of its tables.
+
+    A measured rubber is unfilled: its moduli do not fall with the strain.
+    """
+    rubber = f"filled = false\n{rubber}" if "file = " in rubber else rubber
     at_rest = "" if static is None else f"static = {str(static).lower()}\n"
     return (
         f"[surface]\n{surface}\n\n[rubber]\n{rubber}\n\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from gripscale.case_file import (
 )
 from gripscale.chain import solve_chain
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
+from gripscale.conditions.flash_temperature import STONE
 from gripscale.core.errors import InputError
 from gripscale.rubber import WLF
 from gripscale.rubber.softening import Kraus, SofteningTable, assumptions
@@ -82,6 +84,9 @@ def test_a_run_is_the_prediction_under_its_conditions(tmp_path: Path) -> None:
     results = run_case(file, output=tmp_path / "results")
     case = results.case
     load = case.load
+    effects = stated(file)
+    assert effects is not None
+    assert case.conditions == replace(effects, counterface=STONE)
     own = solve_chain(
         case.rubber,
         case.surface.sines,
@@ -89,7 +94,7 @@ def test_a_run_is_the_prediction_under_its_conditions(tmp_path: Path) -> None:
         speed=load.speed,
         footprint=load.footprint,
         solver="half_plane",
-        conditions=stated(file),
+        conditions=case.conditions,
     )
     assert results.dynamic is not None
     assert results.dynamic.friction == own.friction

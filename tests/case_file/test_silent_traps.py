@@ -41,6 +41,7 @@ smallest_wavelength = "1 mm"
 [rubber]
 file = "dma.txt"
 reference_temperature = "20 C"
+filled = false
 [load]
 pressure = "3 bar"
 speed = "0.3 m/s"

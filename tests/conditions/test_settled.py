@@ -5,6 +5,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions, fixed_point
+from gripscale.half_space import conditions as half_space
 from gripscale.rubber.softening import Kraus
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave import FiniteStrainBlock
@@ -33,8 +34,10 @@ def half_plane(conditions):
     return gs.solve_chain(RUBBER, SINES, conditions=conditions, **options, **LOAD)
 
 
-def direct(conditions):
-    return gs.solve_rough_contact(RUBBER, LINE, conditions=conditions, **DIRECT)
+def direct(conditions, tolerance=2.5e-3):
+    """Settle to a fifth of the tolerance of the contact, as far as a chain does."""
+    options = DIRECT | {"tolerance": tolerance}
+    return gs.solve_rough_contact(RUBBER, LINE, conditions=conditions, **options)
 
 
 @pytest.fixture
@@ -45,6 +48,8 @@ def tight(monkeypatch):
         with monkeypatch.context() as patch:
             for name in ("RESULT_TOLERANCE", "STATE_TOLERANCE", "COARSE_TOLERANCE"):
                 patch.setattr(fixed_point, name, 1e-6)
+            patch.setattr(half_space, "STATE_TOLERANCE", 1e-6)
+            patch.setattr(half_space, "_LOOSEST", 1e-6)
             patch.setattr(fixed_point, "MOST_PASSES", 40)
             found = model(conditions)
         assert found.converged
@@ -62,6 +67,15 @@ def test_what_settled_is_within_a_thousandth(model, conditions, tight):
     assert found.contact_fraction == pytest.approx(exact.contact_fraction, rel=1e-3)
     taken = found.passes if model is direct else found.scales[0].details["passes"]
     assert taken <= 8
+
+
+@pytest.mark.parametrize("conditions", EFFECTS[:2], ids=["softening", "heat"])
+def test_a_direct_contact_settles_within_its_tolerance(conditions, tight):
+    """To a fifth of it, beside the errors of the grid."""
+    loose, exact = direct(conditions, 0.05), tight(lambda c: direct(c, 0.05), conditions)
+    assert loose.grid.shape == exact.grid.shape
+    assert loose.friction == pytest.approx(exact.friction, rel=0.01)
+    assert loose.contact_fraction == pytest.approx(exact.contact_fraction, rel=0.01)
 
 
 @pytest.mark.parametrize(

@@ -170,7 +170,7 @@ def _conditions() -> Iterator[Door]:
     heat, shear = interface.ThermalProperties(**thermal), interface.ConstantStress(1e6)
     law = softening.Kraus(**kraus, deformation="shear")
     asked = {"temperature": 293.0, "softening": law, "strain_norm": "slope"}
-    yield Door(Conditions, {**asked, "heat": heat, "shear_stress": shear})
+    yield Door(Conditions, {**asked, "heat": heat, "shear_stress": shear, "off": ()})
 
 
 def _calibration() -> Iterator[Door]:

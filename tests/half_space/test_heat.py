@@ -12,6 +12,7 @@ from gripscale.half_space.conditions import (
     strain_by_scale,
 )
 from gripscale.half_space.grid import Grid
+from tests.half_space.heat_patterns import density_of, pattern_of
 from tests.samples import THERMAL
 
 RUBBER = gs.Rubber(5e6, np.geomspace(3e6, 3e8, 8), np.geomspace(1e-1, 1e-8, 8))
@@ -46,8 +47,9 @@ def test_the_heat_of_all_octaves_is_the_friction_work(surface):
     total = sum(heat.friction for heat in heats)
     assert total == pytest.approx(contact.friction_from_dissipation, rel=1e-10)
     for heat in heats:
-        assert heat.density.min() >= 0.0
-        assert heat.density.mean() == pytest.approx(1.0, rel=1e-12)
+        density = density_of(contact.grid, heat)
+        assert density.min() >= -1e-12 * density.max()
+        assert density.mean() == pytest.approx(1.0, rel=1e-12)
 
 
 def test_the_pattern_of_one_sine_in_full_contact_is_uniform():
@@ -57,7 +59,7 @@ def test_the_pattern_of_one_sine_in_full_contact_is_uniform():
     contact = gs.solve_rough_contact(RUBBER, wave, pressure=1e7, speed=0.3, periodic=True)
     assert contact.full_contact
     (heat,) = octave_heats(contact.grid, contact.pressure, contact.lost_by_harmonic())
-    assert heat.density == pytest.approx(1.0, rel=1e-6)
+    assert density_of(contact.grid, heat) == pytest.approx(1.0, rel=1e-6)
     assert heat.depth.mean == pytest.approx(1.5 / (2.0 * np.pi / 128e-5), rel=1e-6)
 
 
@@ -71,12 +73,13 @@ def test_the_pattern_follows_the_pressure_on_lines_and_maps(shape):
     spectrum = np.fft.rfftn(pressure)
     lost = np.abs(spectrum) ** 2 * (np.abs(grid.along) > 0.0) * np.ones(grid.spectrum_shape)
     heats = octave_heats(grid, pressure, lost / lost.sum())
-    assert np.ptp(heats[0].density) < 1e-9  # of one harmonic
-    for heat in heats[1:3]:
-        along = heat.density if len(shape) == 1 else heat.density.mean(axis=1)
+    assert np.ptp(density_of(grid, heats[0])) < 1e-9  # of one harmonic
+    densities = [density_of(grid, heat) for heat in heats[1:]]
+    for density in [each for each in densities if np.ptp(each) > 1e-9][:2]:  # of several harmonics
+        along = density if len(shape) == 1 else density.mean(axis=1)
         assert x[along.argmax()] == pytest.approx(0.3, abs=1.5 / shape[0] + 0.02)
         if len(shape) == 2:
-            assert np.ptp(heat.density, axis=1).max() < 1e-9 * heat.density.max()
+            assert np.ptp(density, axis=1).max() < 1e-9 * density.max()
 
 
 def test_the_temperature_of_one_harmonic_of_heat_is_the_closed_form():
@@ -85,7 +88,7 @@ def test_the_temperature_of_one_harmonic_of_heat_is_the_closed_form():
     x = np.arange(256) * 1e-5
     heats = octave_heats(grid, np.cos(k * x), np.eye(129)[8] * 0.2)
     density = 1.0 + 0.5 * np.cos(2.0 * np.pi * 4 / 256e-5 * x)
-    heats[0] = type(heats[0])(k, 0.2, density, LossDepth.under(k))
+    heats[0] = OctaveHeat(k, 0.2, pattern_of(density), LossDepth.under(k))
     found = grid_temperature(grid, heats, flux=1e5, speed=0.05, time=10.0, thermal=THERMAL)
     own = 2.0 * np.pi * 4 / 256e-5
     m = harmonic_decay(own, own, 0.05, THERMAL)
@@ -119,7 +122,7 @@ def test_grooves_along_the_way_of_sliding_warm_only_as_long_as_the_contact_lasts
     grid = Grid((8, 256), (8e-4, 256e-4))
     stripes = np.cos(2.0 * np.pi * np.arange(256) / 256.0)
     density = np.tile(1.0 + stripes, (8, 1))
-    heat = [OctaveHeat(1e3, 0.2, density, LossDepth(0.0))]
+    heat = [OctaveHeat(1e3, 0.2, pattern_of(density), LossDepth(0.0))]
     options = {"flux": 1e5, "speed": 1.0, "thermal": THERMAL}
     found = grid_temperature(grid, heat, time=0.1, **options).surface
     middle = found.mean()

@@ -24,6 +24,7 @@ from gripscale.half_space.conditions import (
     warming_of,
 )
 from gripscale.half_space.grid import Grid
+from tests.half_space.heat_patterns import pattern_of
 from tests.samples import SHIFTED_RUBBER, THERMAL
 
 D = THERMAL.diffusivity
@@ -118,7 +119,7 @@ def test_a_square_at_rest_on_a_map_is_as_hot_as_carslaw_and_jaegers():
 def test_heat_of_the_hysteresis_leaves_through_the_contact():
     """Lost evenly at one depth under full contact: both surfaces take 1/(1 + b/c) of the rise."""
     grid, time = Grid((64,), (1e-2,)), 0.05
-    heat = OctaveHeat(1e3, 0.2, np.ones(64), LossDepth(1e-4))
+    heat = OctaveHeat(1e3, 0.2, pattern_of(np.ones(64)), LossDepth(1e-4))
     options = {"flux": FLUX, "speed": 0.5, "time": time, "thermal": THERMAL}
     cold = grid_temperature(grid, [heat], **options)
     alone = FLUX * 0.2 * rise.uniform_at_surface(time, heat.depth, THERMAL)

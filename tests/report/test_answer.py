@@ -12,7 +12,12 @@ import xarray as xr
 from gripscale.core.finding import Finding, Severity, Topic, doubt, ranked, to_json
 from gripscale.questions.answer.estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.findings import answer_notices, case_notices, no_answer_notices
-from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
+from gripscale.questions.answer.page import (
+    HYSTERESIS_ALONE,
+    answer_cards,
+    answer_lines,
+    basis_lines,
+)
 from gripscale.questions.answer.reliance import no_answer
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import warning_lines
@@ -57,14 +62,20 @@ def answered(**changed: float) -> xr.Dataset:
 def test_the_number_comes_first_then_what_it_rests_on() -> None:
     first, *below = answer_lines(answered())
     assert first == (
-        "Answer: μ = 0.200 (0.160 to 0.250), A_r/A_0 = 0.0300 (0.0250 to 0.0360) (90 % intervals)"
+        "Answer: hysteresis friction μ = 0.200 (0.160 to 0.250), A_r/A_0 = 0.0300 (0.0250 to "
+        "0.0360) (90 % intervals)"
     )
     text = " ".join(below)
     assert "For 3 bar and 0.3 m/s, roughness down to 0.1 mm." in text
     assert (
-        "Solved on your profiles at small strain (μ 0.211, area 0.0441), then corrected: large "
-        "strain ± 5.0 % (assumed); profile to surface: friction -5.0 %, area -32 %."
+        "Solved on your profiles at small strain (μ 0.211, area 0.0441), then corrected: profile "
+        "to surface: friction -5.0 %, area -32 %."
     ) in text
+    assert (
+        "In the interval, standard errors of friction and area: sampling of the surface 3.0 % and "
+        "2.0 %; large strain 5.0 % and 3.0 %; profile to surface 11 % and 11 %."
+    ) in text
+    assert below[1] == f"  {HYSTERESIS_ALONE}"
     assert (
         "Not in the interval: errors of the inputs (`gripscale uncertainty`), and lay: with ridges "
         "3:1 the area changes up to 1.5 times."
@@ -73,8 +84,9 @@ def test_the_number_comes_first_then_what_it_rests_on() -> None:
 
 
 def test_at_rest_there_is_an_area_only() -> None:
-    first, *_ = answer_lines(answered(nominal_speed=0.0, answer_friction=0.0))
+    first, *below = answer_lines(answered(nominal_speed=0.0, answer_friction=0.0))
     assert first.startswith("Answer: no friction at rest; A_r/A_0 = 0.0300 (")
+    assert not any("ysteresis" in line for line in below)
     assert [card.value for card in answer_cards(answered(nominal_speed=0.0))] == ["0.0300"]
 
 
@@ -84,7 +96,8 @@ def test_with_an_area_term_the_friction_is_the_sum_with_its_parts() -> None:
         answer_adhesive_friction=0.7,
         **{f"answer_total_friction{end}": v for end, v in total.items()},
     )
-    first, *_ = answer_lines(data)
+    first, *below = answer_lines(data)
+    assert HYSTERESIS_ALONE not in " ".join(below)
     parts = "0.200 of hysteresis and 0.700 of the area term"
     assert first == (
         f"Answer: μ = 0.900 (0.700 to 1.20): {parts}; A_r/A_0 = 0.0300 (0.0250 to 0.0360) "
@@ -138,7 +151,7 @@ def test_a_guess_is_called_one_before_its_numbers(changed: dict[str, float], why
     data = answered(**changed)
     first = next(answer_lines(data))
     assert first.startswith(f"Answer: none to rely on. {why}")
-    assert first.index(" It would be μ = 0.200") > len(why)
+    assert first.index(" It would be hysteresis friction μ = 0.200") > len(why)
     assert all(card.bad for card in answer_cards(data))
     (notice,) = no_answer_notices(data)
     assert (notice.severity, why in notice.sentence) == ("error", True)
@@ -190,13 +203,33 @@ def test_those_without_a_number_stand_below_in_an_order() -> None:
     opened, folded = page.warnings
     assert [notice.sentence for notice in opened] == order[1:3]
     assert [notice.sentence for notice in folded] == order[3:]
-    assert list(warning_lines(notices[:4], "report.txt")) == [
+    assert list(warning_lines(notices, "report.txt")) == [
         "Warnings, by what they change:",
-        *(f"  {text}" for text in order[:3]),
-        "  ... and 1 more in report.txt",
+        *(f"  {text}" for text in order[:5]),
+        "  ... and 3 more in report.txt",
     ]
-    assert list(warning_lines(notices))[1:] == [f"  {text}" for text in order]
+    assert list(warning_lines(notices, ""))[1:] == [f"  {text}" for text in order]
     assert not list(warning_lines([], "report.txt"))
+
+
+def test_those_within_the_half_width_are_counted_only() -> None:
+    """Half widths of 20 % of friction and 1 % of area: 30 % and -2 % stand open, 10 % does not."""
+    several = [
+        Finding(Severity.WARNING, "a third", friction=0.3),
+        Finding(Severity.WARNING, "a tenth", friction=0.1, area=0.005),
+        Finding(Severity.WARNING, "2 %", area=-0.02),
+        Finding(Severity.WARNING, "not known"),
+    ]
+    widths = {"friction": 0.2, "area": 0.01}
+    assert list(warning_lines(several, widths=widths)) == [
+        "Warnings, by what they change:",
+        "  a third",
+        "  2 %",
+        "  ... and 2 more in `findings`",
+    ]
+    assert list(warning_lines(several[1:2], widths=widths)) == [
+        "Warnings within the interval: 1 in `findings`"
+    ]
 
 
 def test_inputs_know_what_they_change() -> None:

@@ -134,13 +134,14 @@ def test_csv_edited_by_hand(tmp_path):
     assert "\n0.0,1.7," in text
     path.write_text(text.replace("\n0.0,1.7,", "\n0.0,1.9,"), encoding="utf-8")
     assert read_shift_table(path).log_a(273.15, ROOM) == pytest.approx(1.9)
-    path.write_text("T;log_aT\n°C;-\n20;0\n-20;4,5\n", encoding="utf-8")
-    assert read_shift_table(path).log_a(253.15, ROOM) == pytest.approx(4.5)
+    for rows in ("log_aT\n°C;-\n20;0\n-20;4,5", "aT\n°C;-\n20;1\n-20;31622,8"):
+        path.write_text(f"T;{rows}\n", encoding="utf-8")
+        assert read_shift_table(path).log_a(253.15, ROOM) == pytest.approx(4.5)
     path.write_text("T,log_aT\n20,0\n", encoding="utf-8")
     with pytest.raises(InputError, match="temperature_unit must be given"):
         read_shift_table(path)
     path.write_text("T (C),shift\n20,0\n", encoding="utf-8")
-    with pytest.raises(FileError, match="expected columns of temperature and log10 a_T"):
+    with pytest.raises(FileError, match="expected columns of temperature and a_T or log10 a_T"):
         read_shift_table(path)
 
 

@@ -37,6 +37,7 @@ TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
     ("conditions", ConditionsTable, "conditions.md"),
     ("conditions.softening", SOFTENING, "conditions.md"),
     ("conditions.heat", ThermalProperties, "conditions.md"),
+    ("conditions.counterface", ThermalProperties, "conditions.md"),
     ("conditions.shear_stress", SHEAR_STRESSES, "conditions.md"),
     ("below_measurement", tables.BelowMeasurementTable, "below-measurement.md"),
     ("below_measurement.finer", tables.FinerTable, "below-measurement.md"),

@@ -21,6 +21,7 @@ from gripscale.case_file.schema import (
     TemperatureDifference,
     unit_of_file,
 )
+from gripscale.conditions.conditions import OFF
 from gripscale.core.units import in_mm, parse_quantity, such_as
 from gripscale.model import MOST_CLASSES, Load
 from gripscale.rubber.strain_energy import NeoHookean
@@ -535,12 +536,16 @@ class CaseTables(CaseTable):
     """What is not known of all that."""
 
     @model_validator(mode="after")
-    def _energy_of_the_model(self) -> CaseTables:
+    def _with_an_effect(self) -> CaseTables:
         if self.solver.model == "half_plane" and self.rubber.strain_energy != NeoHookean():
             raise ValueError(
                 "strain_energy of [rubber] has no effect at small strain; expected "
                 'model = "finite_strain" with it'
             )
+        law = self.conditions.softening
+        softens = self.rubber.filled if law is None else law != OFF
+        if self.conditions.strain_norm is not None and not softens:
+            raise ValueError("strain_norm belongs to softening, which is not asked for")
         return self
 
     def named_files(self) -> list[tuple[str, str]]:

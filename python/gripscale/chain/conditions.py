@@ -152,6 +152,7 @@ def chain_warming(conditions: Conditions, solved: ChainResult) -> list[Warming]:
     """Return the temperature rise of the rubber on each wave of a solved chain."""
     heats = [WaveHeat.of(wave, wave.rubber or solved.rubber) for wave in solved.scales]
     load, kelvin = solved.load, conditions.temperature_of(solved.rubber)
+    conditions = conditions.warming
     time = load.footprint / load.speed if load.speed > 0.0 else 0.0
 
     def friction_at(rise: float) -> float:

@@ -173,7 +173,9 @@ def shear_stress_from_dict(values: Mapping[str, Any]) -> InterfacialShearStress:
 
 def shear_stress_to_dict(law: InterfacialShearStress) -> dict[str, Any]:
     """Return kind and parameters of a law as plain values."""
-    return {"kind": law.kind} | {f.name: getattr(law, f.name) for f in fields(law)}  # type: ignore[arg-type]
+    values = {f.name: getattr(law, f.name) for f in fields(law)}  # type: ignore[arg-type]
+    laws = {n: shear_stress_to_dict(v) for n, v in values.items() if hasattr(v, "stress")}
+    return {"kind": law.kind} | values | laws
 
 
 def adhesive_friction(shear_stress: float, contact_fraction: float, pressure: float) -> float:

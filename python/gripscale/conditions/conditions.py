@@ -46,9 +46,15 @@ DEFAULTED = ("softening", "heat")
 
 
 def _effect(name: str, value: Any, *, kind: type, expected: str) -> Any:
-    if value is not None and value != OFF and not isinstance(value, kind):
+    off = name in DEFAULTED and isinstance(value, str) and value == OFF
+    if value is not None and not off and not isinstance(value, kind):
         raise InputError(f"{name} must be {expected}; got {checks.short_repr(value)}")
     return value
+
+
+def _switched_off(name: str, values: Any) -> tuple[str, ...]:
+    effects = values if isinstance(values, tuple) else checks.instances(name, values, str)
+    return tuple(checks.one_of(name, effect, DEFAULTED) for effect in effects)
 
 
 FLOODED = "flooded"
@@ -109,7 +115,7 @@ class Conditions(Checked):
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
     """What takes up heat through the contact, with heat; None: it is insulating."""
-    off: tuple[str, ...] = checked(lambda _, value: tuple(value), default=())
+    off: tuple[str, ...] = checked(_switched_off, default=())
     """Effects that are switched off on purpose, by the word "none" in their place: a case has none
     of them by default either."""
 
@@ -178,6 +184,12 @@ class Conditions(Checked):
         nothing: dict[str, Any] = dict.fromkeys(effects)
         off = [name for name in effects if name in DEFAULTED]
         return replace(self, **nothing, off=tuple(dict.fromkeys([*self.off, *off])))
+
+    @property
+    def warming(self) -> Conditions:
+        """The same with the law whose friction warms the interface: that of a probe is another."""
+        law = self.shear_stress
+        return replace(self, shear_stress=getattr(law, "warming_law", law))
 
     @property
     def dry(self) -> Conditions:

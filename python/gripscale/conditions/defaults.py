@@ -2,8 +2,8 @@
 
 Every tread is filled, and softens; a rubber with a temperature shift warms by its friction; a dry
 road shears the real contact area. A case states whether its rubber is filled and its road dry, and
-has typical laws where it states none of its own. `gripscale.conditions.typical_errors` says how
-far these laws may be off.
+has typical laws where it states none of its own. `gripscale.conditions.alternatives` says how far
+these laws may be off.
 """
 
 from __future__ import annotations

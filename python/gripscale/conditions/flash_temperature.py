@@ -158,7 +158,9 @@ class DepthsOfLoss(Protocol):
 Distances = Literal["depth", "difference", "sum"]
 DEEPEST = 60.0  # depth in units of 1/b beyond which the loss is neglected: exp(-60)
 WIDEST = 6.5  # argument beyond which ierfc is below 1e-20
-STEADY = 2.5  # Re(m) l/2 from which a harmonic is steady: erfc of it is 4e-4
+# Re(m) l/2 from which a harmonic is steady. Across the sliding direction erfc of it is left, 4e-4
+# in the depth. Along it what is left falls as 1/|m l| only, and waves may begin at any phase.
+STEADY, STEADY_AT_SURFACE = 2.5, 4.0
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 _TIMES, _TIME_WEIGHTS = np.polynomial.legendre.leggauss(64)
 
@@ -301,6 +303,9 @@ def _diffusion_length(time: float, thermal: ThermalProperties) -> float:
     return 2.0 * math.sqrt(thermal.diffusivity * checks.not_negative("time", time, unit="s"))
 
 
+EVERY = slice(None)
+
+
 @dataclass(frozen=True)
 class PassingHarmonics:
     """Harmonics of heat that begin with a contact, after some time of it."""
@@ -309,29 +314,33 @@ class PassingHarmonics:
     time: float  # of the contact [s]
     thermal: ThermalProperties
 
-    def at_surface(self, depth: LossDepth) -> ComplexArray:
-        """Return the surface temperature per heat per area [K m^2/W], shape of `m`."""
+    def at_surface(self, depth: LossDepth, kept: slice = EVERY) -> ComplexArray:
+        """Return the surface temperature per heat per area [K m^2/W], of the first harmonics."""
         from scipy.special import erf
 
-        steady = harmonic_at_surface(self.m, depth, self.thermal)
+        m = self.m[kept]
+        steady = harmonic_at_surface(m, depth, self.thermal)
         if depth.mean > 0.0:
-            return self._with_changing(steady, depth, "depth")
-        which, length = self._changing, _diffusion_length(self.time, self.thermal)
-        steady[which] *= erf(self.m[which] * (0.5 * length))
+            return self._with_changing(steady, kept, depth, "depth")
+        half = 0.5 * _diffusion_length(self.time, self.thermal)
+        which = m.real * half < STEADY_AT_SURFACE
+        steady[which] *= erf(m[which] * half)
         return steady
 
-    def where_lost(self, depth: LossDepth) -> ComplexArray:
-        """Return the temperature, averaged over the loss, per heat per area, shape of `m`."""
-        steady = harmonic_where_lost(self.m, depth, self.thermal)
-        return self._with_changing(steady, depth, "difference", "sum")
+    def where_lost(self, depth: LossDepth, kept: slice = EVERY) -> ComplexArray:
+        """Return the temperature, averaged over the loss, per heat per area; as `at_surface`."""
+        steady = harmonic_where_lost(self.m[kept], depth, self.thermal)
+        return self._with_changing(steady, kept, depth, "difference", "sum")
 
     def _with_changing(
-        self, steady: ComplexArray, depth: LossDepth, *distances: Distances
+        self, steady: ComplexArray, kept: slice, depth: LossDepth, *distances: Distances
     ) -> ComplexArray:
         """Return the steady values, and E r over the `distances` of harmonics that still change."""
         roots, weights, waves, inverse = self._sources
+        changing = self._changing[kept]
+        inverse = inverse[: np.count_nonzero(changing)]
         if not inverse.size or self.time == 0.0:
-            steady[self._changing] = 0.0
+            steady[changing] = 0.0
             return steady
         spreads = 2.0 * np.sqrt(self.thermal.diffusivity) * roots
         length = _diffusion_length(self.time, self.thermal)
@@ -341,7 +350,7 @@ class PassingHarmonics:
             return np.asarray(np.exp(-((z[:, None] / spreads) ** 2)))
 
         mean = sum(depth.average(of, met, length) for of in distances) / len(distances)
-        steady[self._changing] = ((weights * mean) @ waves)[inverse]
+        steady[changing] = ((weights * mean) @ waves)[inverse]
         return steady
 
     @cached_property

@@ -18,6 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from gripscale.conditions.area_term import InterfacialShearStress
 from gripscale.core import Array, Checked, Finding, Topic, Vector, checked, checks, doubt, labelled
 from gripscale.core.errors import FileError, about_file
 from gripscale.core.units import (
@@ -226,10 +227,13 @@ class TemperatureProbe:
 
     With tau_f = s T, s = 1 Pa/K, the area term mu = s T A_r/(A_0 p) of an answer tells the mean
     temperature over the real contact area. Laws are fitted to answers made with it: an answer then
-    does not depend on the law, and serves all of them.
+    does not depend on the law, and serves all of them; but for the heat of the interface.
     """
 
     kind: ClassVar[str] = "temperature_probe"
+
+    warming_law: InterfacialShearStress | None = None
+    """Law whose friction warms the interface; None: the interface loses nothing."""
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return T in K as a stress [Pa], shape of the speeds [m/s] and temperatures [K]."""

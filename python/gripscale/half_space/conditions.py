@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -51,6 +51,8 @@ def strain_by_scale(grid: Grid, displacement: Array, active: Mask, wavenumber: A
     """
     number = np.where(grid.wavenumber > 0.0, grid.wavenumber, 1.0)
     spectrum = scipy.fft.rfftn(displacement) * grid.wavenumber
+    if len(grid.shape) == 1:
+        return _strain_of_line(spectrum, number, active, wavenumber)
     along, across = grid.direction
     # components of the strain over that into the rubber, and how often each counts in e:e
     parts = [(np.ones(1), 1.5), (1j * along, 2.0), (1j * across, 2.0)]
@@ -66,19 +68,50 @@ def strain_by_scale(grid: Grid, displacement: Array, active: Mask, wavenumber: A
     return np.array(out)
 
 
+# Waves so many times shorter than a scale have e^-20 of their strain at its depth.
+_FELT = 20.0
+
+
+def _strain_of_line(
+    spectrum: ComplexArray, number: Array, active: Mask, wavenumber: Array
+) -> Array:
+    """Return the strains of a line: of its analytic signal, 2/sqrt(3) |e| in plane strain.
+
+    Of each scale on a grid that just resolves the waves that reach its depth.
+    """
+    out = []
+    for scale in wavenumber:
+        waves = int(np.searchsorted(number[1:], _FELT * scale)) + 1
+        blocks = active.size
+        while blocks % 2 == 0 and blocks // 2 > 2 * waves:
+            blocks //= 2
+        depth = number[:waves] / scale
+        one_sided = np.zeros(blocks, dtype=complex)
+        centre = np.exp(1j * np.pi * np.arange(waves) * (1.0 / blocks - 1.0 / active.size))
+        one_sided[:waves] = spectrum[:waves] * depth * np.exp(-depth) * centre
+        signal = np.abs(scipy.fft.ifft(one_sided)) * (2.0 * blocks / active.size)
+        in_contact = active.reshape(blocks, -1).sum(axis=1)
+        out.append(
+            2.0 / np.sqrt(3.0) * DEPTH_FACTOR * float(np.average(signal, weights=in_contact))
+        )
+    return np.array(out)
+
+
 @dataclass(frozen=True)
 class OctaveHeat:
     """Heat lost by the harmonics of one octave of wavelengths."""
 
     wavenumber: float  # in its middle [rad/m]
     friction: float  # mu_b [-]
-    density: Array  # of the loss on the grid over its mean [-], shape of the grid
+    # Spectrum of the density of the loss on the grid, over its mean and without it; of a line, the
+    # density of an octave has no waves shorter than the octave.
+    pattern: ComplexArray
     depth: LossDepth
 
-    @cached_property
-    def pattern(self) -> ComplexArray:
-        """Spectrum of the density without its mean."""
-        return _without_mean(self.density)
+    @property
+    def kept(self) -> slice:
+        """Where the pattern stands in a spectrum of the grid."""
+        return slice(self.pattern.shape[0])
 
 
 def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
@@ -94,11 +127,30 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
         loss = np.where((octave == which) & (lost > 0.0), lost, 0.0)
         total = float(loss.sum())
         if total > _ROUND_OFF * float(lost.sum()):
-            density = np.abs(grid.forward_field(np.sqrt(loss) * phase)) ** 2
+            pattern = _loss_pattern(grid, np.sqrt(loss) * phase, 2 ** (which + 1))
             mean = float((loss * 1.5 / np.maximum(number, longest)).sum() / total)
             middle = longest * 2.0 ** (which + 0.5)
-            out.append(OctaveHeat(middle, total, density / density.mean(), LossDepth(mean)))
+            out.append(OctaveHeat(middle, total, pattern, LossDepth(mean)))
     return out
+
+
+def _loss_pattern(grid: Grid, half: ComplexArray, end: int) -> ComplexArray:
+    """Return the spectrum of the loss of waves with the half spectrum `half`, over its mean.
+
+    Of a line the waves end before number `end`, and a coarser grid has them all.
+    """
+    points, waves = grid.points, half.shape[0]
+    if len(grid.shape) > 1:
+        density = np.abs(grid.forward_field(half)) ** 2
+    else:
+        while points % 2 == 0 and points // 2 >= 2 * end:
+            points //= 2
+        one_sided = np.zeros(points, dtype=complex)
+        waves = min(end, waves)
+        one_sided[:waves] = half[:waves]
+        density = np.abs(scipy.fft.ifft(one_sided)) ** 2
+    pattern = _without_mean(density / density.mean())
+    return pattern if len(grid.shape) > 1 else pattern[:waves] * (grid.points / points)
 
 
 @dataclass(frozen=True)
@@ -127,15 +179,18 @@ def grid_temperature(
     uniform = [flux * rise.uniform_at_surface(time, heat.depth, thermal) for heat in heats]
     strengths = [heat.friction for heat in heats]
     surfaces = [
-        flux * heat.friction * heat.pattern * passing.at_surface(heat.depth) for heat in heats
+        flux * heat.friction * heat.pattern * passing.at_surface(heat.depth, heat.kept)
+        for heat in heats
     ]
-    surface = sum(surfaces, np.zeros(grid.spectrum_shape, dtype=complex))
+    surface = np.zeros(grid.spectrum_shape, dtype=complex)
+    for heat, part in zip(heats, surfaces, strict=True):
+        surface[heat.kept] += part
     octave = []
     for which, heat in enumerate(heats):
         # the other octaves warm the depth of this one from the surface, its own heat where it is
-        here = heat.depth.decay(m) * (surface - surfaces[which])
+        here = heat.depth.decay(m[heat.kept]) * (surface[heat.kept] - surfaces[which])
         source = flux * heat.friction * heat.pattern
-        here += source * passing.where_lost(heat.depth)
+        here += source * passing.where_lost(heat.depth, heat.kept)
         level = flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
         level += rise.uniform_from_others(strengths, uniform, which)
         octave.append(level + _mean_over(grid, here, heat.pattern))
@@ -172,7 +227,7 @@ def contact_source_temperature(
     octave = [
         # a source at the surface warms a depth as one at this depth warms the surface
         flux * rise.uniform_at_surface(time, heat.depth, thermal)
-        + _mean_over(grid, heat.depth.decay(m) * surface, heat.pattern)
+        + _mean_over(grid, heat.depth.decay(m[heat.kept]) * surface[heat.kept], heat.pattern)
         for heat in heats
     ]
     rises = GridTemperature(scipy.fft.irfftn(surface, s=grid.shape) + mean, np.array(octave))
@@ -197,7 +252,8 @@ def _without_mean(density: Array) -> ComplexArray:
 
 def _mean_over(grid: Grid, harmonics: ComplexArray, pattern: ComplexArray) -> float:
     """Return the mean of a field without mean, weighted by a density of mean one."""
-    return float((grid.weight * (harmonics * pattern.conj()).real).sum() / grid.points**2)
+    weight = grid.weight[: harmonics.shape[-1]]
+    return float((weight * (harmonics * pattern.conj()).real).sum() / grid.points**2)
 
 
 def temperature(
@@ -225,10 +281,10 @@ def temperature(
     cold, unit = (
         float(np.average(each.surface, weights=contact.pressure)) for each in (rises, by_unit)
     )
-    friction = 0.0
-    if conditions.shear_stress is not None:
+    friction, warming = 0.0, conditions.warming
+    if warming.shear_stress is not None:
         friction = rise.settled_interface(
-            partial(contact.adhesive_friction_at, conditions),
+            partial(contact.adhesive_friction_at, warming),
             lambda friction: cold + part.net(friction) * unit,
         )
     net = part.net(friction)
@@ -270,7 +326,7 @@ class GridSequenceResult:
 _Solve = Callable[[RubberByScale | None, KnownLevels], GridSequenceResult]
 # Tolerance of the fixed point over that of the contact, and the largest: the interval of an answer
 # is ten times wider.
-_OF_GOAL, _LOOSEST = 0.2, 1e-2
+_OF_GOAL, _LOOSEST = 0.4, 2e-2
 _CLOSED = 0.5  # strain of rubber in contact over that of rubber pressed into every valley, about
 
 
@@ -328,8 +384,8 @@ class _ContactEvaluation:
     ) -> Iteration[GridSequenceResult]:
         """Return the evaluation of `x`, started from the last contact."""
         x = self.guess if x is None else x
-        known = {} if last is None or last.contact.by_scale is None else last.levels
-        solved = self.solve(None if x is None else self.state(x).rubber, known)
+        earlier = {} if last is None or last.contact.by_scale is None else last.levels
+        solved = self.solve(None if x is None else self.state(x).rubber, earlier)
         contact = solved.contact
         self.grids.extend(contact.grids)
         number, surface = self.wavenumber, None

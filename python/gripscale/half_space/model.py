@@ -201,8 +201,9 @@ class DirectContact(Checked, model.Model):
     traces: bool = checked(checks.flag, default=False)
     """Whether the answer holds every contact as charts draw it (`with_traces`)."""
     alternatives: bool = checked(checks.flag, default=False)
-    """Whether the answer holds how it changes by what is not known: typical conditions, and where
-    the rubber ends."""
+    """Whether the answer holds how it changes by what is not known of its conditions."""
+    unstated: bool = checked(checks.flag, default=False)
+    """Whether it holds how it changes by what is not stated: where the rubber ends, its shift."""
 
     def with_conditions(self, conditions: Conditions | None) -> DirectContact:
         """Return the direct contact under other conditions."""
@@ -269,9 +270,10 @@ class DirectContact(Checked, model.Model):
         if not (self.alternatives and contact.usable):
             return answer
         measured = _measurement(surface, "").surfaces[0]
-        solve = partial(
-            replace(self, tolerance=None).contact, rubber, surface, measured, start=contact
-        )
+        # of a wet contact the change is that of the dry one, which its grids are of
+        dry = replace(self, tolerance=None, conditions=self.conditions and self.conditions.dry)
+        start = replace(contact, water=None)
+        solve = partial(dry.contact, rubber, surface, measured, start=start)
         errors = dict(condition_errors(contact, rubber, lambda scale: solve(load, by_scale=scale)))
         numbers = np.array(list(errors.values())).reshape(-1, 2).T
         data = {
@@ -279,6 +281,9 @@ class DirectContact(Checked, model.Model):
             for (name, text), values in zip(CONDITION_ERRORS.items(), numbers, strict=True)
         }
         labels = np.array(list(errors), dtype=object)
+        answer = answer.assign_coords(condition=("condition", labels)).assign(data)
+        if not self.unstated:
+            return answer
         others: dict[str, Load] = {}
         longest = 0.0 if surface.waves is None else float(surface.sines.wavelength[0])
         if load.thickness is None and longest > FELT * TREAD:
@@ -288,15 +293,15 @@ class DirectContact(Checked, model.Model):
         if cold and contact.friction_from_dissipation > 0.0:
             effects = replace(effects, heat=ThermalProperties(), counterface=STONE)
             rise = warming_of(contact, effects, load.footprint).where_lost
-            data[WARMING] = labelled((), rise, "K", "rise that a shift would count", "direct")
+            answer[WARMING] = labelled((), rise, "K", "rise that a shift would count", "direct")
             slower = load.speed * 10.0 ** (-DECADES_PER_KELVIN * rise)
             others["heat"] = replace(load, speed=max(slower, 1e-9 * load.speed))
         for which, other in others.items():
             changes = log_change(contact, solve(other, by_scale=contact.by_scale))
             for name, change in changes._asdict().items():
                 text = f"change of ln {name} by {which}"
-                data[f"{name}_of_{which}"] = labelled((), change, "1", text, "direct")
-        return answer.assign_coords(condition=("condition", labels)).assign(data)
+                answer[f"{name}_of_{which}"] = labelled((), change, "1", text, "direct")
+        return answer
 
     def _answer(self, contacts: Sequence[RoughContact], surface: Surface, load: Load) -> xr.Dataset:
         """Return the answer of the contacts of all profiles."""

@@ -11,13 +11,14 @@ import pytest
 
 import gripscale as gs
 from gripscale.core.finding import Finding
-from gripscale.questions.answer import direct_contact
+from gripscale.half_space import model
 
 DATA = Path(__file__).parents[3] / "examples" / "data"
 ROAD = DATA / "road" / "20211011_aylesbury_dec_station_0.dat"
 DMA = DATA / "rubber" / "measured_dma.txt"
 CROP = (0.3, 0.6)
 LOAD: dict[str, Any] = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
+UNFILLED: dict[str, Any] = {**LOAD, "filled": False}
 END, WAVES = 2e-3, 4
 
 CASE = f"""\
@@ -28,6 +29,7 @@ scales = {WAVES}
 smallest_wavelength = "2 mm"
 
 [rubber]
+filled = false
 file = "{DMA}"
 reference_temperature = "20 C"
 
@@ -42,7 +44,7 @@ def made(**other: Any) -> gs.Case:
     """Return the case made in Python, with other arguments where they are given."""
     profile = gs.read_profile(ROAD)
     rubber = gs.read_master_curve(DMA, reference_temperature=293.15)
-    arguments = {"smallest_wavelength": END, "waves": WAVES, **LOAD, **other}
+    arguments = {"smallest_wavelength": END, "waves": WAVES, **UNFILLED, **other}
     return gs.Case(profile, rubber, cleaning={"crop": CROP}, **arguments)
 
 
@@ -74,7 +76,7 @@ def test_a_case_file_has_the_answer_of_the_same_case_in_python(
 def test_a_profile_may_be_cleaned_and_a_master_curve_fitted_before(answer: gs.Answer) -> None:
     profile, _ = gs.clean(gs.read_profile(ROAD), crop=CROP)
     rubber = gs.fit_prony(gs.read_master_curve(DMA, reference_temperature=293.15))
-    case = gs.Case([profile], rubber, smallest_wavelength=END, waves=WAVES, **LOAD)
+    case = gs.Case([profile], rubber, smallest_wavelength=END, waves=WAVES, **UNFILLED)
     assert numbers(gs.answer(case)) == numbers(answer)
 
 
@@ -139,16 +141,16 @@ def test_rubber_without_end_is_compared_with_a_tread(answer: gs.Answer, tmp_path
 
 def test_a_tread_within_the_sampling_error_is_no_finding(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a tread of a metre nothing is said: the layer is a half-space."""
-    monkeypatch.setattr(direct_contact, "TREAD", 1.0)
-    monkeypatch.setattr(direct_contact, "FELT", 0.0)
+    monkeypatch.setattr(model, "TREAD", 1.0)
+    monkeypatch.setattr(model, "FELT", 0.0)
     assert tread_of(gs.answer(made())) == []
 
 
 def test_other_questions_do_not_pay_for_the_tread(monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(*_: object) -> list[Finding]:
+    def refuse(*_: object) -> None:
         raise AssertionError("a tread was solved")
 
-    monkeypatch.setattr(direct_contact, "tread_findings", refuse)
+    monkeypatch.setattr(model, "log_change", refuse)
     gs.vary(made(), speed=[0.1, 0.3])
     gs.uncertainty(made(), samples=10)
     with pytest.raises(AssertionError, match="a tread was solved"):
@@ -161,11 +163,11 @@ def test_profiles_across_each_other_say_that_a_road_is_isotropic() -> None:
     lines = [gs.read_profile(ROAD), replace(gs.read_profile(other), lay="across")]
     rubber = gs.read_master_curve(DMA, reference_temperature=293.15)
     whole = {"cleaning": {"crop": (0.12, 1.78)}, "smallest_wavelength": END, "waves": WAVES}
-    answer = gs.answer(gs.Case(lines, rubber, **LOAD, **whole))
+    answer = gs.answer(gs.Case(lines, rubber, **UNFILLED, **whole))
     assert "The surface is isotropic: the rms slope over 1 mm along sliding is" in " ".join(
         answer.basis
     )
     assert not any("ridges" in finding.sentence for finding in answer.findings)
-    alone = gs.answer(gs.Case(lines[:1], rubber, **LOAD, **whole))
+    alone = gs.answer(gs.Case(lines[:1], rubber, **UNFILLED, **whole))
     assert numbers(alone) == numbers(answer)
     assert any("Profiles in one direction do not show ridges" in f.sentence for f in alone.findings)

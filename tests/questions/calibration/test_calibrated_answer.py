@@ -24,7 +24,7 @@ from gripscale.continuation import HurstExponent
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.io.table import significant
-from gripscale.questions.calibration.question import Calibration
+from gripscale.questions.calibration.question import SAME_FRICTION, Calibration
 from gripscale.questions.compare import comparison
 from gripscale.surface import self_affine_profile
 from tests.samples import SHIFTED_RUBBER, THERMAL, Shell, write_master_curve, write_road
@@ -45,50 +45,55 @@ def made(conditions: Conditions, **load: float) -> gs.Case:
     """Return a case of two lines under conditions, at another load where it is stated."""
     arguments: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05, **load}
     return gs.Case(
-        LINES, SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3, conditions=conditions, **arguments
+        LINES,
+        SHIFTED_RUBBER,
+        smallest_wavelength=1e-3,
+        waves=3,
+        conditions=conditions,
+        filled=False,
+        **arguments,
     )
 
 
-def answer_at(law: InterfacialShearStress, at: int, heat: bool) -> gs.Answer:
+def answer_at(law: InterfacialShearStress, at: int, heat: Any = "none") -> gs.Answer:
     """Return the answer of the case with `law` at a measured point."""
-    conditions = Conditions(
-        temperature=KELVINS[at], heat=THERMAL if heat else None, shear_stress=law
-    )
+    conditions = Conditions(temperature=KELVINS[at], heat=heat, shear_stress=law)
     return gs.answer(made(conditions, speed=SPEEDS[at], pressure=PRESSURES[at % 2]))
 
 
-@pytest.fixture(scope="module", params=[False, True], ids=["without heat", "with heat"])
-def calibrated(request: pytest.FixtureRequest) -> tuple[Calibration, bool]:
+def measured_at(friction: np.ndarray) -> MeasuredFriction:
+    """Return friction of the measured points, with a little noise."""
+    noisy = friction + np.random.default_rng(0).normal(0.0, 0.003, len(SPEEDS))
+    pressure = np.resize(PRESSURES, len(SPEEDS))
+    return MeasuredFriction(SPEEDS, noisy, [0.003] * len(SPEEDS), KELVINS, pressure=pressure)
+
+
+FIXED = {"reference_temperature": 293.15}
+
+
+@pytest.fixture(scope="module")
+def calibrated() -> Calibration:
     """The fit to the friction that the case itself has with a known law, and a little noise."""
-    heat = bool(request.param)
-    noise = np.random.default_rng(0).normal(0.0, 0.003, len(SPEEDS))
-    friction = [answer_at(TRUE, at, heat).total_friction + noise[at] for at in range(len(SPEEDS))]
-    measured = MeasuredFriction(
-        SPEEDS, friction, [0.003] * len(SPEEDS), KELVINS, pressure=np.resize(PRESSURES, len(SPEEDS))
-    )
-    conditions = Conditions(temperature=293.15, heat=THERMAL if heat else None)
-    return gs.calibrate(made(conditions), measured, fixed={"reference_temperature": 293.15}), heat
+    friction = np.array([answer_at(TRUE, at).friction for at in range(len(SPEEDS))])
+    case = made(Conditions(temperature=293.15, heat="none"))
+    return gs.calibrate(case, measured_at(friction), fixed=FIXED)
 
 
-def test_the_answer_is_the_fitted_friction(calibrated: tuple[Calibration, bool]) -> None:
-    result, heat = calibrated
-    data = result.data
+def test_the_answer_is_the_fitted_friction(calibrated: Calibration) -> None:
+    data = calibrated.data
     residual = np.abs(data.difference.values).max()
     assert residual < 0.01
-    # under heat a law of the mean temperature stands for the mean of the law over the lines
-    close = 1e-3 if heat else 1e-12
     for at in range(len(SPEEDS)):
-        answer = answer_at(result.law, at, heat)
-        assert answer.friction == pytest.approx(float(data.hysteresis[at]), rel=1e-12)
+        answer = answer_at(calibrated.law, at)
+        assert answer.hysteresis_friction == pytest.approx(float(data.hysteresis[at]), rel=1e-12)
         assert answer.contact_fraction == pytest.approx(float(data.contact_fraction[at]), rel=1e-12)
-        assert answer.total_friction == pytest.approx(float(data.friction[at]), rel=close)
-        misfit = answer.total_friction - float(data.measured_friction[at])
-        assert abs(misfit) <= residual + close
+        assert answer.friction == pytest.approx(float(data.friction[at]), rel=1e-12)
+        misfit = answer.friction - float(data.measured_friction[at])
+        assert abs(misfit) <= residual + 1e-12
 
 
-def test_the_area_is_not_that_of_the_lines(calibrated: tuple[Calibration, bool]) -> None:
-    result, heat = calibrated
-    answer = answer_at(result.law, 0, heat).data
+def test_the_area_is_not_that_of_the_lines(calibrated: Calibration) -> None:
+    answer = answer_at(calibrated.law, 0).data
     assert float(answer.answer_contact_fraction / answer.total_contact_fraction) < 0.8
     ratio = answer.answer_adhesive_friction / answer.total_adhesive_friction
     assert float(ratio) == pytest.approx(
@@ -96,21 +101,41 @@ def test_the_area_is_not_that_of_the_lines(calibrated: tuple[Calibration, bool])
     )
 
 
+def test_the_answer_is_the_fitted_friction_with_the_heat_of_the_interface() -> None:
+    """To the agreement of the fits, and a law of the mean temperature for the mean of the law."""
+    points = range(len(SPEEDS))
+    friction = np.array([answer_at(TRUE, at, THERMAL).friction for at in points])
+    case = made(Conditions(temperature=293.15, heat=THERMAL))
+    data = (fit := gs.calibrate(case, measured_at(friction), fixed=FIXED)).data
+    assert (data.contact_temperature.values > np.array(KELVINS) + 0.1).all()
+    residual = np.abs(data.difference.values).max()
+    assert residual < 0.01
+    answer = answer_at(fit.law, points[-1], THERMAL)
+    assert answer.friction == pytest.approx(float(data.friction[-1]), abs=1.5 * SAME_FRICTION)
+    assert answer.interface_friction > 0.2 * answer.friction
+
+
 def test_answer_variation_and_comparison_have_one_total(tmp_path: Path) -> None:
     """Of one line: a variation weighs lines by their length, an answer does not."""
-    conditions = Conditions(temperature=293.15, shear_stress=TRUE)
+    conditions = Conditions(temperature=293.15, heat="none", shear_stress=TRUE)
     load: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05}
     case = gs.Case(
-        LINES[:1], SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3, conditions=conditions, **load
+        LINES[:1],
+        SHIFTED_RUBBER,
+        smallest_wavelength=1e-3,
+        waves=3,
+        conditions=conditions,
+        filled=False,
+        **load,
     )
     answer = gs.answer(case)
-    sum_of_both = f"μ = {significant(answer.total_friction)}: "
+    sum_of_both = f"μ = {significant(answer.friction)}: "
     assert sum_of_both in " ".join(answer.lines)
 
     varied = gs.vary(case, speed=[0.1, 0.3])
     columns = {column.name: column.values for column in varied.table().columns}
-    assert columns["answer_total_friction"][0] == pytest.approx(answer.total_friction)
-    assert columns["area_term"][0] == pytest.approx(answer.adhesive_friction)
+    assert columns["answer_total_friction"][0] == pytest.approx(answer.friction)
+    assert columns["area_term"][0] == pytest.approx(answer.interface_friction)
     least = significant(columns["area_term"].min())
     assert f"{least} to" in " ".join(varied.lines)
 
@@ -121,7 +146,7 @@ def test_answer_variation_and_comparison_have_one_total(tmp_path: Path) -> None:
     residuals = comparison.at_measured(compared.ladder, tmp_path)
     assert residuals is not None
     total = float(residuals.friction.sel(model="answer", measurement=0))
-    assert total == pytest.approx(answer.total_friction)
+    assert total == pytest.approx(answer.friction)
 
 
 def test_files_give_the_measured_friction_back(shell: Shell, tmp_path: Path) -> None:
@@ -132,13 +157,13 @@ def test_files_give_the_measured_friction_back(shell: Shell, tmp_path: Path) -> 
     case = tmp_path / "case.toml"
     text = (
         '[surface]\nfiles = ["road.txt"]\nscales = 3\nsmallest_wavelength = "1 mm"\n'
-        '[rubber]\nfile = "dma.txt"\nreference_temperature = "20 C"\n'
+        '[rubber]\nfilled = false\nfile = "dma.txt"\nreference_temperature = "20 C"\n'
         '[load]\npressure = "3 bar"\nspeed = "0.1 m/s"\nfootprint = "50 mm"\n'
     )
     rows = []
     for speed in (0.03, 0.1, 0.3):
         case.write_text(f"{text}{LAW}".replace("0.1 m/s", f"{speed} m/s"), encoding="utf-8")
-        rows.append(f"{speed},{gs.answer(gs.read_case(case)).total_friction:.3f}\n")
+        rows.append(f"{speed},{gs.answer(gs.read_case(case)).friction:.3f}\n")
     (tmp_path / "mu.csv").write_text(f"speed [m/s],friction\n{''.join(rows)}", encoding="utf-8")
     measured = f'{text}[measured]\nfriction = "mu.csv"\n'
     case.write_text(measured, encoding="utf-8")
@@ -158,7 +183,7 @@ def test_files_give_the_measured_friction_back(shell: Shell, tmp_path: Path) -> 
 
 
 def test_roughness_below_the_measurement_is_in_the_fitted_area() -> None:
-    load: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05}
+    load: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05, "filled": False}
     line = self_affine_profile(0.8, 3e-3, 8e-4, length=0.15, step=2e-4, seed=1)
     continued = BelowMeasurement(4e-4, HurstExponent(0.8))  # the line is too short to foretell it
 
@@ -166,15 +191,17 @@ def test_roughness_below_the_measurement_is_in_the_fitted_area() -> None:
         return gs.answer(
             gs.Case(
                 line, SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3,
-                below_measurement=continued, conditions=Conditions(shear_stress=law), **load,
+                below_measurement=continued,
+                conditions=Conditions(heat="none", shear_stress=law), **load,
             )
         )  # fmt: skip
 
     truth = answered(ConstantStress(4e6))
-    measured = MeasuredFriction([0.1, 0.1], [truth.total_friction] * 2)
+    measured = MeasuredFriction([0.1, 0.1], [truth.friction] * 2)
     case = gs.Case(
-        line, SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3, below_measurement=continued, **load
-    )
+        line, SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3,
+        below_measurement=continued, conditions=Conditions(heat="none"), **load,
+    )  # fmt: skip
     result = gs.calibrate(case, measured, law="constant")
     assert result.estimates[0].value == pytest.approx(4e6, rel=1e-6)
-    assert answered(result.law).total_friction == pytest.approx(truth.total_friction, rel=1e-9)
+    assert answered(result.law).friction == pytest.approx(truth.friction, rel=1e-9)

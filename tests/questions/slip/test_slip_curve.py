@@ -37,13 +37,19 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="module")
+def case(folder: Path) -> gs.Case:
+    """The case, read once: its road is cleaned and its master curve fitted in seconds."""
+    return gs.read_case(folder / "case.toml")
+
+
 @pytest.fixture
 def curve(folder: Path) -> gs.SlipCurve:
     return gs.load(folder / "slip" / "slip.nc")
 
 
 def test_python_has_the_curves_of_the_command_from_its_table(
-    folder: Path, curve: gs.SlipCurve, monkeypatch: pytest.MonkeyPatch
+    case: gs.Case, folder: Path, curve: gs.SlipCurve, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """From the stored table nothing is solved again."""
 
@@ -51,7 +57,7 @@ def test_python_has_the_curves_of_the_command_from_its_table(
         raise AssertionError("solved again")
 
     monkeypatch.setattr(DirectContact, "predict", refuse)
-    again = gs.slip_curve(gs.read_case(folder / "case.toml"), folder=folder / "slip")
+    again = gs.slip_curve(case, folder=folder / "slip")
     xr.testing.assert_equal(again.data.force, curve.data.force)
     assert str(again.lines[0]).startswith("Answer: peak braking force")
     assert str(again) == str(curve)
@@ -177,9 +183,9 @@ def test_formulas_are_found_again(parameters: tuple[float, ...]) -> None:
         ({"temperature": "40 C"}, "time-temperature shift is missing"),
     ],
 )
-def test_options_that_cannot_be_used_are_refused(folder: Path, options, words: str) -> None:
+def test_options_that_cannot_be_used_are_refused(case: gs.Case, options, words: str) -> None:
     with pytest.raises(InputError, match=words):
-        gs.slip_curve(gs.read_case(folder / "case.toml"), **options)
+        gs.slip_curve(case, **options)
 
 
 def test_command_refuses_a_single_speed_of_braking(folder: Path, shell: Shell) -> None:

@@ -44,6 +44,8 @@ static = false
 [solver]
 model = "half_plane"
 points = 256
+[conditions]
+heat = "none"
 """
 SPEEDS = "0.1:10:log5"
 """Two in a decade."""
@@ -109,7 +111,7 @@ def test_heat_makes_them_several(case: Path, model: Any) -> None:
 
 def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:
     """As a comparison does: a theory without conditions gets those of the case."""
-    case.write_text(f'{CASE}\n[conditions]\ntemperature = "40 C"\n')
+    case.write_text(f'{CASE}temperature = "40 C"\n')
     result = Study(read_case(case), {"speed": [0.1]}, model=Persson()).run(case.parent / "study")
     compared = gs.compare(read_case(case), models=["persson"]).to_dataset()
     friction = float(compared.total_friction.sel(model="persson"))

@@ -56,13 +56,18 @@ def direct_contact_design(
     """Return the direct contacts of the profiles of a case under a load as tasks, over `sample`.
 
     None if no profile was measured. `label` begins the names of the tasks; with `traces` the
-    answers hold the contacts as charts draw them. Without a `tolerance` the first full grid counts.
+    answers hold the contacts as charts draw them, and what changes by what the case does not state.
+    Without a `tolerance` the first full grid counts.
     """
     profiles = each_measured(case.surface)
     if not profiles:
         return None
     direct = DirectContact(
-        tolerance=tolerance, conditions=case.conditions, traces=traces, alternatives=True
+        tolerance=tolerance,
+        conditions=case.conditions,
+        traces=traces,
+        alternatives=True,
+        unstated=traces,
     )
     points = [
         Point((at,), f"{label}{name}", Task(case.rubber, surface, load, direct))

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import SHEAR_STRESS
-from gripscale.conditions.dry_road import DRY_ASSUMPTIONS, DRY_TREAD
+from gripscale.conditions.dry_road import DRY_ASSUMPTIONS, DRY_TREAD, STRESS_SCATTER
 from gripscale.core.finding import FILLED, Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.io.table import Column, Table, fixed, significant
@@ -197,6 +197,8 @@ def _in_interval(data: xr.Dataset) -> Iterator[str]:
         for label, errors in sizes.items()
         if max(errors) > reliance.WORTH_NAMING
     ]
+    if data.attrs.get(SHEAR_STRESS) == DRY_TREAD.kind:
+        parts.append(f"shear stress between treads {percent_text(STRESS_SCATTER)}")
     if parts:
         of = " and ".join(_WORDS[each] for each in names)
         yield f"in the interval, standard errors of {of}: {'; '.join(parts)}"

@@ -195,8 +195,13 @@ def measured_design(
     surface: Surface,
     load: Load,
     label: str = "",
+    warming_law: InterfacialShearStress | None = None,
 ) -> Design:
-    """Return the design over `measurement` that `predictions_at` solves; labels begin with one."""
+    """Return the design over `measurement` that `predictions_at` solves; labels begin with one.
+
+    With the heat of conditions, the interface loses the friction of `warming_law`.
+    """
+    probe = TemperatureProbe(warming_law)
     pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
     case = (model.conditions or Conditions()).temperature_of(rubber)
     kelvin = np.where(
@@ -208,7 +213,7 @@ def measured_design(
         temperature = None if math.isnan(t) else float(t)
         other = temperature is not None and temperature != case
         if model.takes_conditions:
-            conditions = replace(model.conditions or Conditions(), shear_stress=TemperatureProbe())
+            conditions = replace(model.conditions or Conditions(), shear_stress=probe)
             if other:
                 conditions = replace(conditions, temperature=temperature)
             task = Task(rubber, surface, point_load, model.with_conditions(conditions))
@@ -244,13 +249,18 @@ def predicted_of(data: xr.Dataset) -> Predicted:
     )
 
 
-def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicted:
+def answers_at(
+    measured: MeasuredFriction,
+    case: Case,
+    bench: Bench,
+    warming_law: InterfacialShearStress | None = None,
+) -> Predicted:
     """Return what the answer of a case with a measured surface states at each measured point.
 
     Friction and contact area are those of `gripscale.answer` at the speed, temperature and pressure
     of a point: the direct contact of the profiles times the factors of the answer. A law
     that is fitted to them is multiplied with the same area when the case is answered with it.
-    A missing temperature or pressure is that of the case.
+    A missing temperature or pressure is that of the case, `warming_law` as of `measured_design`.
 
     Raises `InputError` and `FileError` as `predictions_at`; without a measured surface.
     """
@@ -261,7 +271,9 @@ def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicte
     points: list[Point] = []
     for sample, (name, surface) in enumerate(profiles):
         label = f"{name}: " if len(profiles) > 1 else ""
-        line = measured_design(measured, direct, case.rubber, surface, case.load, label)
+        line = measured_design(
+            measured, direct, case.rubber, surface, case.load, label, warming_law
+        )
         points += [replace(point, index=(*point.index, sample)) for point in line.points]
     sizes = {**line.sizes, "sample": len(profiles)}
     subjects = {"subject": ("sample", [name for name, _ in profiles])}
@@ -270,7 +282,7 @@ def answers_at(measured: MeasuredFriction, case: Case, bench: Bench) -> Predicte
     if case.below_measurement.down_to is not None:
         model = case.continuation()
         continued = measured_design(
-            measured, model, case.rubber, case.surface, case.load, "continued: "
+            measured, model, case.rubber, case.surface, case.load, "continued: ", warming_law
         )
         solved = bench.solve(continued.tasks, contact_curves)
         curves = [solved[point.task.key] for point in continued.points]

@@ -18,7 +18,7 @@ from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.charts.draw import image
 from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
-from gripscale.core import InputError, checks
+from gripscale.core import Array, InputError, checks
 from gripscale.core.finding import Finding, Severity, to_json
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import (
@@ -36,6 +36,7 @@ from gripscale.questions.calibration import page
 from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate, fit_area_term
 from gripscale.questions.calibration.charts import calibration_pictures
 from gripscale.questions.calibration.measured_comparison import (
+    Predicted,
     answers_at,
     measured_design,
     predicted_of,
@@ -55,6 +56,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MODELS = ("direct", "chain")  # models whose hysteresis an area term can be put beside
+# Fits of a law and of the heat that its friction makes, at most, and the friction to which both
+# agree.
+MOST_FITS, SAME_FRICTION = 6, 2e-3
 _CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
     "and this area term together give the measured friction. The hysteresis is not fitted."
@@ -169,7 +173,8 @@ def calibrate(
     model : str, optional
         "direct" or "chain": what predicts the hysteresis and the real contact area; by default
         the direct contact where a surface was measured, with the factors of `gripscale.answer`:
-        the case with the fitted law then has the fitted friction as its answer.
+        the case with the fitted law then has the fitted friction as its answer. With heat fit and
+        contacts are repeated until the law that warms the interface is the one fitted.
     law, fixed, hold_out
         As for `gripscale.questions.fit_area_term`.
     folder : path, optional
@@ -190,13 +195,21 @@ def calibrate(
         for speed, kelvin in zip(friction.speed, friction.temperature, strict=True):
             warm = case.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
             require_measured(warm, surface.sines.wavelength, float(speed))
+    warms = case.conditions is not None and case.conditions.heat is not None
+    warming_law: InterfacialShearStress | None = None
     with bench_in(folder, workers, client, on_task) as bench:
-        if model == Chain.name:
-            design = measured_design(friction, case.chain, rubber, surface, case.load)
-            predicted = predicted_of(solve_design(design, bench))
-        else:
-            predicted = answers_at(friction, case, bench)
-    fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
+        for _ in range(MOST_FITS if warms else 1):
+            if model == Chain.name:
+                design = measured_design(
+                    friction, case.chain, rubber, surface, case.load, warming_law=warming_law
+                )
+                predicted = predicted_of(solve_design(design, bench))
+            else:
+                predicted = answers_at(friction, case, bench, warming_law)
+            fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
+            before, warming_law = warming_law, fit.law
+            if before is not None and _agree(predicted, before, fit.law, friction.speed):
+                break
     data = fit.to_dataset().assign_attrs(
         case.attributes, model=model, notes="\n".join(page.notes(fit))
     )
@@ -208,6 +221,14 @@ def calibrate(
     result = Calibration(data, record.inputs(case, loads=loads, further=doubts))
     result.fit = fit
     return result
+
+
+def _agree(
+    predicted: Predicted, before: InterfacialShearStress, law: InterfacialShearStress, speed: Array
+) -> bool:
+    """Return whether two laws warm the interface alike at the measured points."""
+    frictions = [predicted.area_term(each, speed) for each in (before, law)]
+    return bool(np.nanmax(np.abs(frictions[1] - frictions[0])) < SAME_FRICTION)
 
 
 def measured_of(case: Case, measured: MeasuredFriction | str | Path | None) -> MeasuredFriction:

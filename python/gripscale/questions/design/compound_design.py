@@ -23,7 +23,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.core import ZERO_CELSIUS, Array, InputError, provenance
+from gripscale.core import ZERO_CELSIUS, Array, InputError, checks, provenance
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
@@ -235,11 +235,12 @@ def todays_answers(
     return np.array([float(answer[believed(answer, "friction")]) for answer in answers])
 
 
-def left_out(case: Case) -> list[str]:
-    """Return what the case asks for and a design does not know."""
+def left_out(case: Case) -> str:
+    """Return what the case asks for and a design does not know; empty if it knows all of it."""
     effects = {"softening": "softening by strain", "heat": "heat", "shear_stress": "the area term"}
     conditions = case.conditions
-    return [text for name, text in effects.items() if getattr(conditions, name, None) is not None]
+    texts = [text for name, text in effects.items() if getattr(conditions, name, None) is not None]
+    return checks.enumerated(texts) if texts else ""
 
 
 def other_compounds(

@@ -18,6 +18,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of, in_mm
 from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole_number
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
@@ -272,14 +273,21 @@ def conditions_lines(conditions: Conditions, rubber: Rubber) -> Iterator[str]:
     if kelvin is not None:
         origin = "" if conditions.temperature is not None else ", of the master curve"
         yield f"temperature before the contact {kelvin - ZERO_CELSIUS:.4g} C{origin}"
-    for name, law in (("softening", conditions.softening), ("heat", conditions.heat)):
-        if law is not None:
-            yield f"{name}: {_numbers(law)}"
-    if conditions.softening is not None:
-        yield from (f"softening, assumed: {text}" for text in assumptions(conditions.softening))
-        yield f"strain of a wave: {conditions.strain_norm}"
+    softening = conditions.softening
+    if isinstance(softening, SofteningTable):
+        kelvins = softening.temperature or ()
+        at = " and ".join(f"{kelvin - ZERO_CELSIUS:.3g} C" for kelvin in kelvins)
+        sweeps = f"{len(softening.strain)} strain sweep{'s' * (len(softening.strain) > 1)}"
+        yield f"softening: {sweeps}{f' at {at}' if at else ''}, as measured"
+    elif softening is not None:
+        yield f"softening: {_numbers(softening)}"
+    if softening is not None:
+        yield from (f"softening, assumed: {text}" for text in assumptions(softening))
+    if conditions.heat is not None:
+        typical = ", typical of rubber" if conditions.heat == ThermalProperties() else ""
+        yield f"heat of friction: {_numbers(conditions.heat)}{typical}"
     if conditions.shear_stress is not None:
-        yield f"area term, as stated: {_numbers(conditions.shear_stress)}"
+        yield f"interface: {_numbers(conditions.shear_stress)}"
     if conditions.water is not None:
         flooded = math.isinf(conditions.water)
         film = "flooded" if flooded else f"a film of {in_mm(conditions.water, 3)}"
