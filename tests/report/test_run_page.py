@@ -280,7 +280,7 @@ def test_single_file_without_record_and_meshes(run_folder: Path, tmp_path: Path)
     alone = netcdf.save(data, tmp_path / "alone.nc")
     page = Page(write_report(alone))
     assert "holds no record of its inputs" in page.text
-    assert [row[0] for row in page.body("static")] == ["1", "2", "3"]
+    assert [row[0] for row in page.body("alone")] == ["1", "2", "3"]
     assert "table-files" not in page.tables
 
 
