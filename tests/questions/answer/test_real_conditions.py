@@ -80,12 +80,12 @@ def test_the_first_line_asks_whether_the_rubber_is_filled(
     filled: gs.Answer, unfilled: gs.Answer, unstated: gs.Answer
 ) -> None:
     assert not unstated.reliable
-    first = str(unstated).splitlines()[0]
+    first = unstated.lines[0]
     assert "one question decides, whether the rubber is filled" in first
     for answer in (filled, unfilled):
         assert answer.reliable
         assert f"{answer.friction:.3g}" in first
-        assert "question" not in str(answer).splitlines()[0]
+        assert "question" not in answer.lines[0]
 
 
 def test_what_a_case_states_of_its_filler_decides_its_softening() -> None:
@@ -174,15 +174,15 @@ def test_heat_is_on_where_the_rubber_has_a_shift() -> None:
 
 
 def test_rubber_without_a_shift_is_told_what_heat_would_change() -> None:
-    """At 10 m/s the finding has the sign and the size of the change by heat with its own shift."""
-    fast = {"speed": 10.0, "filled": False}
-    cold = gs.answer(made(**fast))
+    """The finding of rubber without its shift against the answer with it, which warms."""
+    fast = {"speed": 10.0, "pressure": 3e6, "filled": False}
+    cold, warm = gs.answer(made(**fast)), gs.answer(made(TREAD, **fast))
     (finding,) = (f for f in cold.findings if "temperature shift" in f.sentence)
-    warm = gs.answer(made(TREAD, **fast))
     change = warm.friction / cold.friction - 1.0
     assert finding.key == "rubber.shift"
-    assert change < 0.0
-    assert finding.friction == pytest.approx(change, rel=0.7)
+    assert change < -0.02
+    # the finding takes a mean shift of treads, 0.1 decades a kelvin, not that of this one
+    assert finding.friction == pytest.approx(change, rel=0.5)
     assert not any("temperature shift" in f.sentence for f in warm.findings)
 
 
