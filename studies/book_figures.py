@@ -1,10 +1,11 @@
-"""The pictures of the pages that explain the model, drawn from the shipped road and tread rubber.
+"""The pictures of the pages that explain the model, drawn from the shipped road.
 
     python -m studies.book_figures [FOLDER]
 
 writes docs/figures/book_*.png; about a minute of one core. Each picture comes from results of the
-shipped case: waves and chain at finite strain, the direct contact, and its derivatives. That of the
-conditions comes from examples/conditions/case.toml.
+shipped case with a rubber as measured at small strain, without softening and heat: waves and chain
+at finite strain, the direct contact, and its derivatives. That of the conditions comes from the
+shipped case as it is.
 """
 
 from __future__ import annotations
@@ -48,6 +49,7 @@ from gripscale.surface.low_pass import transmission
 from gripscale.theory import Persson
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.result import waves_to_dataset
+from studies.shipped import tread
 from studies.shipped_numbers import CASE, ROOT
 
 Array = NDArray[np.float64]
@@ -69,14 +71,13 @@ SENSITIVITY_SPEEDS = [0.003, 0.3, 30.0]
 """Of the derivatives over the speed [m/s]."""
 MAP_STEP, MAP_POINTS = 1e-4, 256
 """Step [m] and points along a side of the map of the line and its map."""
-CONDITIONS = ROOT / "examples" / "conditions" / "case.toml"
 
 
 class Shipped:
-    """The shipped case and its answers, each solved once."""
+    """The shipped road under the tread without softening and heat, each answer solved once."""
 
     def __init__(self) -> None:
-        self.case = read_case(CASE)
+        self.case = read_case(CASE).replace(rubber=tread(), filled=False, conditions=None)
         self.rubber, self.sines = self.case.rubber, self.case.surface.sines
         assert self.sines is not None
 
@@ -94,7 +95,7 @@ class Shipped:
     def sensitivity(self) -> xr.Dataset:
         """The derivatives of the friction, and the errors that the inputs carry to it."""
         with tempfile.TemporaryDirectory() as folder:
-            return gs.sensitivity(read_case(CASE), folder=folder).data
+            return gs.sensitivity(self.case, folder=folder).data
 
     def wave(self, speed: float, pressure: float | None = None) -> gs.ScaleResult:
         """Solve the wave of the pictures under a pressure [Pa], that of the chain by default."""
@@ -355,18 +356,17 @@ def sensitivity(shipped: Shipped) -> Figure:
     return sensitivity_figure(shipped.sensitivity)
 
 
-def speeds(_: Shipped) -> Figure:
+def speeds(shipped: Shipped) -> Figure:
     """Draw the same at three speeds."""
     with tempfile.TemporaryDirectory() as folder:
         vary = {"speed": SENSITIVITY_SPEEDS}
-        return sensitivity_figure(gs.sensitivity(read_case(CASE), folder=folder, vary=vary).data)
+        return sensitivity_figure(gs.sensitivity(shipped.case, folder=folder, vary=vary).data)
 
 
 def conditions(_: Shipped) -> Figure:
     """Draw what each effect of the conditions is worth in the chain."""
     selections = ["all", "no temperature", "no softening", "no heat", "none"]
-    case = read_case(CONDITIONS)
-    data = gs.vary(case, effects=selections, model="chain").data
+    data = gs.vary(read_case(CASE), effects=selections, model="chain").data
     ticks = {float(i): name for i, name in enumerate(selections)}
     rows = PlotAxis("", low=len(ticks) - 0.5, high=-0.5, ticks=ticks, grid=False)
     at = np.array([*ticks])

@@ -56,7 +56,7 @@ def test_the_commands_of_the_readme_run_in_an_empty_folder(
     monkeypatch.chdir(tmp_path)
     write_example("own")
     shutil.copy("own/data/road/20211011_aylesbury_dec_station_0.dat", "road.dat")
-    shutil.copy("own/data/rubber/measured_dma.txt", "dma.csv")
+    shutil.copy("own/data/friction/S100_master_curve.csv", "dma.csv")
     for words in commands(ROOT / "README.md"):
         ran(words)
 

@@ -5,6 +5,7 @@ The page has the answer, its inputs, the chain wave by wave, and what was asked 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -262,10 +263,11 @@ def notices(run: RunSource) -> list[Finding]:
             text = f"{view.title}: {beyond} There the Prony series is an extrapolation."
             findings.append(Finding(Severity.WARNING, text, share, topic=Topic.RUBBER))
     for view in run.by_wave:
-        findings += [
-            replace(notice, sentence=f"{view.title}: {notice.sentence}")
-            for notice in wave_notices(view, run.record.bulk_modulus)
-        ]
+        for notice in wave_notices(view, run.record.bulk_modulus):
+            titled = replace(notice, sentence=f"{view.title}: {notice.sentence}")
+            if answered:  # by another model, which the waves do not change
+                titled = replace(titled, friction=math.nan, area=math.nan)
+            findings.append(titled)
     if len({str(view.data.attrs.get("case", "")) for view in run.predictions}) > 1:
         text = "The dynamic and the static result come from different case files."
         findings.append(Finding(Severity.DOUBT, text))
