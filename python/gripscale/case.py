@@ -355,6 +355,7 @@ class Case(Described):
     def key(self) -> str:
         """Hash of everything that an answer depends on, but for the software."""
         parts = [self.surface, self.measured_rubber, self.load, self.static, self.chain]
+        parts += [self.filled]
         parts += [] if self.conditions is None else [self.conditions.water]
         parts += [self.below_measurement, self.klueppel_heinrich, self.cleaning]
         content = json.dumps([canonical_json(part) for part in parts], sort_keys=True)

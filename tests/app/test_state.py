@@ -96,7 +96,7 @@ def test_every_key_of_a_case_has_a_field_or_a_place_to_drop_its_file(state: Case
 def test_a_kind_that_is_chosen_brings_its_keys(state: CaseState) -> None:
     form = table_form(state, "conditions", ())
     laws = [section for section in sections() if section.name == "conditions.softening"]
-    assert {law.kind for law in laws} == {"kraus", "table"}
+    assert {law.kind for law in laws} == {"kraus", "table", "typical_tread"}
     for law in laws:
         fields(form)["softening"].value = law.kind
         assert state.get(("conditions", "softening")) == {"kind": law.kind}

@@ -359,7 +359,10 @@ def test_shipped_case_is_valid_and_its_files_are_there() -> None:
     file = read_case_file(shipped)
     surface, rubber = file.case.surface, file.case.rubber
     assert len(surface.files or []) == 2
-    assert all(file.resolve(name).is_file() for name in [*(surface.files or []), str(rubber.file)])
+    assert rubber.filled
+    roles = [role for role, _ in file.case.named_files()]
+    assert roles == ["surface", "surface", "rubber", "rubber", "conditions"]
+    assert all(file.resolve(name).is_file() for _, name in file.case.named_files())
     assert file.case.load.pressure == 3e5
-    assert (file.case.load.speed, file.case.load.static) == (0.3, True)
+    assert (file.case.load.speed, file.case.load.static) == (0.3, False)
     assert (surface.scales or 0) >= 8

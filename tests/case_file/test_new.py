@@ -87,7 +87,8 @@ def test_order_does_not_matter_and_what_is_stated_is_no_doubt(tmp_path: Path) ->
     load = {"pressure": "2 bar", "speed": "0.5 m/s", "footprint": "50 mm"}
     texts = []
     for order in (files, files[::-1]):
-        case = new_case(order, tmp_path / "case.toml", load=load, temperature="25 C")
+        stated = {"load": load, "temperature": "25 C", "filled": False}
+        case = new_case(order, tmp_path / "case.toml", **stated)
         texts.append(case.path.read_text(encoding="utf-8"))
         case.path.unlink()
     assert texts[0] == texts[1]
@@ -96,7 +97,15 @@ def test_order_does_not_matter_and_what_is_stated_is_no_doubt(tmp_path: Path) ->
     assert found["rubber"]["reference_temperature"] == "25 C"
     assert found["conditions"] == {"temperature": "25 C"}
     assert found["load"] == load
+    assert found["rubber"]["filled"] is False
     assert not doubted(case, OF_ANOTHER_CASE)
+
+
+def test_whether_the_rubber_is_filled_is_the_first_question(tmp_path: Path) -> None:
+    files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
+    case = new_case(files, tmp_path / "case.toml")
+    assert "filled" not in keys(case)["rubber"]
+    assert case.findings[0].sentence.startswith("Whether the rubber is filled")
 
 
 def test_units_that_no_file_states_are_proposed_and_doubted(tmp_path: Path) -> None:
@@ -300,8 +309,10 @@ def test_the_command_says_what_is_doubtful_and_what_comes_next(
     target = tmp_path / "case.toml"
     outcome = shell("new", folder, "-o", target, "--temperature", "20 C", *OPTIONS)
     assert outcome.exit_code == 0, outcome.output
-    assert "Doubts, the most important first:\n  1. crop = " in outcome.output
+    assert "Doubts, the most important first:\n  1. Whether the rubber is" in outcome.output
     assert f"gripscale run {target}" in " ".join(outcome.output.split())
+    outcome = shell("new", folder, "-o", tmp_path / "b.toml", "--unfilled", *OPTIONS)
+    assert "Doubts, the most important first:\n  1. crop = " in outcome.output
 
 
 @pytest.mark.verification
@@ -420,7 +431,7 @@ def test_the_name_of_a_file_is_no_refusal(tmp_path: Path, shell: Shell) -> None:
 def test_a_title_that_says_depth_is_a_doubt_of_weight(tmp_path: Path) -> None:
     path = road(tmp_path / "road.csv", "x [mm];Tiefe [mm]")
     files = [path, sweeps(tmp_path / "dma.csv")]
-    case = new_case(files, tmp_path / "case.toml")
+    case = new_case(files, tmp_path / "case.toml", filled=False)
     assert case.findings[0].effect == OF_ANOTHER_CASE
     assert "titled 'Tiefe', is taken as height, up" in case.findings[0].sentence
     results = read_case(read_case_file(case.path))

@@ -28,7 +28,6 @@ def test_another_process_draws_the_same_pixels(tmp_path: Path) -> None:
     for figures in (FigureFolder(here), process):
         figures.save(SHEET, "sheet")
         figures.save(BLOCKS, "blocks")
-    process.release()
     process.close()
     assert {path.name for path in there.iterdir()} == {
         f"{name}.{kind}" for name in ("sheet", "blocks") for kind in ("png", "pdf", "svg")
@@ -41,7 +40,6 @@ def test_another_process_draws_the_same_pixels(tmp_path: Path) -> None:
 def test_a_figure_that_cannot_be_written_is_named_at_the_end(tmp_path: Path) -> None:
     process = FigureProcess(FigureFolder(tmp_path / "nowhere"))
     process.save(SHEET, "sheet")
-    process.release()
     with pytest.raises(FileError, match=r"nowhere/sheet\.png cannot be written"):
         process.close()
 
@@ -50,19 +48,11 @@ def test_what_is_saved_after_the_end_of_the_process_does_not_hide_why_it_ended(
     tmp_path: Path,
 ) -> None:
     process = FigureProcess(FigureFolder(tmp_path / "nowhere"))
-    process.release()
     many = Series(np.arange(1e6), np.arange(1e6))
     for _ in range(3):
         process.save(Sheet([Panel(PlotAxis("x"), PlotAxis("y"), [many])]), "sheet")
     with pytest.raises(FileError, match="cannot be written"):
         process.close()
-
-
-def test_nothing_is_written_before_the_folder_is_ready(tmp_path: Path) -> None:
-    process = FigureProcess(FigureFolder(tmp_path))
-    process.save(SHEET, "sheet")
-    process.close()
-    assert not list(tmp_path.iterdir())
 
 
 def test_an_error_ends_the_other_process(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -60,7 +60,7 @@ def test_bad_case_is_refused(
     [
         ("pressure =", "presure =", "load", "pressure"),
         ("[load]", "[lood]", "", "pressure"),
-        ("[load]", "[conditions]\nheat = { density = 1 }\n[load]", "conditions.heat", "density"),
+        ("[load]", "[conditions]\nheat = { density = -1 }\n[load]", "conditions.heat", "density"),
         ('"road.txt"', '"rod.txt"', "surface", "files"),
         ('"dma.txt"', '"dna.txt"', "rubber", "frequency_unit"),
         ("[load]", '[conditions]\ntemperature = "60 C"\n[load]', "rubber.shift", "kind"),

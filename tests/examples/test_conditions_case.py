@@ -59,7 +59,7 @@ def test_effects_in_chain_and_direct_contact(case: Path) -> None:
         selections = ["all", "no temperature", "no softening", "no heat", "none"]
         found = Study(results, {"effects": selections}, model=model).run()
         assert (found.prediction_status == "converged").all()
-        # 20 C is colder than the master curve, 40 C: without its temperature the rubber touches more;
+        # 20 C is colder than the master curve, 40 C: without it the rubber touches more;
         # strain and heat soften it.
         area = found.total_contact_fraction
         assert area[1] > area[0]

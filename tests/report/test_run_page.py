@@ -34,7 +34,7 @@ from tests.samples import ZENER
 from .conftest import CASE, WAVES, read
 from .reading import Page
 
-NAMES = ("load", "contact", "errors", "solution", "mesh")
+NAMES = ("dynamic", "static")
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>\"'&{{ 7 * 7 }}"
 
 
@@ -110,45 +110,6 @@ def test_tables_have_every_wave_and_no_empty_cell(page: Page, name: str) -> None
     assert all(cell for row in rows for cell in row)
 
 
-def numbers_on(page: Page) -> np.ndarray:
-    """Return every number that fills a cell, percentages as ratios."""
-    cells = {cell for rows in page.tables.values() for row in rows for cell in row}
-    found = []
-    for cell in cells:
-        match = re.fullmatch(r"(−?\d+(?:\.\d+)?(?:e[+−]\d+)?)( %)?", cell)
-        if match is not None:
-            found.append(float(match[1].replace("−", "-")) / (100.0 if match[2] else 1.0))
-    return np.array(found)
-
-
-def test_every_column_of_the_result_is_shown(page: Page, run_folder: Path) -> None:
-    """Each number per wave of the result stands in some table, rounded."""
-    data, shown = netcdf.load_dataset(run_folder / "dynamic.nc"), numbers_on(page)
-    columns = [v for v in data.data_vars.values() if v.dims == ("scale",) and v.dtype.kind == "f"]
-    assert len(columns) >= 18
-    for variable in columns:
-        unit = {"m": 1e-3, "Pa": 1e6}.get(variable.attrs["units"], 1.0)
-        unit = 1e5 if variable.name == "pressure_received" else unit  # bar, as the case gives it
-        digits = 2 if variable.name in ("friction_mismatch", "residual") else 3
-        for value in variable.values[np.isfinite(variable.values)] / unit:
-            apart = np.abs(shown - value).min()
-            assert apart <= 0.51 * 10.0 ** (1 - digits) * abs(value), variable.name
-
-
-def test_a_new_column_of_the_result_is_shown_too(changed_run: Callable[..., Path]) -> None:
-    def edit(data: xr.Dataset) -> xr.Dataset:
-        return data.assign(flash_temperature=("scale", [0.125, 0.25, 0.5], {"units": "K"}))
-
-    page = Page(write_report(changed_run(edit, "dynamic")))
-    assert [row[-1] for row in page.body("further")] == ["0.125", "0.250", "0.500"]
-    assert "flash_temperatureK" in page.tables["table-further"][1]
-
-
-def test_static_and_dynamic_stand_side_by_side(page: Page) -> None:
-    groups = page.tables["table-contact"][0]
-    assert groups[1:] == ["Dynamic, 0.3 m/s", "Static"]
-
-
 def test_case_text_is_given_word_for_word(page: Page) -> None:
     assert " ".join(CASE.split()) in page.text
 
@@ -164,7 +125,6 @@ def test_pictures_and_figures_have_texts(page: Page) -> None:
 
 def test_good_run_raises_no_alarm(page: Page) -> None:
     assert not [a for _, a in page.tags if a.get("role") == "alert"]
-    assert "Every wave converged." in page.text
 
 
 def test_failed_wave_is_loud_and_has_no_totals(failed_folder: Path) -> None:
@@ -172,16 +132,12 @@ def test_failed_wave_is_loud_and_has_no_totals(failed_folder: Path) -> None:
     assert [a for _, a in page.tags if a.get("role") == "alert"]
     assert "Dynamic, 0.3 m/s: wave 2 did NOT converge (iteration limit at 40 %" in page.text
     assert "No totals" in page.text
-    assert "Every wave converged." not in page.text
     marked = [tag for tag, a in page.tags if "bad" in (a.get("class") or "").split()]
-    assert marked.count("th") == 5  # wave 2 in each of five tables
-    columns = sum(len(page.tables[f"table-{name}"][0]) for name in NAMES)
-    assert marked.count("td") > columns
-    solution = page.body("solution")
-    assert len(solution) == WAVES
-    assert "NOT CONVERGED: iteration limit at 40 % of the pressure" in solution[1]
-    assert "not reached" in solution[2]
-    assert all(cell for row in solution for cell in row)
+    assert marked.count("th") == 1  # wave 2
+    solved = page.body("dynamic")
+    assert len(solved) == 2
+    assert solved[1][-1] == "iteration limit at 40 % of the pressure"
+    assert all(cell for row in solved for cell in row)
 
 
 def test_run_that_was_stopped_has_no_totals(changed_run: Callable[..., Path]) -> None:
@@ -324,7 +280,7 @@ def test_single_file_without_record_and_meshes(run_folder: Path, tmp_path: Path)
     alone = netcdf.save(data, tmp_path / "alone.nc")
     page = Page(write_report(alone))
     assert "holds no record of its inputs" in page.text
-    assert [row[0] for row in page.body("load")] == ["1", "2", "3"]
+    assert [row[0] for row in page.body("alone")] == ["1", "2", "3"]
     assert "table-files" not in page.tables
 
 
@@ -352,7 +308,7 @@ def test_model_without_waves_has_its_totals(tmp_path: Path) -> None:
     load = Load(3e5, 0.3, 0.1)
     data = predicted_answer(xr.Dataset(), totals, "converged", "toy", load)
     page = Page(write_report(netcdf.save(data, tmp_path / "toy.nc")))
-    for text in ("0.0123", "0.456", "0.451 from energy lost", "The model has no waves"):
+    for text in ("0.0123", "0.456", "0.451 from energy lost", "(0.451 from dissipation)"):
         assert text in page.text
     assert not [a for _, a in page.tags if a.get("role") == "alert"]
     nowhere = dict.fromkeys(TOTALS, np.nan)

@@ -149,7 +149,8 @@ def answer_cards(data: xr.Dataset) -> Iterator[Card]:
         source = "by the chain of waves"
     for name in reliance.estimated_names(data):
         title, number = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}", headline(data, name)
-        parts = [source, friction_parts(data) if name == "friction" else ""]
+        of_friction = friction_parts(data) or "hysteresis alone"
+        parts = [source, of_friction if name == "friction" else ""]
         detail, bad = "; ".join(filter(None, parts)), bool(reliance.no_answer(data))
         interval = f"{number.interval} ({100.0 * LEVEL:.0f} %)" if number.interval else ""
         yield Card(title, significant(number.value), detail, bad, interval)

@@ -12,7 +12,7 @@ import xarray as xr
 
 from gripscale import model as models
 from gripscale.case import Case
-from gripscale.conditions.area_term import InterfacialShearStress
+from gripscale.conditions.area_term import ConstantStress, InterfacialShearStress
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import Array, Checked, InputError, Mask, Vector, checked, checks, labelled
 from gripscale.core.units import ZERO_CELSIUS, plain
@@ -195,13 +195,13 @@ def measured_design(
     surface: Surface,
     load: Load,
     label: str = "",
-    warming_law: InterfacialShearStress | None = None,
+    warming_stress: Array | None = None,
 ) -> Design:
     """Return the design over `measurement` that `predictions_at` solves; labels begin with one.
 
-    With the heat of conditions, the interface loses the friction of `warming_law`.
+    With the heat of conditions, the interface of each point loses its `warming_stress` [Pa].
     """
-    probe = TemperatureProbe(warming_law)
+    warming = np.zeros(measured.speed.size) if warming_stress is None else warming_stress
     pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
     case = (model.conditions or Conditions()).temperature_of(rubber)
     kelvin = np.where(
@@ -213,7 +213,10 @@ def measured_design(
         temperature = None if math.isnan(t) else float(t)
         other = temperature is not None and temperature != case
         if model.takes_conditions:
-            conditions = replace(model.conditions or Conditions(), shear_stress=probe)
+            law = ConstantStress(float(warming[at - 1])) if warming[at - 1] > 0.0 else None
+            conditions = replace(
+                model.conditions or Conditions(), shear_stress=TemperatureProbe(law)
+            )
             if other:
                 conditions = replace(conditions, temperature=temperature)
             task = Task(rubber, surface, point_load, model.with_conditions(conditions))
@@ -253,14 +256,14 @@ def answers_at(
     measured: MeasuredFriction,
     case: Case,
     bench: Bench,
-    warming_law: InterfacialShearStress | None = None,
+    warming_stress: Array | None = None,
 ) -> Predicted:
     """Return what the answer of a case with a measured surface states at each measured point.
 
     Friction and contact area are those of `gripscale.answer` at the speed, temperature and pressure
     of a point: the direct contact of the profiles times the factors of the answer. A law
     that is fitted to them is multiplied with the same area when the case is answered with it.
-    A missing temperature or pressure is that of the case, `warming_law` as of `measured_design`.
+    A missing temperature or pressure is that of the case, `warming_stress` as of `measured_design`.
 
     Raises `InputError` and `FileError` as `predictions_at`; without a measured surface.
     """
@@ -272,7 +275,7 @@ def answers_at(
     for sample, (name, surface) in enumerate(profiles):
         label = f"{name}: " if len(profiles) > 1 else ""
         line = measured_design(
-            measured, direct, case.rubber, surface, case.load, label, warming_law
+            measured, direct, case.rubber, surface, case.load, label, warming_stress
         )
         points += [replace(point, index=(*point.index, sample)) for point in line.points]
     sizes = {**line.sizes, "sample": len(profiles)}
@@ -282,7 +285,7 @@ def answers_at(
     if case.below_measurement.down_to is not None:
         model = case.continuation()
         continued = measured_design(
-            measured, model, case.rubber, case.surface, case.load, "continued: ", warming_law
+            measured, model, case.rubber, case.surface, case.load, "continued: ", warming_stress
         )
         solved = bench.solve(continued.tasks, contact_curves)
         curves = [solved[point.task.key] for point in continued.points]

@@ -56,9 +56,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MODELS = ("direct", "chain")  # models whose hysteresis an area term can be put beside
-# Fits of a law and of the heat that its friction makes, at most, and the friction to which both
-# agree.
-MOST_FITS, SAME_FRICTION = 6, 2e-3
+# Contacts with the heat that the measured friction makes: passes at most, and the friction to which
+# two of them agree.
+MOST_PASSES, SAME_FRICTION = 6, 2e-3
 _CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
     "and this area term together give the measured friction. The hysteresis is not fitted."
@@ -173,8 +173,8 @@ def calibrate(
     model : str, optional
         "direct" or "chain": what predicts the hysteresis and the real contact area; by default
         the direct contact where a surface was measured, with the factors of `gripscale.answer`:
-        the case with the fitted law then has the fitted friction as its answer. With heat fit and
-        contacts are repeated until the law that warms the interface is the one fitted.
+        the case with the fitted law then has the fitted friction as its answer. With heat the
+        interface is as warm as the measured friction makes it.
     law, fixed, hold_out
         As for `gripscale.questions.fit_area_term`.
     folder : path, optional
@@ -196,20 +196,21 @@ def calibrate(
             warm = case.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
             require_measured(warm, surface.sines.wavelength, float(speed))
     warms = case.conditions is not None and case.conditions.heat is not None
-    warming_law: InterfacialShearStress | None = None
+    stress: Array | None = None
     with bench_in(folder, workers, client, on_task) as bench:
-        for _ in range(MOST_FITS if warms else 1):
+        for _ in range(MOST_PASSES if warms else 1):
             if model == Chain.name:
                 design = measured_design(
-                    friction, case.chain, rubber, surface, case.load, warming_law=warming_law
+                    friction, case.chain, rubber, surface, case.load, warming_stress=stress
                 )
                 predicted = predicted_of(solve_design(design, bench))
             else:
-                predicted = answers_at(friction, case, bench, warming_law)
-            fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
-            before, warming_law = warming_law, fit.law
-            if before is not None and _agree(predicted, before, fit.law, friction.speed):
+                predicted = answers_at(friction, case, bench, stress)
+            before, stress = stress, _measured_stress(predicted, friction)
+            change = (stress - (0.0 if before is None else before)) * predicted.leverage
+            if np.nan_to_num(np.abs(change)).max() < SAME_FRICTION:
                 break
+    fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
     data = fit.to_dataset().assign_attrs(
         case.attributes, model=model, notes="\n".join(page.notes(fit))
     )
@@ -223,12 +224,11 @@ def calibrate(
     return result
 
 
-def _agree(
-    predicted: Predicted, before: InterfacialShearStress, law: InterfacialShearStress, speed: Array
-) -> bool:
-    """Return whether two laws warm the interface alike at the measured points."""
-    frictions = [predicted.area_term(each, speed) for each in (before, law)]
-    return bool(np.nanmax(np.abs(frictions[1] - frictions[0])) < SAME_FRICTION)
+def _measured_stress(predicted: Predicted, measured: MeasuredFriction) -> Array:
+    """Return the shear stress [Pa] that adds to the hysteresis what was measured; not below 0."""
+    missing = measured.friction - predicted.friction
+    adds = predicted.has_answer & (missing > 0.0)
+    return np.divide(missing, predicted.leverage, out=np.zeros(missing.size), where=adds)
 
 
 def measured_of(case: Case, measured: MeasuredFriction | str | Path | None) -> MeasuredFriction:

@@ -64,7 +64,7 @@ def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
 
 
 def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:
-    """Return area, friction and the pressure along the waves.
+    """Return area and friction of the waves.
 
     The totals of `direct`, what judges the predictions, are level lines. Waves that did not
     converge are red crosses.
@@ -76,25 +76,6 @@ def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list
         for name, views in (("contact_fraction", predictions), ("friction", moving))
         if views
     ]
-    for view in predictions:
-        if not view.has("surface_pressure"):
-            continue
-        unit, wavelength = view.display_unit("pressure"), view.column("wavelength") / MILLI
-        marks = []
-        for i, shade in enumerate(style.shades(view.waves)):
-            phase, pressure = view.pressure_along(i)
-            colour, end = (shade, "") if view.converged[i] else (RED, ", not converged")
-            label = f"{i + 1}: {wavelength[i]:.3g} mm{end}"
-            marks.append(Series(phase, unit.of(pressure), colour, label, width=1.2))
-        panels.append(Panel(
-            PlotAxis("$x/\\lambda$, crest at 0 [-]"),
-            PlotAxis(f"contact pressure [{unit.unit}]"),
-            marks,
-            name=f"pressure-{view.name}",
-            caption=f"{view.title}: contact pressure along each wave. Click a wave to hide it.",
-            alt=f"Contact pressure along each wave of the {view.name} prediction.",
-            height=380,
-        ))  # fmt: skip
     return draw.panels_on_page(panels)
 
 

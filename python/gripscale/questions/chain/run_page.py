@@ -5,6 +5,7 @@ The page has the answer, its inputs, the chain wave by wave, and what was asked 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -23,14 +24,14 @@ from gripscale.experiment.measured_friction import (
     friction_doubts,
     stored_measurement,
 )
-from gripscale.io.table import NONE, Table
+from gripscale.io.table import NONE
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.answer import ANSWER_FILE
 from gripscale.questions.answer.findings import case_notices, no_answer_notices
 from gripscale.questions.answer.reliance import has_answer, is_measured
 from gripscale.questions.chain.charts import contact_charts, measured_chart
-from gripscale.questions.chain.findings import exponent_sentence, prediction_sentence, wave_notices
-from gripscale.questions.chain.page import wave_tables
+from gripscale.questions.chain.findings import prediction_sentence, wave_notices
+from gripscale.questions.chain.page import heat_table, prediction_table, totals
 from gripscale.questions.chain.run import DYNAMIC, STATIC
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare import page as comparison
@@ -135,11 +136,6 @@ def run_of(trees: dict[str, xr.DataTree]) -> RunSource:
     return RunSource(views, InputRecord.of_tree(next(iter(trees.values()))).data)
 
 
-_EVIDENCE = (
-    "The two friction coefficients of a wave are found independently, from the traction in the "
-    "contact and from the energy lost in the rubber; by the balance of energy they are equal. "
-    "Their difference is the error of the discretisation."
-)
 STALE = (
     "The comparison in this folder belongs to another version of the case and is left out; run "
     "`gripscale compare` again."
@@ -216,8 +212,7 @@ def _load_facts(run: RunSource) -> Facts:
 
 def _sections_of_results(run: RunSource) -> Iterator[Section]:
     """Yield the chain wave by wave, what stands beside it, and how far it is to be trusted."""
-    tables = {table.name: table for table in wave_tables(run.by_wave)}
-    yield _results(run, tables)
+    yield _results(run)
     direct = [] if run.direct is None else [PredictionView(run.direct, "direct contact")]
     sliding = [view for view in run.predictions if view.moving and view.complete]
     measured: list[Element] = []
@@ -235,32 +230,21 @@ def _sections_of_results(run: RunSource) -> Iterator[Section]:
         lines += (Text(line.strip()) for line in answer.answer_lines(same.ladder))
     compared = [*lines, *comparison.comparison_elements(same)]
     yield Section("comparison", "Models side by side", compared)
-    evidence: list[Element] = []
-    if run.by_wave:
-        evidence = list(run_failures(run)) or [Finding(Severity.GOOD, "Every wave converged.")]
-        evidence.append(Text(_EVIDENCE))
-        evidence += [tables[name] for name in ("errors", "solution", "mesh") if name in tables]
-    yield Section("verification", "Verification", evidence)
 
 
-def _results(run: RunSource, tables: dict[str, Table]) -> Section:
+def _results(run: RunSource) -> Section:
     """Return the chapter of the chain; beside an answer it is a comparison."""
     title, judge = "Contact and friction, wave by wave", None
-    sentences = [(view.title, exponent_sentence(view.data)) for view in run.predictions]
-    below: list[Element] = [Text(f"{of}. {text}") for of, text in sentences if text]
+    elements: list[Element] = []
+    for view in run.predictions:
+        table = replace(prediction_table(view.data, view.title), name=view.name)
+        elements.append(table if view.waves else Text(totals(view.data)))
+        if view.has("contact_temperature"):
+            elements.append(replace(heat_table(view.data), name=f"heat-{view.name}"))
     if run.direct is not None and is_measured(run.direct):
         title, judge = f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}, for comparison", run.direct
-        below += map(Text, comparison.judgement(run.predictions[0], judge))
-    if not run.by_wave:
-        return Section(
-            "results", title, [Text("The model has no waves; its totals stand above."), *below]
-        )
-    elements: list[Element] = []
-    if any(not view.moving for view in run.by_wave):
-        elements.append(Text("A prediction at rest has no friction; its columns are left out."))
-    names = ("load", "contact", "conditions", "further")
-    elements += [tables[name] for name in names if name in tables]
-    return Section("results", title, [*elements, *below, *contact_charts(run.by_wave, judge)])
+        elements += map(Text, comparison.judgement(run.predictions[0], judge))
+    return Section("results", title, [*elements, *contact_charts(run.by_wave, judge)])
 
 
 def notices(run: RunSource) -> list[Finding]:
@@ -279,10 +263,11 @@ def notices(run: RunSource) -> list[Finding]:
             text = f"{view.title}: {beyond} There the Prony series is an extrapolation."
             findings.append(Finding(Severity.WARNING, text, share, topic=Topic.RUBBER))
     for view in run.by_wave:
-        findings += [
-            replace(notice, sentence=f"{view.title}: {notice.sentence}")
-            for notice in wave_notices(view, run.record.bulk_modulus)
-        ]
+        for notice in wave_notices(view, run.record.bulk_modulus):
+            titled = replace(notice, sentence=f"{view.title}: {notice.sentence}")
+            if answered:  # by another model, which the waves do not change
+                titled = replace(titled, friction=math.nan, area=math.nan)
+            findings.append(titled)
     if len({str(view.data.attrs.get("case", "")) for view in run.predictions}) > 1:
         text = "The dynamic and the static result come from different case files."
         findings.append(Finding(Severity.DOUBT, text))
