@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 import gripscale as gs
+from gripscale.conditions import Conditions
 from gripscale.experiment import MeasuredFriction
 from gripscale.rubber import WLF, Sweeps, write_master_curve
 from gripscale.surface import self_affine_profile
@@ -56,7 +57,13 @@ def public_objects() -> dict[str, Any]:
     x = np.arange(64) * 2e-4
     waves = np.cos(2.0 * np.pi * x / 6.4e-3)
     case = gs.Case(
-        [road, other_road], rubber, pressure="3 bar", speed=0.3, smallest_wavelength="2 mm"
+        [road, other_road],
+        rubber,
+        filled=False,
+        pressure="3 bar",
+        speed=0.3,
+        smallest_wavelength="2 mm",
+        conditions=Conditions(heat="none"),  # what an example shows is quick
     )
     return {
         "gs": gs,
