@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
 from gripscale import model
@@ -117,9 +118,8 @@ def other_findings(samples: xr.Dataset, totals: xr.Dataset) -> Iterator[Finding]
         if not {*names.values()} <= {*samples.data_vars} or not has_answer(totals):
             continue
         changes = {name: math.expm1(float(samples[of].mean())) for name, of in names.items()}
-        errors = [float(totals[f"answer_{name}_sampling_error"]) for name in names]
-        least = max([JUDGED_TO, *(error for error in errors if not math.isnan(error))])
-        if not any(abs(change) > least for change in changes.values()):
+        errors = {name: float(totals[f"answer_{name}_sampling_error"]) for name in names}
+        if not any(abs(changes[name]) > np.fmax(JUDGED_TO, errors[name]) for name in names):
             continue
         words = Words(text.format(in_words(changes)), " State ", CaseKey(key), " in [rubber].")
         friction, area = changes.get("friction", math.nan), changes["contact_fraction"]
