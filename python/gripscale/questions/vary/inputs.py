@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
+from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core import checks
 from gripscale.experiment.design import OF_THE_CASE
 from gripscale.half_space.model import JUDGED_TO, DirectContact
@@ -97,6 +99,27 @@ def with_effects(model: Model, selection: str) -> Model:
     without = {ALL_EFFECTS: [], **{f"no {effect}": [effect] for effect in asked}, NO_EFFECTS: asked}
     nothing = without[checks.one_of("effects", selection, without)]
     return model.with_conditions(conditions_of(model).without(*nothing))
+
+
+@cache
+def _names_of_unfilled() -> set[str]:
+    return {named().name for named in _NAMED_RUBBERS.values()}
+
+
+def for_rubber(model: Model, rubber: Rubber) -> Model:
+    """Return `model` with what its conditions do to a rubber that may be another than the case's.
+
+    Rubber known by name is unfilled and does not soften; without a shift none warms by typical
+    constants.
+    """
+    effects = model.conditions
+    if effects is None or not model.takes_conditions:
+        return model
+    if rubber.name in _names_of_unfilled():
+        effects = replace(effects, softening=None)
+    if rubber.shift is None and effects.heat == ThermalProperties():
+        effects = replace(effects, heat=None)
+    return model if effects == model.conditions else model.with_conditions(effects)
 
 
 def rubber_before(rubber: Rubber, model: Model) -> Rubber:
