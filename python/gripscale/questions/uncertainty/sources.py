@@ -323,16 +323,20 @@ def _modulus(case: Case, options: SourceOptions) -> Draw:
 # Of rubbers it lies between 1 and 3 GPa (A. N. Gent, Engineering with Rubber, 3rd ed. (2012), ch.
 # 1); 1.5 times more or less than the usual 2 GPa covers that range.
 BULK_MODULUS_FACTOR = 1.5
+_LEAST_OF_GLASSY = 0.23  # of the bulk modulus over the sum of all moduli: a little above 2/9
 
 
 @_source("bulk modulus", bulk_modulus=Coordinate("bulk modulus", "Pa", False))
 def _bulk_modulus(case: Case, options: SourceOptions) -> Draw:
     """Draw the bulk modulus, hardly ever measured together with a master curve."""
     usual = Range.about(case.rubber.bulk_modulus, BULK_MODULUS_FACTOR)
-    return _number(
-        options.range_of(quantities.modulus, usual).at,
-        lambda inputs, value: replace(inputs, rubber=replace(inputs.rubber, bulk_modulus=value)),
-    )
+
+    def applied(inputs: Inputs, value: float) -> Inputs:
+        least = _LEAST_OF_GLASSY * inputs.rubber.glassy_modulus  # with a Poisson's ratio above zero
+        bulk = max(value, least) if options.values is None else value
+        return replace(inputs, rubber=replace(inputs.rubber, bulk_modulus=bulk))
+
+    return _number(options.range_of(quantities.modulus, usual).at, applied)
 
 
 @_source("equilibrium modulus", equilibrium_modulus=Coordinate("equilibrium modulus", "Pa", False))

@@ -101,6 +101,9 @@ def with_effects(model: Model, selection: str) -> Model:
     return model.with_conditions(conditions_of(model).without(*nothing))
 
 
+_OF_NAMED = 293.15  # temperature of the moduli of rubbers known by name [K]
+
+
 @cache
 def _names_of_unfilled() -> set[str]:
     return {named().name for named in _NAMED_RUBBERS.values()}
@@ -117,6 +120,8 @@ def for_rubber(model: Model, rubber: Rubber) -> Model:
         return model
     if rubber.name in _names_of_unfilled():
         effects = replace(effects, softening=None)
+        if rubber.shift is None and effects.temperature == _OF_NAMED:
+            effects = replace(effects, temperature=None)
     if rubber.shift is None and effects.heat == ThermalProperties():
         effects = replace(effects, heat=None)
     return model if effects == model.conditions else model.with_conditions(effects)
