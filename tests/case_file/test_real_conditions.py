@@ -19,7 +19,8 @@ RUBBER = (
     'file = "maxwell.txt"\nreference_temperature = "20 C"\n'
     'shift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }\n'
 )
-CASE = case_text(ROAD, RUBBER)
+CASE = case_text(ROAD, RUBBER).replace("filled = false\n", "")
+"""Without a word about the filler."""
 
 
 @pytest.fixture
@@ -30,7 +31,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def read(folder: Path, rubber: str = "", conditions: str = "") -> gs.Case:
-    text = case_text(ROAD, RUBBER + rubber)
+    text = CASE.replace(RUBBER, RUBBER + rubber)
     return gs.read_case(written(folder, text + (conditions and f"[conditions]\n{conditions}")))
 
 

@@ -164,7 +164,10 @@ def test_the_answer_stands_before_the_totals(changed_run: Callable[..., Path]) -
     cards = list(run_cards(replace(run, direct=whole)))
     first, second = cards  # no card of the chain
     assert (first.label, first.value) == ("Friction coefficient μ", "0.250")
-    assert (first.interval, first.detail) == ("0.250 to 0.300 (90 %)", "answer")
+    assert (first.interval, first.detail) == (
+        "0.250 to 0.300 (90 %)",
+        "answer; hysteresis alone",
+    )
     assert (second.label, second.value) == ("Real contact area A_r/A_0", "0.0400")
     page = run_page(replace(run, direct=whole))
     (at,) = (at for at, section in enumerate(page.sections) if section.name == "results")

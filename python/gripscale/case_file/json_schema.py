@@ -67,7 +67,8 @@ def _value(annotation: Any, *metadata: Any) -> dict[str, Any]:
     origin, parts = get_origin(kind), get_args(kind)
     if reading is not None and reading.laws:
         tables = [_table(law) for law in reading.laws.values()]
-        return {"anyOf": [*([{"type": "string"}] if str in parts else []), *tables]}
+        words = [{"enum": list(get_args(part))} for part in parts if get_origin(part) is Literal]
+        return {"anyOf": [*([{"type": "string"}] if str in parts else []), *words, *tables]}
     if origin is Literal:
         return {"enum": list(parts)}
     if isinstance(kind, type) and issubclass(kind, BaseModel):

@@ -120,7 +120,7 @@ def test_the_variance_of_the_samples_is_in_the_interval(folder: Path, certain: x
         square, rel=0.1
     ), "a smooth effect of one number: the fit explains nearly all of it"
     sentences = " ".join(SampledAnswer(data).lines)
-    assert "Answer: μ = " in sentences
+    assert "Answer: hysteresis friction μ = " in sentences
     assert "`gripscale run`, without them: μ" in sentences
     (table,) = part_tables(data)
     assert "cut-off of the roughness" in table.columns[0].texts()

@@ -123,7 +123,7 @@ def test_rubber_by_name_file_or_case(measured: Path) -> None:
     assert read_rubber("styrene_butadiene", file).rubber == own
     tread = read_rubber(str(EXAMPLE), file).rubber
     assert tread.bulk_modulus == 2e9
-    dma = EXAMPLE.parents[1] / "data" / "rubber" / "measured_dma.txt"
+    dma = EXAMPLE.parents[1] / "data" / "friction" / "S100_master_curve.csv"
     again = read_rubber(str(dma), file).rubber
     assert again.bulk_modulus == 1.5e9
     np.testing.assert_array_equal(again.relaxation_times, tread.relaxation_times)

@@ -89,7 +89,9 @@ def made(folder: Path) -> Compounds:
 
 def test_compounds_are_ranked_by_the_answer(folder: Path, made: Compounds) -> None:
     data, case = made.data, read_case(folder / "case.toml")
-    answer = gs.answer(gs.Case(case.surface, made.rubbers["lossy"], pressure=3e5, speed=0.3))
+    answer = gs.answer(
+        gs.Case(case.surface, made.rubbers["lossy"], pressure=3e5, speed=0.3, filled=False)
+    )
     lossy = data.sel(rubber="lossy")
     assert lossy.answer_friction == pytest.approx(answer.friction, rel=1e-9)
     ends = float(lossy.answer_friction_low), float(lossy.answer_friction_high)

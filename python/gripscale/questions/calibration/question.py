@@ -58,7 +58,7 @@ if TYPE_CHECKING:
 _MODELS = ("direct", "chain")  # models whose hysteresis an area term can be put beside
 # Contacts with the heat that the measured friction makes: passes at most, and the friction to which
 # two of them agree.
-MOST_PASSES, SAME_FRICTION = 6, 2e-3
+MOST_WARMINGS, SAME_FRICTION = 6, 2e-3
 _CALIBRATION = (
     "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
     "and this area term together give the measured friction. The hysteresis is not fitted."
@@ -198,7 +198,7 @@ def calibrate(
     warms = case.conditions is not None and case.conditions.heat is not None
     stress: Array | None = None
     with bench_in(folder, workers, client, on_task) as bench:
-        for _ in range(MOST_PASSES if warms else 1):
+        for _ in range(MOST_WARMINGS if warms else 1):
             if model == Chain.name:
                 design = measured_design(
                     friction, case.chain, rubber, surface, case.load, warming_stress=stress
