@@ -96,8 +96,6 @@ def test_quiet_prints_answer_and_all_findings(
     warnings = [*warning_lines(result.findings, widths=result.half_widths)]
     assert done.stdout.splitlines() == [*result.lines, *warnings]
     assert len(warnings) <= 7  # a heading, five findings, how many more there are
-        len(result.findings) > 5
-    )
 
 
 def test_every_question_has_these_options() -> None:
