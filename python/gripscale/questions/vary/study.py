@@ -276,7 +276,8 @@ class Study:
                 model = inputs.with_effects(model, values["effects"])
             if not model.takes_conditions and case.conditions is not None:
                 rubber = case.conditions.before(rubber)
-            model = inputs.for_rubber(model, rubber)
+            if rubber.name != case.rubber.name:
+                model = inputs.for_rubber(model, rubber)
             inputs.rubber_before(rubber, model)
             loads = {name: values[name] for name in OF_THE_LOAD if name in values}
             load = replace(case.load, **loads)
