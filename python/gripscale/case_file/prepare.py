@@ -376,8 +376,11 @@ def case_chain(file: CaseFile) -> Chain:
 
     Raises `FileError` and `InputError` for conditions that cannot be used.
     """
+    return _chain(file, prepare_conditions(file.case.conditions, file.resolve))
+
+
+def _chain(file: CaseFile, conditions: Conditions | None) -> Chain:
     case = file.case
-    conditions = prepare_conditions(case.conditions, file.resolve)
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
@@ -417,7 +420,8 @@ def read_case(path: CaseFile | str | Path) -> Case:
     if name is not None:
         with about_keys("measured"):
             friction = read_measured_friction(file.resolve(name))
-    chain = case_chain(file)
+    conditions = prepare_conditions(file.case.conditions, file.resolve)
+    chain = _chain(file, conditions)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
     load, theory, table = file.case.load, file.case.compare, file.case.surface
@@ -439,7 +443,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 thickness=file.case.rubber.thickness,
                 static=load.static,
                 chain=chain,
-                conditions=prepare_conditions(file.case.conditions, file.resolve),
+                conditions=conditions,
                 filled=_filled(file.case.rubber, file.case.conditions.softening),
                 interface=file.case.conditions.interface,
                 below_measurement=_below_measurement(file),

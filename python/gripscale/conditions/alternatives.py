@@ -20,12 +20,11 @@ MEASURED_LAWS = (Kraus, SofteningTable, TypicalTread)  # in tension or in shear
 
 @dataclass(frozen=True)
 class Alternative:
-    """Conditions that may be true as well, or another strain or warming by them."""
+    """Conditions that may be true as well, or another warming by them."""
 
     label: str  # what is not known, in words
     conditions: Conditions
-    strain: float = 1.0  # over that of the conditions as they are [-]
-    warming: float = 1.0
+    warming: float = 1.0  # over that of the conditions as they are [-]
     # Standard error of the logarithm of a result over its change by these conditions [-].
     share: float = 1.0
 

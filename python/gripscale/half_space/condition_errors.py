@@ -51,7 +51,7 @@ def condition_errors(
             rubber,
             wavenumber=scales.wavenumber,
             warming=each.warming * scales.warming,
-            strain=each.strain * scales.strain,
+            strain=scales.strain,
         )
         changes = log_change(contact, solve(state.rubber))
         yield each.label, LogChange(*(each.share * abs(change) for change in changes))

@@ -173,9 +173,7 @@ def _corrections(data: xr.Dataset) -> str:
         if not all(map(math.isfinite, values.values())):
             continue
         text = ", ".join(f"{word} {signed_percent(value - 1.0)}" for word, value in values.items())
-        if not np.allclose(
-            list(values.values()), 1.0
-        ):  # some change nothing and widen the interval
+        if not np.allclose([*values.values()], 1.0):  # others only widen the interval
             steps.append(f"{label}: {text}")
     where = "your profiles" if LINES_TO_SURFACE in labels else "the measured surface"
     corrected = f", then corrected: {'; '.join(steps)}" if steps else ""
@@ -185,11 +183,9 @@ def _corrections(data: xr.Dataset) -> str:
 def _in_interval(data: xr.Dataset) -> Iterator[str]:
     """Yield the errors in the interval, and what is assumed, left out or not in the interval."""
     names, labels = reliance.estimated_names(data), data.factor_label.values
-    name, rows = names[0], {"sampling of the surface": "sampling_error"}
-    sizes = {
-        label: [float(data[f"answer_{each}_{end}"]) for each in names]
-        for label, end in rows.items()
-    } | {
+    name = names[0]
+    sampling = [float(data[f"answer_{each}_sampling_error"]) for each in names]
+    sizes = {"sampling of the surface": sampling} | {
         str(label): [float(data[f"answer_{each}_factor_uncertainty"][at]) for each in names]
         for at, label in enumerate(labels)
     }
