@@ -15,6 +15,10 @@ from gripscale.conditions.flash_temperature import THERMAL_SCATTER, ThermalPrope
 from gripscale.rubber.softening import Kraus, SofteningTable
 from gripscale.rubber.typical_tread import SOFTER_TREAD, TypicalTread
 
+# What may not be known.
+TREADS = "scatter between treads"
+TENSION_OR_SHEAR = "sweeps in tension or in shear"
+THERMAL_CONSTANTS = "typical thermal constants"
 MEASURED_LAWS = (Kraus, SofteningTable, TypicalTread)  # in tension or in shear
 
 
@@ -34,11 +38,11 @@ def alternatives(conditions: Conditions) -> Iterator[Alternative]:
     softening, heat = conditions.softening, conditions.heat
     if isinstance(softening, TypicalTread):
         softer = replace(softening, deviation=softening.deviation + SOFTER_TREAD.deviation)
-        yield Alternative("scatter between treads", replace(conditions, softening=softer))
+        yield Alternative(TREADS, replace(conditions, softening=softer))
     if isinstance(softening, MEASURED_LAWS) and softening.deformation is None:
         tension = replace(softening, deformation="tension")
         # either end is as likely, and the change is from the middle to one of them
-        yield Alternative("sweeps in tension or in shear", replace(conditions, softening=tension))
+        yield Alternative(TENSION_OR_SHEAR, replace(conditions, softening=tension))
     if heat == ThermalProperties():
         hotter = math.exp(THERMAL_SCATTER)
-        yield Alternative("typical thermal constants", conditions, warming=hotter)
+        yield Alternative(THERMAL_CONSTANTS, conditions, warming=hotter)

@@ -38,7 +38,7 @@ def log_change(contact: RoughContact, other: RoughContact) -> LogChange:
 def condition_errors(
     contact: RoughContact, rubber: Rubber, solve: Callable[[RubberByScale], RoughContact]
 ) -> Iterator[tuple[str, LogChange]]:
-    """Yield what is not known of the iterated conditions of a contact, with its standard errors.
+    """Yield what is not known of the conditions of a contact, and its change by a standard error.
 
     `solve` returns the contact with another rubber at each scale.
     """
@@ -54,4 +54,4 @@ def condition_errors(
             strain=scales.strain,
         )
         changes = log_change(contact, solve(state.rubber))
-        yield each.label, LogChange(*(each.share * abs(change) for change in changes))
+        yield each.label, LogChange(*(each.share * change for change in changes))

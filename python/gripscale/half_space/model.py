@@ -43,10 +43,10 @@ WARMING = "warming_without_shift"
 OTHER_CHANGES = tuple(
     f"{name}_of_{which}" for which in ("tread", "heat") for name in ("contact_fraction", "friction")
 )
-# Names of standard errors over `condition`, of what is not known of the conditions.
+# Names of changes over `condition`, by one standard error of what is not known of the conditions.
 CONDITION_ERRORS = {
-    "contact_fraction_condition_error": "standard error of ln contact fraction by a condition",
-    "friction_condition_error": "standard error of ln friction by a condition",
+    "contact_fraction_condition_error": "change of ln contact fraction by an error of a condition",
+    "friction_condition_error": "change of ln friction by an error of a condition",
 }
 
 

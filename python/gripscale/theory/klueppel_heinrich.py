@@ -61,7 +61,7 @@ class KlueppelHeinrichResult(TheoryResult):
     """Hysteresis friction of a self-affine surface, down to each wavelength (m, Pa, m/s)."""
 
     name = "klueppel_heinrich"
-    title = "Hysteresis friction of rubber on a self-affine surface"
+    title = "Hysteresis friction of rubber on a self-affine surface, without softening and heat"
     source = "Klueppel & Heinrich 2000, Rubber Chem. Technol. 73, 578"
     variables = (
         ("wavelength", "scale", "m", "wavelength"),

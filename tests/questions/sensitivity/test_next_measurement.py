@@ -57,6 +57,19 @@ def test_a_measurement_leaves_the_rest_of_the_variance(result: gs.Sensitivity) -
     assert taken == pytest.approx(1.0 - math.sinh(others) / math.sinh(now))
 
 
+def test_a_sweep_of_the_compound_takes_the_scatter_between_treads() -> None:
+    """What is not known of softening is in the interval, as it is in that of the answer."""
+    case = made(filled=True)
+    result = gs.sensitivity(case)
+    found = rows(result)
+    assert found["strain sweeps of the compound"][1] > 0.0
+    assert found["whether the strain sweeps are in tension or in shear"][1] > 0.0
+    assert found["none"][0] > rows(gs.sensitivity(made()))["none"][0]
+    # as the answer, which has the error of its grid and none of the inputs
+    answered = float(gs.answer(case).data["answer_friction_half_width"])
+    assert found["none"][0] == pytest.approx(answered, rel=0.05)
+
+
 def road(seed: int) -> gs.Profile:
     return self_affine_profile(0.8, 4e-3, 3e-4, length=0.4, step=2e-4, seed=seed)
 

@@ -6,16 +6,23 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy import stats
 
 import gripscale as gs
 from gripscale.case_file import read_case
+from gripscale.conditions.alternatives import TREADS
 from gripscale.core.errors import InputError
 from gripscale.io.table import significant
 from gripscale.questions import Compounds, at_one_temperature, compare_compounds
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts_side_by_side import ranking_figure
-from gripscale.questions.vary.friction_ratio import FrictionRatio, series_changes, series_error
+from gripscale.questions.vary.friction_ratio import (
+    FrictionRatio,
+    condition_changes,
+    series_changes,
+    series_error,
+)
 from gripscale.rubber import WLF, MasterCurve, fit_prony
 from tests.samples import HALF_PLANE, ROOT, case_text, write_road
 
@@ -41,6 +48,22 @@ def measured(factor: float, noise: float) -> gs.Rubber:
     scatter = np.exp(noise * np.random.default_rng(1).standard_normal((2, omega.size)))
     curve = MasterCurve(omega / 2 / np.pi, values.real * scatter[0], values.imag * scatter[1])
     return fit_prony(curve)
+
+
+def changed(**changes: float) -> xr.Dataset:
+    """An answer with what conditions change in its friction."""
+    values = ("sample", "condition"), [[*changes.values()]]
+    return xr.Dataset({"friction_condition_error": values}, {"condition": [*changes]})
+
+
+def test_what_is_not_known_of_both_compounds_cancels() -> None:
+    """The scatter between treads is each compound's own, all else they have in common."""
+    typical, other = changed(**{TREADS: 0.2, "shear": 0.1}), changed(**{TREADS: -0.3, "shear": 0.1})
+    assert condition_changes(typical, other) == pytest.approx([0.2, -0.3, 0.0])
+    own_sweeps = changed(shear=0.04)
+    assert condition_changes(typical, own_sweeps) == pytest.approx([0.2, 0.0, 0.06])
+    assert condition_changes(typical, xr.Dataset()) == pytest.approx([0.2, 0.0, 0.1])
+    assert condition_changes(xr.Dataset(), xr.Dataset()) == []
 
 
 def test_a_temperature_all_can_be_brought_to() -> None:

@@ -285,8 +285,8 @@ def _of_conditions(
     for at, label in enumerate(direct.condition.values):
         numbers = {}
         for name in ESTIMATED:
-            sigma = direct[f"{name}_condition_error"].isel(condition=at, drop=True).mean("sample")
-            numbers[name] = xr.ones_like(sigma), _certain(sigma)
+            change = direct[f"{name}_condition_error"].isel(condition=at, drop=True).mean("sample")
+            numbers[name] = xr.ones_like(change), _certain(abs(change))
         factors[str(label)] = str(label), numbers
     return factors
 

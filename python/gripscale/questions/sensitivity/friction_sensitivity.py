@@ -32,7 +32,7 @@ from gripscale.experiment.design import (
 )
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import contact_trace, trace_variables, with_traces
-from gripscale.half_space.model import DirectContact
+from gripscale.half_space.model import CONDITION_ERRORS, DirectContact
 from gripscale.half_space.sensitivity import TEXTS, contact_sensitivity
 from gripscale.model import STATUS
 from gripscale.questions.vary.friction_ratio import answer_with_contacts
@@ -157,7 +157,8 @@ def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
 def derivatives_of_answer(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
     names = [name for name in answer if name in _DERIVATIVES]
-    kept = answer[[*names, *trace_variables(answer)]]
+    errors = [name for name in CONDITION_ERRORS if name in answer]
+    kept = answer[[*names, *errors, *trace_variables(answer)]]
     numbers = surface_numbers(answer, task).assign(basis_numbers(answer))
     return numbers.assign(kept.variables)
 

@@ -12,6 +12,8 @@ import math
 import numpy as np
 import xarray as xr
 
+from gripscale.conditions.alternatives import TENSION_OR_SHEAR, THERMAL_CONSTANTS, TREADS
+from gripscale.conditions.strain_rule import LOG_AREA, LOG_FRICTION
 from gripscale.core.arrays import Array
 from gripscale.half_space import line_to_map
 from gripscale.io.table import Column, Table, percent
@@ -39,6 +41,9 @@ MEASUREMENTS = {
     "temperature": ("temperature of the rubber, twice", AGAIN),
     "pressure": ("nominal pressure, twice", AGAIN),
     LINES_TO_SURFACE: ("a map in place of lines; it shows a direction, too", 0.0),
+    TREADS: ("strain sweeps of the compound", 0.0),
+    TENSION_OR_SHEAR: ("whether the strain sweeps are in tension or in shear", 0.0),
+    THERMAL_CONSTANTS: ("conductivity and heat capacity of the compound", 0.0),
 }
 
 
@@ -105,6 +110,11 @@ def _factor_errors(point: xr.Dataset, quantity: str) -> dict[str, float]:
         law = line_to_map.SURFACE_OVER_LINES[quantity]
         surface = law(line, point["total_contact_fraction"].values)
         errors[LINES_TO_SURFACE] = float(surface.uncertainty)
+    if point.attrs.get("softens"):
+        errors["strain rule"] = {"contact_fraction": LOG_AREA, "friction": LOG_FRICTION}[quantity]
+    if f"{quantity}_condition_error" in point:
+        changes = zip(point.condition.values, point[f"{quantity}_condition_error"], strict=True)
+        errors |= {str(label): abs(float(change)) for label, change in changes}
     return errors
 
 

@@ -330,6 +330,7 @@ def sensitivity(
         contact_fraction=contact_fraction,
         with_feedback=with_feedback,
         traces=vary is None,
+        alternatives=vary is None,
     )
     study = Study(case, axes, model=model)
     with bench_in(folder, workers, None, on_task) as bench:
@@ -346,6 +347,7 @@ def sensitivity(
         "model": "direct",
         "bands_per_decade": bands,
         "iterated": int(conditions is not None and conditions.iterated),
+        "softens": int(conditions is not None and conditions.softening is not None),
     }
     loads = [point.task.load for point in study.points]
     notes = [doubt(text, topic=Topic.RUBBER) for text in reading_notes(study.measured_rubbers)]

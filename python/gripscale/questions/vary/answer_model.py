@@ -89,7 +89,9 @@ class AnswerModel(Checked, model.Model):
                 "the direct contact needs a measured profile; got waves stated by hand"
             )
         if self.compared and load.speed > 0.0:
-            contact = ComparedContact(tolerance=self.tolerance, conditions=self.conditions)
+            contact = ComparedContact(
+                tolerance=self.tolerance, conditions=self.conditions, alternatives=True
+            )
             points = [replace(p, task=replace(p.task, model=contact)) for p in design.points]
             design = replace(design, points=points)
         on_task = None if on_progress is None else (lambda progress: on_progress(progress.result))

@@ -16,6 +16,9 @@ and what is left has these sources:
   themselves: both errors count.
 - surface: the step from lines to their surface changes with the contact area, and is missed by
   `LOAD_SENSITIVITY` times the difference of the logarithms of both areas.
+- conditions: what is not known of softening and heat (`gripscale.conditions.alternatives`) is the
+  same of both, and the difference of its changes counts; the scatter between treads of each
+  compound that has a typical softening counts by itself.
 
 Two roads share none of the errors of their answers.
 """
@@ -30,9 +33,10 @@ from typing import ClassVar
 import numpy as np
 import xarray as xr
 
+from gripscale.conditions.alternatives import TREADS
 from gripscale.core import Array, ComplexArray, labelled
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
-from gripscale.half_space.model import DirectContact
+from gripscale.half_space.model import CONDITION_ERRORS, DirectContact
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sampling_error import (
     FEWEST_PIECES,
@@ -165,6 +169,7 @@ def answer_with_contacts(
 
 # Names and meanings of what a `ComparedContact` answers with beside a direct contact.
 RATIO_BASIS = {
+    "friction_condition_error": CONDITION_ERRORS["friction_condition_error"],
     "profile_friction_from_dissipation": "friction coefficient of a profile from the energy lost",
     "profile_friction": "friction coefficient of a profile from the contact traction",
     "profile_coarse_friction": "friction coefficient of a profile on the grid before the last",
@@ -259,7 +264,22 @@ def compound_ratio(over: xr.Dataset, under: xr.Dataset) -> FrictionRatio:
         if "series_change" in each
     ]
     rubbers = [series_error(change) for change in changes if change.size]
+    rubbers += condition_changes(over, under)
     area = LOAD_SENSITIVITY * abs(log_ratio("answer_contact_fraction"))
     largest = grid_error(lambda name: log_ratio(f"profile_{name}")), area
     even = [error / math.sqrt(3.0) for error in largest]
     return FrictionRatio.of_sources(log_ratio("answer_friction"), sampling, *even, *rubbers)
+
+
+def condition_changes(over: xr.Dataset, under: xr.Dataset) -> list[float]:
+    """Return what each condition that is not known changes in G, by one standard error."""
+    none = xr.DataArray(
+        np.zeros((1, 0)), {"condition": np.array([], "U1")}, ("sample", "condition")
+    )
+    high, low = (
+        each.get("friction_condition_error", none).mean("sample").fillna(0.0)
+        for each in (over, under)
+    )
+    high, low = xr.align(high, low, join="outer", fill_value=0.0)
+    own, shared = high.condition == TREADS, high.condition != TREADS
+    return [*high[own].values, *low[own].values, *(high - low)[shared].values]

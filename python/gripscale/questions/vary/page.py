@@ -95,8 +95,10 @@ def study_basis(data: xr.Dataset) -> Iterator[str]:
             if set(dimensions(data)) & set(OF_THE_CHAIN)
             else "the surface was measured: `--model direct`, the default, gives the answer"
         )
-    elif data.attrs.get("model") == "direct":
+    elif data.attrs.get("model") == "direct" and "answer_contact_fraction" in data:
         yield "no interval: the surface is too short to tell whether it stands for the whole"
+    elif data.attrs.get("model") == "direct":
+        yield "no interval: the direct contact alone has none; leave the model out"
     else:
         yield "no interval: no surface was measured that could judge it"
 
