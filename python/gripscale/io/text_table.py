@@ -28,6 +28,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from importlib import import_module
 from pathlib import Path
+from typing import overload
 
 import numpy as np
 
@@ -125,13 +126,38 @@ class ColumnTitle:
         return bool(self.name or self.unit)
 
 
+class PlainRows(Sequence[list[str]]):
+    """Rows that hold nothing but numbers with a decimal point; cells are cut when asked for."""
+
+    def __init__(self, lines: Sequence[str], separator: str | None) -> None:
+        """Parse all numbers; raise `ValueError` if a cell is something else."""
+        self.lines, self.separator = lines, separator
+        self.values = np.loadtxt(lines, delimiter=separator, comments=None, ndmin=2)
+        """The numbers, shape (rows, columns)."""
+        if not (np.abs(self.values) <= MOST).all():
+            raise ValueError("a number is missing or too large")
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+    @overload
+    def __getitem__(self, at: int) -> list[str]: ...
+    @overload
+    def __getitem__(self, at: slice) -> list[list[str]]: ...
+    def __getitem__(self, at: int | slice) -> list[str] | list[list[str]]:
+        """Return the cells of a row, or of several."""
+        if isinstance(at, slice):
+            return [cells_of(line, self.separator) for line in self.lines[at]]
+        return cells_of(self.lines[at], self.separator)
+
+
 @dataclass(frozen=True)
 class TextTable:
     """Rows of cells as printed, the titles above them, and the line number of each row."""
 
     path: Path
     columns: list[ColumnTitle]
-    rows: list[list[str]]
+    rows: Sequence[list[str]]
     line_numbers: list[int]
     decimal: str
 
@@ -152,6 +178,8 @@ class TextTable:
 
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> Array:
         """Return a column of numbers up to `MOST`; with `missing`, NaN where a value is missing."""
+        if isinstance(self.rows, PlainRows):
+            return self.rows.values[:, column].copy()
         cells = self._cells(column)
         if missing:
             cells = ["nan" if cell.lower() in MISSING else cell for cell in cells]
@@ -185,6 +213,8 @@ class TextTable:
         return 10.0 ** min(max(power, -300) for power in exponents if isinstance(power, int))
 
     def _cells(self, column: int) -> list[str]:
+        if isinstance(self.rows, PlainRows):
+            return [line.split(self.rows.separator)[column].strip() for line in self.rows.lines]
         cells = [row[column] for row in self.rows]
         return [cell.replace(",", ".") for cell in cells] if self.decimal == "," else cells
 
@@ -282,11 +312,16 @@ def table_in(
         raise FileError(f"{path}: expected {expected}; got 0 in an empty file")
     first, separator = _first_row(path, lines, expected)
     below = [(number, line) for number, line in lines[first:] if not is_comment(line)]
+    numbers = [number for number, _ in below]
+    with suppress(ValueError):  # the rules below say what is wrong with a cell, or allow it
+        plain = PlainRows([line for _, line in below], separator)
+        above, count = [line for _, line in lines[:first]], plain.values.shape[1]
+        _check_faults(path, lines[:first], separator, range(count, count + 1))
+        return TextTable(path, _columns(above, count, kinds, named), plain, numbers, ".")
     rows = [cells_of(line, separator) for _, line in below]
     while not any(map(is_number, rows[-1])):  # remarks below the table
         rows.pop()
-    numbers = [number for number, _ in below[: len(rows)]]
-    count = len(rows[0])
+    numbers, count = numbers[: len(rows)], len(rows[0])
     _check_faults(path, lines[:first], separator, range(count, count + 1))
     for number, row in zip(numbers, rows, strict=True):
         if len(row) != count:
