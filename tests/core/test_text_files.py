@@ -10,7 +10,7 @@ import pytest
 
 from gripscale.core.errors import FileError
 from gripscale.io.cells import parse_number
-from gripscale.io.text_table import read_table
+from gripscale.io.text_table import PlainRows, TextTable, files_read_once, read_table
 from gripscale.rubber import MasterCurve, read_master_curve
 from gripscale.surface import Profile, read_profile
 
@@ -223,3 +223,44 @@ def test_titles(tmp_path: Path, title: str, name: str, unit: str | None) -> None
 @pytest.mark.parametrize("cell", ["1_000", "0x1", "infinity", "1e", "1.2.3", "١", "1,5"])
 def test_only_plain_numbers_are_numbers(cell: str) -> None:
     assert parse_number(cell) is None
+
+
+def read(path: Path) -> TextTable:
+    return read_table(path, "numbers", kinds=("length",), named={"x", "z"}.__contains__)
+
+
+@pytest.mark.parametrize("separator", ["\t", ";", ",", " "])
+def test_rows_of_plain_numbers_are_those_cut_cell_by_cell(tmp_path: Path, separator: str) -> None:
+    """All at once, to the last bit and with the printed places, as with a mark among them."""
+    values = np.random.default_rng(0).standard_normal((50, 2)) * [[1.0, 1e-7]]
+    lines = [f"{x:.6f}{separator}{z!r}" for x, z in values.tolist()]
+    plain, cut = tmp_path / "plain.txt", tmp_path / "cut.txt"
+    plain.write_text("\n".join(["x [mm]" + separator + "z [mm]", *lines]), encoding="utf-8")
+    missing = f"99.000000{separator}nan"
+    cut.write_text(plain.read_text(encoding="utf-8") + f"\n{missing}", encoding="utf-8")
+    first, second = read(plain), read(cut)
+    assert isinstance(first.rows, PlainRows)
+    assert not isinstance(second.rows, PlainRows)
+    assert [*first.rows] == [*second.rows][:-1]
+    assert first.columns == second.columns
+    for column, name in enumerate(("distance", "height")):
+        numbers = first.numbers(column, name)
+        assert (numbers == second.numbers(column, name, missing=True)[:-1]).all()
+        assert first.resolution(column) == second.resolution(column)
+
+
+def test_a_file_that_many_readers_try_is_read_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Inside a block only: a file that changed is read anew."""
+    path = tmp_path / "road.txt"
+    path.write_text("0 1\n1 2\n", encoding="utf-8")
+    opened = []
+    real = Path.read_bytes
+    monkeypatch.setattr(Path, "read_bytes", lambda file: opened.append(file) or real(file))
+    with files_read_once():
+        assert read(path).numbers(1, "height").tolist() == [1.0, 2.0]
+        assert read(path).numbers(1, "height").tolist() == [1.0, 2.0]
+    assert opened == [path]
+    path.write_text("0 3\n1 4\n", encoding="utf-8")
+    assert read(path).numbers(1, "height").tolist() == [3.0, 4.0]

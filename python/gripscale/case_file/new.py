@@ -36,6 +36,7 @@ from gripscale.core import CaseKey, ExtrapolationError, FileError, GripscaleErro
 from gripscale.core.finding import Finding, ranked
 from gripscale.core.units import si_value
 from gripscale.io.folders import make_folder, path_between, write_text
+from gripscale.io.text_table import files_read_once
 from gripscale.rubber import read_shift_table
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.extrapolation import require_measured
@@ -73,6 +74,7 @@ class NewCase:
     """Files of a folder that hold neither a surface nor moduli."""
 
 
+@files_read_once()
 def new_case(files: Sequence[str | Path], path: str | Path, **options: Any) -> NewCase:
     """Write a case for measured files, found as by `propose` with its options, to `path`.
 

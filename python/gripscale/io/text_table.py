@@ -22,13 +22,14 @@ import math
 import os
 import re
 import sys
-from collections.abc import Callable, Collection, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from dataclasses import dataclass
 from decimal import Decimal
 from importlib import import_module
 from pathlib import Path
-from typing import overload
+from typing import Any, TypeVar, overload
 
 import numpy as np
 
@@ -55,6 +56,7 @@ from gripscale.io.cells import (
 EXCEL = (".xlsx", ".xlsm")
 
 _Rows = list[tuple[object, ...]]
+T = TypeVar("T")
 
 
 def is_excel(path: Path) -> bool:
@@ -151,6 +153,30 @@ class PlainRows(Sequence[list[str]]):
         return cells_of(self.lines[at], self.separator)
 
 
+_kept: ContextVar[dict[object, Any] | None] = ContextVar("_kept", default=None)
+
+
+@contextmanager
+def files_read_once() -> Iterator[None]:
+    """Keep the lines and rows of text files inside a block, in which several readers try them."""
+    token = _kept.set({})
+    try:
+        yield
+    finally:
+        _kept.reset(token)
+
+
+def _read_once(key: object, make: Callable[[], T]) -> T:
+    """Return what `make` makes, or what it made for the key inside `files_read_once`."""
+    kept = _kept.get()
+    if kept is None:
+        return make()
+    if key not in kept:
+        kept[key] = make()
+    made: T = kept[key]
+    return made
+
+
 @dataclass(frozen=True)
 class TextTable:
     """Rows of cells as printed, the titles above them, and the line number of each row."""
@@ -205,7 +231,11 @@ class TextTable:
 
     def resolution(self, column: int) -> float:
         """Return the last decimal place of any printed number of a column, such as 0.001."""
-        cells = self._cells(column)
+        if isinstance(self.rows, PlainRows):  # an axis of a map has few numbers, printed alike
+            once = np.unique(self.rows.values[:, column], return_index=True)[1]
+            cells = [self.rows[at][column] for at in once.tolist()]
+        else:
+            cells = self._cells(column)
         if _DIGITS.issuperset("".join(cells)):
             return float(10.0 ** -max(len(cell.partition(".")[2]) for cell in cells))
         numbers = filter(NUMBER.fullmatch, cells)  # others are marks of missing values
@@ -213,8 +243,6 @@ class TextTable:
         return 10.0 ** min(max(power, -300) for power in exponents if isinstance(power, int))
 
     def _cells(self, column: int) -> list[str]:
-        if isinstance(self.rows, PlainRows):
-            return [line.split(self.rows.separator)[column].strip() for line in self.rows.lines]
         cells = [row[column] for row in self.rows]
         return [cell.replace(",", ".") for cell in cells] if self.decimal == "," else cells
 
@@ -244,6 +272,10 @@ def read_lines(
     A sheet is stated by its name or its number from 1; by default it is the only one with numbers.
     Rows of numbers among the first `header` lines are turned into comments.
     """
+    return _read_once(("lines", path, sheet, header), lambda: _lines_of(path, sheet, header))
+
+
+def _lines_of(path: Path, sheet: str | int | None, header: int | None) -> list[Line]:
     if not is_excel(path):
         if sheet is not None:
             raise InputError(
@@ -314,7 +346,10 @@ def table_in(
     below = [(number, line) for number, line in lines[first:] if not is_comment(line)]
     numbers = [number for number, _ in below]
     with suppress(ValueError):  # the rules below say what is wrong with a cell, or allow it
-        plain = PlainRows([line for _, line in below], separator)
+        plain = _read_once(
+            ("rows", path, first, len(below)),
+            lambda: PlainRows([line for _, line in below], separator),
+        )
         above, count = [line for _, line in lines[:first]], plain.values.shape[1]
         _check_faults(path, lines[:first], separator, range(count, count + 1))
         return TextTable(path, _columns(above, count, kinds, named), plain, numbers, ".")
