@@ -16,7 +16,13 @@ from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.conditions.flash_temperature import STONE, ThermalProperties
 from gripscale.core import Array, Checked, InputError, Status, checked, checks, labelled, provenance
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
-from gripscale.half_space.condition_errors import condition_errors, log_change
+from gripscale.half_space.condition_errors import (
+    SERIES,
+    LogChange,
+    condition_errors,
+    log_change,
+    series_change,
+)
 from gripscale.half_space.conditions import warming_of
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
@@ -39,9 +45,12 @@ FELT = 1.75  # wavelength over thickness up to which a layer is as soft as a hal
 # Shift of measured treads between 20 and 40 C: what warming is worth where no shift was measured.
 DECADES_PER_KELVIN = 0.1
 WARMING = "warming_without_shift"
-# Names of the changes of an answer by a tread on a rigid base, and by warming without a shift.
+# Names of the changes of an answer by a tread on a rigid base, by warming without a shift, and by
+# the measured moduli in place of their series.
 OTHER_CHANGES = tuple(
-    f"{name}_of_{which}" for which in ("tread", "heat") for name in ("contact_fraction", "friction")
+    f"{name}_of_{which}"
+    for which in ("tread", "heat", "series")
+    for name in ("contact_fraction", "friction")
 )
 # Names of standard errors over `condition`, of what is not known of the conditions.
 CONDITION_ERRORS = {
@@ -275,6 +284,16 @@ class DirectContact(Checked, model.Model):
         start = replace(contact, water=None)
         solve = partial(dry.contact, rubber, surface, measured, start=start)
         errors = dict(condition_errors(contact, rubber, lambda scale: solve(load, by_scale=scale)))
+        of_series = series_change(
+            contact,
+            rubber,
+            lambda other, scale: dry.contact(other, surface, measured, load, start, scale),
+        )
+        changed: dict[str, LogChange] = {}
+        if of_series is not None:
+            # the measured moduli are the likely ones, and the answer is not moved to them
+            errors[SERIES] = LogChange(*map(abs, of_series))
+            changed["series"] = of_series
         numbers = np.array(list(errors.values())).reshape(-1, 2).T
         data = {
             name: labelled("condition", values, "1", text, "direct")
@@ -282,22 +301,21 @@ class DirectContact(Checked, model.Model):
         }
         labels = np.array(list(errors), dtype=object)
         answer = answer.assign_coords(condition=("condition", labels)).assign(data)
-        if not self.unstated:
-            return answer
         others: dict[str, Load] = {}
         longest = 0.0 if surface.waves is None else float(surface.sines.wavelength[0])
-        if load.thickness is None and longest > FELT * TREAD:
+        if self.unstated and load.thickness is None and longest > FELT * TREAD:
             others["tread"] = replace(load, thickness=TREAD)
         effects = self.conditions or Conditions()
         cold = rubber.shift is None and "heat" not in effects.off and not effects.water
-        if cold and contact.friction_from_dissipation > 0.0:
+        if self.unstated and cold and contact.friction_from_dissipation > 0.0:
             effects = replace(effects, heat=ThermalProperties(), counterface=STONE)
             rise = warming_of(contact, effects, load.footprint).where_lost
             answer[WARMING] = labelled((), rise, "K", "rise that a shift would count", "direct")
             slower = load.speed * 10.0 ** (-DECADES_PER_KELVIN * rise)
             others["heat"] = replace(load, speed=max(slower, 1e-9 * load.speed))
         for which, other in others.items():
-            changes = log_change(contact, solve(other, by_scale=contact.by_scale))
+            changed[which] = log_change(contact, solve(other, by_scale=contact.by_scale))
+        for which, changes in changed.items():
             for name, change in changes._asdict().items():
                 text = f"change of ln {name} by {which}"
                 answer[f"{name}_of_{which}"] = labelled((), change, "1", text, "direct")

@@ -22,15 +22,17 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from gripscale.core import Array, InputError, Quantity, RubberWarning, checks
-from gripscale.rubber import material, maxwell_fit
+from gripscale.rubber import maxwell_fit
 from gripscale.rubber import prony_report as report
+from gripscale.rubber.admissible import AdmissibleSeries, loss_shape, storage_shape
 from gripscale.rubber.master_curve import MasterCurve
-from gripscale.rubber.material import BULK_MODULUS, AdmissibleSeries, Rubber
+from gripscale.rubber.material import BULK_MODULUS, Rubber
 from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
 from gripscale.rubber.prony_report import PronyFit, likely_reading, root_mean_square
 
@@ -61,7 +63,7 @@ def extremes(
     outside = 10.0 ** (beyond * np.array([0.5, 1.0])) if beyond > 0.0 else np.zeros(0)
     for omega in np.concatenate([low / outside, inside, high * outside]):
         phase = omega * problem.times
-        shapes = material.storage_shape(phase), material.loss_shape(phase)
+        shapes = storage_shape(phase), loss_shape(phase)
         storage = np.concatenate([[problem.unit], shapes[0] * problem.scale, [0.0]])
         loss = np.concatenate([[0.0], shapes[1] * problem.scale, [0.0]])
         for row, offset in ((storage, problem.floor), (loss, 0.0)):
@@ -71,7 +73,8 @@ def extremes(
     equilibrium = problem.floor + problem.unit * every[:, 0]
     # Elements of no weight count as zero.
     moduli[moduli <= 1e-9 * (moduli.sum(axis=1, keepdims=True) + equilibrium[:, None])] = 0.0
-    return AdmissibleSeries(problem.times, _rounded(equilibrium), _rounded(moduli))
+    series = problem.times, _rounded(equilibrium), _rounded(moduli)
+    return AdmissibleSeries(*series, curve.omega, curve.storage, curve.loss)
 
 
 def open_equations(
@@ -224,33 +227,36 @@ def fit_prony_report(
     limit = largest_modulus(float(rows.storage.max()), bulk)
     prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
 
-    def fit(part: Curve, terms: int) -> Spectrum:
+    def fit(prior: Prior, part: Curve, terms: int) -> Spectrum:
         times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
         return maxwell_fit.fit_spectrum(part, times, prior)
 
     candidates: tuple[maxwell_fit.Candidate, ...] = ()
     if terms is None:
-        terms, candidates = maxwell_fit.choose_terms(rows, fit)
-    spectrum = fit(rows, terms)
+        few = maxwell_fit.with_sharp_smoothing(prior)
+        fits = partial(fit, prior), partial(fit, few)
+        terms, sharp, candidates = maxwell_fit.choose_terms(rows, *fits)
+        prior = few if sharp else prior
+    spectrum = fit(prior, rows, terms)
     # The scatter about the fit: what any series has to live with.
     storage_scatter, loss_scatter = (
         max(least, root_mean_square(ratio - 1.0))
         for least, ratio in zip(screening.believed_scatter, spectrum.ratios(rows), strict=True)
     )
-    present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
+    others = extremes(rows, (storage_scatter, loss_scatter), beyond, _STIFFEST * bulk)
     rubber = Rubber(
         spectrum.equilibrium,
-        spectrum.moduli[present],
-        spectrum.times[present],
         bulk_modulus=bulk,
         name=master.name,
         source=master.source,
         valid_band=(float(rows.omega[0]), float(rows.omega[-1])),
-        admissible=extremes(rows, (storage_scatter, loss_scatter), beyond, _STIFFEST * bulk),
+        admissible=others,
         reference_temperature=master.reference_temperature,
         shift=master.shift,
     )
-    fit_report = report.report_prony(master, rows, screening, candidates, rubber)
+    problem = maxwell_fit.FitProblem(rows, spectrum.times, prior)
+    rubber = problem.applied_to(rubber)
+    fit_report = report.report_prony(master, problem, screening, candidates, rubber)
     doubts = tuple(report.moduli_doubts(master, swapped, screening.storage_scatter))
     if swapped.likely and not likely_reading(master, swapped):
         fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))
