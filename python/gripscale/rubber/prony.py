@@ -78,7 +78,10 @@ def extremes(
 
 
 def open_equations(
-    curve: Curve, scatter: tuple[float, float], beyond: float, largest_modulus: float
+    curve: Curve,
+    scatter: tuple[Array | float, Array | float],
+    beyond: float,
+    largest_modulus: float,
 ) -> maxwell_fit.Equations:
     """Return the equations in units of the scatter, smoothed so little that the data decide."""
     decades = math.log10(curve.omega[-1] / curve.omega[0])
