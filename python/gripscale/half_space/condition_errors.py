@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 from gripscale.conditions.alternatives import alternatives
@@ -37,13 +37,25 @@ def log_change(contact: RoughContact, other: RoughContact) -> LogChange:
     return LogChange(*(math.log(a / b) if a > 0.0 and b > 0.0 else 0.0 for a, b in pairs))
 
 
-def condition_errors(
-    contact: RoughContact, rubber: Rubber, solve: Callable[[RubberByScale], RoughContact]
-) -> Iterator[tuple[str, LogChange]]:
-    """Yield what is not known of the iterated conditions of a contact, with its standard errors.
+SERIES = "series of the rubber"  # label of what it misses of the moduli it was fitted to
 
-    `solve` returns the contact with another rubber at each scale.
+
+def condition_changes(
+    contact: RoughContact,
+    rubber: Rubber,
+    solve: Callable[[Rubber, RubberByScale | None], RoughContact],
+) -> Iterator[tuple[str, LogChange]]:
+    """Yield what is not known of rubber and iterated conditions of a contact, with its changes.
+
+    Each has the size of a standard error: measured moduli are likelier than their series, to which
+    the answer keeps. They may be those of no linear solid, but a steady slide needs only E* at the
+    frequency of each wave. `solve` returns the contact with another rubber, or one at each scale.
     """
+    by_scale = contact.by_scale
+    if contact.speed > 0.0 and rubber.admissible is not None and rubber.admissible.omega.size:
+        if by_scale is not None:
+            by_scale = replace(by_scale, rubber=MeasuredModuli.of(by_scale.rubber))
+        yield SERIES, log_change(contact, solve(MeasuredModuli.of(rubber), by_scale))
     scales, conditions = contact.scales, contact.conditions
     if scales is None or conditions is None:
         return
@@ -55,29 +67,5 @@ def condition_errors(
             warming=each.warming * scales.warming,
             strain=scales.strain,
         )
-        changes = log_change(contact, solve(state.rubber))
-        yield each.label, LogChange(*(each.share * abs(change) for change in changes))
-
-
-SERIES = "series of the rubber"
-
-
-def series_change(
-    contact: RoughContact,
-    rubber: Rubber,
-    solve: Callable[[Rubber, RubberByScale | None], RoughContact],
-) -> LogChange | None:
-    """Return the change by the moduli that a series was fitted to, in its place; None without any.
-
-    A linear solid has no such moduli where E' and E'' do not belong to one, but the contact of a
-    steady slide needs only E* at the frequency of each wave.
-    """
-    if contact.speed == 0.0 or rubber.admissible is None or not rubber.admissible.omega.size:
-        return None
-
-    def measured(series: Rubber) -> Rubber:
-        return MeasuredModuli(**{item.name: getattr(series, item.name) for item in fields(series)})
-
-    scales = contact.by_scale
-    by_scale = None if scales is None else replace(scales, rubber=measured(scales.rubber))
-    return log_change(contact, solve(measured(rubber), by_scale))
+        changes = log_change(contact, solve(rubber, state.rubber))
+        yield each.label, LogChange(*(each.share * change for change in changes))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
@@ -16,13 +15,7 @@ from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.conditions.flash_temperature import STONE, ThermalProperties
 from gripscale.core import Array, Checked, InputError, Status, checked, checks, labelled, provenance
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
-from gripscale.half_space.condition_errors import (
-    SERIES,
-    LogChange,
-    condition_errors,
-    log_change,
-    series_change,
-)
+from gripscale.half_space.condition_errors import SERIES, condition_changes, log_change
 from gripscale.half_space.conditions import warming_of
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
@@ -282,25 +275,21 @@ class DirectContact(Checked, model.Model):
         # of a wet contact the change is that of the dry one, which its grids are of
         dry = replace(self, tolerance=None, conditions=self.conditions and self.conditions.dry)
         start = replace(contact, water=None)
-        solve = partial(dry.contact, rubber, surface, measured, start=start)
-        errors = dict(condition_errors(contact, rubber, lambda scale: solve(load, by_scale=scale)))
-        of_series = series_change(
-            contact,
-            rubber,
-            lambda other, scale: dry.contact(other, surface, measured, load, start, scale),
-        )
-        changed: dict[str, LogChange] = {}
-        if of_series is not None:
-            # the measured moduli are the likely ones, and the answer is not moved to them
-            errors[SERIES] = LogChange(*map(abs, of_series))
-            changed["series"] = of_series
-        numbers = np.array(list(errors.values())).reshape(-1, 2).T
+
+        def solve(
+            other: Rubber, by_scale: RubberByScale | None, under: Load = load
+        ) -> RoughContact:
+            return dry.contact(other, surface, measured, under, start, by_scale)
+
+        changes = dict(condition_changes(contact, rubber, solve))
+        numbers = np.abs(list(changes.values())).reshape(-1, 2).T
         data = {
             name: labelled("condition", values, "1", text, "direct")
             for (name, text), values in zip(CONDITION_ERRORS.items(), numbers, strict=True)
         }
-        labels = np.array(list(errors), dtype=object)
+        labels = np.array(list(changes), dtype=object)
         answer = answer.assign_coords(condition=("condition", labels)).assign(data)
+        known = {"series": changes[SERIES]} if SERIES in changes else {}
         others: dict[str, Load] = {}
         longest = 0.0 if surface.waves is None else float(surface.sines.wavelength[0])
         if self.unstated and load.thickness is None and longest > FELT * TREAD:
@@ -314,9 +303,9 @@ class DirectContact(Checked, model.Model):
             slower = load.speed * 10.0 ** (-DECADES_PER_KELVIN * rise)
             others["heat"] = replace(load, speed=max(slower, 1e-9 * load.speed))
         for which, other in others.items():
-            changed[which] = log_change(contact, solve(other, by_scale=contact.by_scale))
-        for which, changes in changed.items():
-            for name, change in changes._asdict().items():
+            known[which] = log_change(contact, solve(rubber, contact.by_scale, other))
+        for which, of_both in known.items():
+            for name, change in of_both._asdict().items():
                 text = f"change of ln {name} by {which}"
                 answer[f"{name}_of_{which}"] = labelled((), change, "1", text, "direct")
         return answer

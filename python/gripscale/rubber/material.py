@@ -341,6 +341,11 @@ class Rubber(Checked, Pictured, eq=False):
 class MeasuredModuli(Rubber, eq=False):
     """A rubber with the moduli its series was fitted to, which may belong to no linear solid."""
 
+    @classmethod
+    def of(cls, rubber: Rubber) -> MeasuredModuli:
+        """Return it of a rubber that has the rows of its measurement."""
+        return cls(**{item.name: getattr(rubber, item.name) for item in fields(rubber)})
+
     def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
         """Return E* [Pa]; between rows ln(measured/fitted) is linear, beyond them zero."""
         series, rows = super().complex_modulus(omega), self.admissible

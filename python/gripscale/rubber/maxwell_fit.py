@@ -49,7 +49,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gripscale.core import Array, Mask, checks
-from gripscale.rubber.admissible import loss_shape, storage_shape
+from gripscale.rubber.admissible import AdmissibleSeries, loss_shape, storage_shape
 from gripscale.rubber.material import Rubber
 
 # E_inf is at least this share of the lowest storage modulus: a melt has none, a rubber must.
@@ -167,16 +167,25 @@ class FitProblem:
 
     def applied_to(self, rubber: Rubber) -> Rubber:
         """Return a rubber with the fitted series; the admissible ones stay those of the rows."""
-        storage, loss = (
-            self.row_weight * each for each in (self.prior.storage_weight, self.prior.loss_weight)
-        )
-        prior = replace(self.prior, storage_weight=storage, loss_weight=loss)
-        spectrum = fit_spectrum(self.rows, self.times, prior)
-        present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
-        series = spectrum.equilibrium, spectrum.moduli[present], spectrum.times[present]
-        names = ("equilibrium_modulus", "moduli", "relaxation_times")
+        prior = self.prior
+        storage, loss = (self.row_weight * w for w in (prior.storage_weight, prior.loss_weight))
+        prior = replace(prior, storage_weight=storage, loss_weight=loss)
         admissible = rubber.admissible and replace(rubber.admissible, belongs_to="")
-        return replace(rubber, **dict(zip(names, series, strict=True)), admissible=admissible)
+        return with_series(rubber, fit_spectrum(self.rows, self.times, prior), admissible)
+
+
+def with_series(
+    rubber: Rubber, spectrum: Spectrum, admissible: AdmissibleSeries | None = None
+) -> Rubber:
+    """Return `rubber` with another series and what else fits, without elements of no weight."""
+    present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
+    return replace(
+        rubber,
+        equilibrium_modulus=spectrum.equilibrium,
+        moduli=spectrum.moduli[present],
+        relaxation_times=spectrum.times[present],
+        admissible=admissible,
+    )
 
 
 def non_negative(matrix: Array, right: Array) -> Array:
@@ -246,60 +255,56 @@ class Candidate:
     standard_error: float
 
 
-def with_sharp_smoothing(prior: Prior) -> Prior:
-    """Return it for a fit with many relaxation times, most of which get no modulus."""
+def prior_for(terms: int, curve: Curve, prior: Prior) -> Prior:
+    """Return the prior of a fit with so many relaxation times: very many are hardly smoothed."""
+    if terms < _sharp(curve):
+        return prior
     smoothing, shrinkage = (_SHARP_SMOOTHING * x for x in (prior.smoothing, prior.shrinkage))
     return replace(prior, smoothing=smoothing, shrinkage=shrinkage)
 
 
-def held_out(curve: Curve, fit: Callable[[Curve, int], Spectrum], terms: int) -> Candidate:
-    """Return what cross-validation says of a number of terms."""
-    fold, squares = np.arange(len(curve.omega)) % _FOLDS, np.empty(len(curve.omega))
-    for each in range(_FOLDS):
-        out = fold == each
-        squares[out] = _squares(fit(curve.rows(~out), terms), curve.rows(out))
-    error = float(np.sqrt(squares.mean()))
-    most = max(float(squares.max()), np.finfo(float).tiny)  # its square may overflow
-    spread = most * float((squares / most).std(ddof=1) / np.sqrt(len(squares)))
-    return Candidate(terms, error, 0.5 * spread / error if error > 0.0 else 0.0)
-
-
-def _squares(spectrum: Spectrum, curve: Curve) -> Array:
-    """Return the mean square relative error of both moduli of each row."""
-    storage, loss = spectrum.ratios(curve)
-    return np.asarray(0.5 * (storage - 1.0) ** 2 + 0.5 * (loss - 1.0) ** 2)
+def _sharp(curve: Curve) -> int:
+    return round(_SHARP_PER_DECADE * float(np.log10(curve.omega.max() / curve.omega.min()))) + 1
 
 
 def choose_terms(
-    curve: Curve,
-    fit: Callable[[Curve, int], Spectrum],
-    sharp: Callable[[Curve, int], Spectrum],
-) -> tuple[int, bool, tuple[Candidate, ...]]:
-    """Return the number of terms, whether the fit is `sharp`, and all candidates.
-
-    Either fits a series of so many terms to rows.
-    """
+    curve: Curve, fit: Callable[[Curve, int], Spectrum]
+) -> tuple[int, tuple[Candidate, ...]]:
+    """Return the number of terms and all candidates, from a `fit` to rows with so many terms."""
     decades = float(np.log10(curve.omega.max() / curve.omega.min()))
     numbers = [max(1, round(decades * density) + 1) for density in _PER_DECADE]
     least = max(1, round(decades * _LEAST_PER_DECADE) + 1)
     if len(curve.omega) < 2 * _FOLDS:
-        return min(least, len(curve.omega)), False, ()
-    numbers = sorted({min(number, _MOST_TERMS) for number in numbers})
-    candidates = [held_out(curve, fit, terms) for terms in numbers]
+        return min(least, len(curve.omega)), ()
+    fold = np.arange(len(curve.omega)) % _FOLDS
+    candidates: list[Candidate] = []
+    for terms in [*sorted({min(number, _MOST_TERMS) for number in numbers}), _sharp(curve)]:
+        if terms == _sharp(curve):
+            missed = math.sqrt(_squares(fit(curve, terms), curve).mean())
+            if missed > _SHARP_GAIN * min(each.error for each in candidates):
+                break
+        squares = np.empty(len(fold))
+        for held_out in range(_FOLDS):
+            out = fold == held_out
+            squares[out] = _squares(fit(curve.rows(~out), terms), curve.rows(out))
+        error = float(np.sqrt(squares.mean()))
+        most = max(float(squares.max()), np.finfo(float).tiny)  # its square may overflow
+        spread = most * float((squares / most).std(ddof=1) / np.sqrt(len(squares)))
+        candidates.append(Candidate(terms, error, 0.5 * spread / error if error > 0.0 else 0.0))
     best = min(candidates, key=lambda candidate: candidate.error)
-    many = round(decades * _SHARP_PER_DECADE) + 1
-    beaten = best.error - best.standard_error
-    if math.sqrt(_squares(sharp(curve, many), curve).mean()) < _SHARP_GAIN * best.error:
-        candidates.append(held_out(curve, sharp, many))
-        if candidates[-1].error < beaten:
-            return many, True, tuple(candidates)
     good = [
         candidate.terms
         for candidate in candidates
         if candidate.terms >= min(least, _MOST_TERMS)
         and candidate.error <= best.error + best.standard_error
     ]
-    return min(good, default=best.terms), False, tuple(candidates)
+    return min(good, default=best.terms), tuple(candidates)
+
+
+def _squares(spectrum: Spectrum, curve: Curve) -> Array:
+    """Return the mean square relative error of both moduli of each row."""
+    storage, loss = spectrum.ratios(curve)
+    return np.asarray(0.5 * (storage - 1.0) ** 2 + 0.5 * (loss - 1.0) ** 2)
 
 
 _NEIGHBOURS = 8

@@ -28,7 +28,7 @@ from gripscale.rubber.admissible import loss_shape
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.maxwell_fit import Curve
-from gripscale.rubber.prony_report import PronyFit, fitted_again
+from gripscale.rubber.prony_report import PronyFit, sizes_of_errors
 from gripscale.rubber.shift import ShiftTable
 from gripscale.rubber.shift_fit import ShiftFit, fit_wlf
 from gripscale.rubber.superposition import Superposition
@@ -62,8 +62,12 @@ class MeasuredRubber:
         """
         if self.fit is None or self.fit.problem is None:
             return self
-        weight = row_weights(self.fit.problem.rows, omega, slope) if omega.all() else 1.0
-        rubber, fit = fitted_again(self.rubber, self.fit, weight)
+        rows = self.fit.problem.rows
+        weight = row_weights(rows, omega, slope) if omega.all() else 1.0
+        problem = replace(self.fit.problem, row_weight=weight)
+        rubber = problem.applied_to(self.rubber)
+        sizes = sizes_of_errors(rubber.complex_modulus(rows.omega), rows)
+        fit = replace(self.fit, terms=len(rubber.moduli), problem=problem, **sizes)
         return replace(self, rubber=rubber, fit=fit)
 
     def shift_fits(self) -> list[ShiftFit]:

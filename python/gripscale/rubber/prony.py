@@ -22,7 +22,6 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -78,10 +77,7 @@ def extremes(
 
 
 def open_equations(
-    curve: Curve,
-    scatter: tuple[Array | float, Array | float],
-    beyond: float,
-    largest_modulus: float,
+    curve: Curve, scatter: tuple[float, float], beyond: float, largest_modulus: float
 ) -> maxwell_fit.Equations:
     """Return the equations in units of the scatter, smoothed so little that the data decide."""
     decades = math.log10(curve.omega[-1] / curve.omega[0])
@@ -192,7 +188,8 @@ def fit_prony_report(
         flank at an end is continued as a power law, a plateau as a plateau. At zero the series is
         bent at the ends: nothing relaxes beyond them.
     smoothing : float
-        Weight of the second differences of the spectrum; zero gives the bare non-negative fit.
+        Weight of the second differences of the spectrum; zero gives the bare non-negative fit. With
+        16 relaxation times a decade, for few sharp relaxations, a hundredth of it counts.
     loss_weight : float
         Weight of the relative errors of E'' against those of E'.
 
@@ -230,34 +227,31 @@ def fit_prony_report(
     limit = largest_modulus(float(rows.storage.max()), bulk)
     prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
 
-    def fit(prior: Prior, part: Curve, terms: int) -> Spectrum:
+    def fit(part: Curve, terms: int) -> Spectrum:
         times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
-        return maxwell_fit.fit_spectrum(part, times, prior)
+        return maxwell_fit.fit_spectrum(part, times, maxwell_fit.prior_for(terms, rows, prior))
 
     candidates: tuple[maxwell_fit.Candidate, ...] = ()
     if terms is None:
-        few = maxwell_fit.with_sharp_smoothing(prior)
-        fits = partial(fit, prior), partial(fit, few)
-        terms, sharp, candidates = maxwell_fit.choose_terms(rows, *fits)
-        prior = few if sharp else prior
-    spectrum = fit(prior, rows, terms)
+        terms, candidates = maxwell_fit.choose_terms(rows, fit)
+    spectrum = fit(rows, terms)
     # The scatter about the fit: what any series has to live with.
     storage_scatter, loss_scatter = (
         max(least, root_mean_square(ratio - 1.0))
         for least, ratio in zip(screening.believed_scatter, spectrum.ratios(rows), strict=True)
     )
-    others = extremes(rows, (storage_scatter, loss_scatter), beyond, _STIFFEST * bulk)
     rubber = Rubber(
         spectrum.equilibrium,
         bulk_modulus=bulk,
         name=master.name,
         source=master.source,
         valid_band=(float(rows.omega[0]), float(rows.omega[-1])),
-        admissible=others,
+        admissible=extremes(rows, (storage_scatter, loss_scatter), beyond, _STIFFEST * bulk),
         reference_temperature=master.reference_temperature,
         shift=master.shift,
     )
-    problem = maxwell_fit.FitProblem(rows, spectrum.times, prior)
+    used = maxwell_fit.prior_for(terms, rows, prior)
+    problem = maxwell_fit.FitProblem(rows, spectrum.times, used)
     rubber = problem.applied_to(rubber)
     fit_report = report.report_prony(master, problem, screening, candidates, rubber)
     doubts = tuple(report.moduli_doubts(master, swapped, screening.storage_scatter))

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -32,14 +32,7 @@ from gripscale.core.units import UNITS
 from gripscale.rubber import maxwell_fit
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BEYOND, Rubber, fast_end, slow_end, too_compressible
-from gripscale.rubber.maxwell_fit import (
-    LEAST_SCATTER,
-    Candidate,
-    Curve,
-    FitProblem,
-    Prior,
-    Screening,
-)
+from gripscale.rubber.maxwell_fit import Candidate, Curve, FitProblem, Prior, Screening
 
 _WINDOW = 9
 _ALLOWED = 1.5  # local mean over scatter that is believed: four and a half times its own scatter
@@ -323,70 +316,45 @@ def report_prony(
 ) -> PronyFit:
     """Return the report on `rubber`, fitted to the rows of `master` that the screening kept."""
     assert rubber.admissible is not None
-    rows = problem.rows
-    best = _relative_errors(rubber.admissible.complex_moduli(rows.omega)[0], rows)
-    found = local_misfits(rows, best, screening.believed_scatter)
-    return PronyFit(
-        candidates=candidates,
-        outlier_frequency=master.frequency[~screening.kept],
-        storage_scatter=screening.storage_scatter,
-        loss_scatter=screening.loss_scatter,
-        measured_band=(float(rows.omega[0]), float(rows.omega[-1])),
-        inconsistencies=found,
-        **_of_series(rubber, problem, found, screening.believed_scatter),
+    rows, scatter = problem.rows, screening.believed_scatter
+    modulus = rubber.complex_modulus(rows.omega)
+    errors, of_best = (
+        (each.real / rows.storage - 1.0, each.imag / rows.loss - 1.0)
+        for each in (modulus, rubber.admissible.complex_moduli(rows.omega)[0])
     )
-
-
-def fitted_again(
-    rubber: Rubber, fit: PronyFit, row_weight: Array | float
-) -> tuple[Rubber, PronyFit]:
-    """Return a rubber and its report with another weight of each row of the fit [-]."""
-    assert fit.problem is not None
-    problem = replace(fit.problem, row_weight=row_weight)
-    other = problem.applied_to(rubber)
-    scatter = max(fit.storage_scatter, LEAST_SCATTER), max(fit.loss_scatter, LEAST_SCATTER)
-    before, after = (
-        _of_series(*series, fit.inconsistencies, scatter)
-        for series in ((rubber, fit.problem), (other, problem))
-    )
-    kept = [text for text in fit.findings if text not in before["findings"]]
-    return other, replace(fit, **after | {"findings": (*kept, *after["findings"])})
-
-
-def _relative_errors(modulus: ComplexArray, rows: Curve) -> tuple[Array, Array]:
-    """Return the relative errors of E' and E'' at the rows of a curve [-]."""
-    return modulus.real / rows.storage - 1.0, modulus.imag / rows.loss - 1.0
-
-
-def _of_series(
-    rubber: Rubber,
-    problem: FitProblem,
-    inconsistencies: Sequence[Misfit],
-    scatter: tuple[float, float],
-) -> dict[str, Any]:
-    """Return what a report says of its series; of an end of the data only if it weighs much."""
-    rows, modulus = problem.rows, rubber.complex_modulus(problem.rows.omega)
-    errors = _relative_errors(modulus, rows)
-    loss_factor_error = modulus.imag / modulus.real / (rows.loss / rows.storage) - 1.0
-    weight = np.broadcast_to(problem.row_weight, rows.omega.shape)
+    inconsistencies = local_misfits(rows, of_best, scatter)
     ends: list[Misfit | None] = []  # of the first and the last rows, None within the scatter
     for part in (slice(None, END_ROWS), slice(-END_ROWS, None)):
         omega = rows.omega[part]
         storage, loss = (float(error[part].mean()) for error in errors)
         missed = abs(storage) > scatter[0] or abs(loss) > scatter[1]
-        missed &= bool(weight[part].mean() > 0.5 * weight.max())
         misfit = Misfit(float(omega[0]), float(omega[-1]), storage, loss)
         ends.append(misfit if missed else None)
+    return PronyFit(
+        terms=len(rubber.moduli),
+        candidates=candidates,
+        outlier_frequency=master.frequency[~screening.kept],
+        **sizes_of_errors(modulus, rows),
+        storage_scatter=screening.storage_scatter,
+        loss_scatter=screening.loss_scatter,
+        measured_band=(float(rows.omega[0]), float(rows.omega[-1])),
+        inconsistencies=inconsistencies,
+        slow_end=ends[0],
+        fast_end=ends[1],
+        problem=problem,
+        findings=tuple(fit_warnings(rubber, inconsistencies, ends)),
+    )
+
+
+def sizes_of_errors(modulus: ComplexArray, rows: Curve) -> dict[str, Any]:
+    """Return how large the relative errors of a fitted E* are, as a report names them."""
+    storage, loss = modulus.real / rows.storage - 1.0, modulus.imag / rows.loss - 1.0
+    loss_factor = (1.0 + loss) / (1.0 + storage) - 1.0
     return {
-        "terms": len(rubber.moduli),
-        "rms_storage": root_mean_square(errors[0]),
-        "rms_loss": root_mean_square(errors[1]),
-        "rms_loss_factor": root_mean_square(loss_factor_error),
-        "mean_loss_factor_error": float(loss_factor_error.mean()),
-        "slow_end": ends[0],
-        "fast_end": ends[1],
-        "problem": problem,
-        "findings": tuple(fit_warnings(rubber, inconsistencies, ends)),
+        "rms_storage": root_mean_square(storage),
+        "rms_loss": root_mean_square(loss),
+        "rms_loss_factor": root_mean_square(loss_factor),
+        "mean_loss_factor_error": float(loss_factor.mean()),
     }
 
 

@@ -9,8 +9,7 @@ to the moduli not being negative). With the rows of `maxwell_fit` in units of th
 
 - e of the measured rows are the residuals of the best series, drawn in blocks along the frequency,
   as long as errors go together, E' and E'' of a row together. They are scaled up by the degrees of
-  freedom the fit has taken, and to 2 % where they are less. A row that the fit of a case gave more
-  weight counts more in A, b and the scatter.
+  freedom the fit has taken, and to 2 % where they are less.
 - e of the rows that smooth and shrink the spectrum beyond the ends are standard normal: where there
   are no data the spectrum wanders off as far as the weak smoothing allows. Within the band it is
   for the data to say.
@@ -18,19 +17,22 @@ to the moduli not being negative). With the rows of `maxwell_fit` in units of th
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import math
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from gripscale.core.arrays import Array
-from gripscale.rubber import MasterCurve, PronyFit, Rubber
+from gripscale.rubber import MasterCurve, PronyFit
 from gripscale.rubber.maxwell_fit import LEAST_SCATTER, Curve, Equations, Spectrum, non_negative
 from gripscale.rubber.prony import DECADES_BEYOND, largest_modulus, open_equations
 
 _FEWEST_BLOCKS = 8  # blocks there are at least to draw from
 # Fits after which the scatter, in whose units the equations are, is that about their solution.
 _PASSES = 3
+# Weight of a row over the largest, from which on it counts: of a case its series misses the others.
+LEAST_WEIGHT = 0.03
 MOST_TAKEN = 0.75  # share of the degrees of freedom a fit is believed to take at most
 
 
@@ -42,8 +44,6 @@ class SeriesScatter:
     """Of `open_equations`: first all rows of E', then those of E'', of the prior, and one limit."""
     omega: Array
     """Angular frequency of the measured rows [rad/s], rising, shape (rows,)."""
-    row_weight: Array
-    """Weight of each row in the equations [-], at most one, shape (rows,)."""
 
     @classmethod
     def of(cls, master: MasterCurve, fit: PronyFit, bulk_modulus: float) -> SeriesScatter:
@@ -60,17 +60,19 @@ class SeriesScatter:
         """
         kept = ~np.isin(master.frequency, fit.outlier_frequency)
         curve = Curve(master.angular_frequency, master.storage, master.loss).rows(kept)
+        if fit.problem is not None:
+            weight = np.broadcast_to(fit.problem.row_weight, curve.omega.shape)
+            counted = weight > LEAST_WEIGHT * weight.max()
+            curve = curve.rows(counted) if counted.sum() > 2 * _FEWEST_BLOCKS else curve
         limit = largest_modulus(float(curve.storage.max()), bulk_modulus)
         scatter = fit.rms_storage, fit.rms_loss
-        weight = np.broadcast_to(1.0 if fit.problem is None else fit.problem.row_weight, kept.sum())
-        weight = weight / weight.max()
         for _ in range(_PASSES):
             unit = max(scatter[0], LEAST_SCATTER), max(scatter[1], LEAST_SCATTER)
-            of_rows = unit[0] / weight, unit[1] / weight
-            band = cls(open_equations(curve, of_rows, DECADES_BEYOND, limit), curve.omega, weight)
+            equations = open_equations(curve, unit, DECADES_BEYOND, limit)
+            band = cls(equations, curve.omega)
             # the fit has taken of the scatter, by its degrees of freedom
             taken = min(np.count_nonzero(band.best) / (2 * len(curve.omega)), MOST_TAKEN)
-            rms = np.sqrt(band._mean(band._errors**2) / (1.0 - taken))
+            rms = np.sqrt(np.mean(band._errors**2, axis=0)) / math.sqrt(1.0 - taken)
             scatter = float(rms[0] * unit[0]), float(rms[1] * unit[1])
         return band
 
@@ -84,23 +86,13 @@ class SeriesScatter:
         """Errors of E' and E'' of each row about the best series, shape (rows, 2)."""
         rows = 2 * len(self.omega)
         error = (self.problem.right - self.problem.matrix @ self.best)[:rows]
-        return np.asarray((error.reshape(2, -1) / self.row_weight).T)
-
-    @cached_property
-    def _share(self) -> Array:
-        """Share of each row in the sum of squares."""
-        square = self.row_weight**2
-        return np.asarray(square / square.sum())
-
-    def _mean(self, values: Array) -> Array:
-        """Return the mean over rows, each by its share."""
-        return np.asarray(self._share @ values)
+        return error.reshape(2, -1).T
 
     @cached_property
     def _residuals(self) -> Array:
         """Errors to be drawn from, shape (rows, 2), of mean zero and rms one."""
-        error = self._errors - self._mean(self._errors)
-        rms = np.sqrt(self._mean(error**2))
+        error = self._errors - self._errors.mean(axis=0)
+        rms = np.sqrt(np.mean(error**2, axis=0))
         return np.asarray(error / np.where(rms > 0.0, rms, 1.0))
 
     @cached_property
@@ -110,8 +102,7 @@ class SeriesScatter:
         Longer ones would be too quiet: the fit has taken from the errors what is slow in them.
         """
         error = self._residuals
-        share = self._share[1:, None]
-        together = float((share * error[1:] * error[:-1]).sum() / (2.0 * share.sum()))
+        together = float(np.mean(error[1:] * error[:-1]))
         most = max(1, len(error) // _FEWEST_BLOCKS)
         together = min(max(together, 0.0), 1.0 - 2.0 / (most + 1.0))
         return round((1.0 + together) / (1.0 - together))
@@ -127,21 +118,8 @@ class SeriesScatter:
     def draw(self, random: np.random.Generator) -> Spectrum:
         """Return the spectrum of one disturbed fit."""
         rows, block = len(self.omega), self._block
-        first = np.searchsorted(np.cumsum(self._share), random.random(-(-rows // block)))
+        first = random.integers(rows, size=-(-rows // block))
         order = ((first[:, None] + np.arange(block)) % rows).ravel()[:rows]
         noise = random.standard_normal(len(self._beyond)) * self._beyond
-        drawn = (self.row_weight[:, None] * self._residuals[order]).T.ravel()
-        errors = np.concatenate([drawn, noise, [0.0]])
+        errors = np.concatenate([self._residuals[order].T.ravel(), noise, [0.0]])
         return self.problem.spectrum(non_negative(self.problem.matrix, self.problem.right + errors))
-
-
-def with_series(rubber: Rubber, spectrum: Spectrum) -> Rubber:
-    """Return `rubber` with another series, and nothing said of what else fits."""
-    present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
-    return replace(
-        rubber,
-        equilibrium_modulus=spectrum.equilibrium,
-        moduli=spectrum.moduli[present],
-        relaxation_times=spectrum.times[present],
-        admissible=None,
-    )
