@@ -322,7 +322,10 @@ def report_prony(
         (each.real / rows.storage - 1.0, each.imag / rows.loss - 1.0)
         for each in (modulus, rubber.admissible.complex_moduli(rows.omega)[0])
     )
-    inconsistencies = local_misfits(rows, of_best, scatter)
+    # of few sharp relaxations the series itself is the best one
+    size = np.array(scatter)[:, None]
+    best = min(of_best, errors, key=lambda pair: float(np.square(pair / size).sum()))
+    inconsistencies = local_misfits(rows, best, scatter)
     ends: list[Misfit | None] = []  # of the first and the last rows, None within the scatter
     for part in (slice(None, END_ROWS), slice(-END_ROWS, None)):
         omega = rows.omega[part]
