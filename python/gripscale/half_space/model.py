@@ -289,7 +289,7 @@ class DirectContact(Checked, model.Model):
         }
         labels = np.array(list(changes), dtype=object)
         answer = answer.assign_coords(condition=("condition", labels)).assign(data)
-        known = {"series": changes[SERIES]} if SERIES in changes else {}
+        signed = {"series": changes[SERIES]} if SERIES in changes else {}
         others: dict[str, Load] = {}
         longest = 0.0 if surface.waves is None else float(surface.sines.wavelength[0])
         if self.unstated and load.thickness is None and longest > FELT * TREAD:
@@ -303,8 +303,8 @@ class DirectContact(Checked, model.Model):
             slower = load.speed * 10.0 ** (-DECADES_PER_KELVIN * rise)
             others["heat"] = replace(load, speed=max(slower, 1e-9 * load.speed))
         for which, other in others.items():
-            known[which] = log_change(contact, solve(rubber, contact.by_scale, other))
-        for which, of_both in known.items():
+            signed[which] = log_change(contact, solve(rubber, contact.by_scale, other))
+        for which, of_both in signed.items():
             for name, change in of_both._asdict().items():
                 text = f"change of ln {name} by {which}"
                 answer[f"{name}_of_{which}"] = labelled((), change, "1", text, "direct")

@@ -351,11 +351,11 @@ class MeasuredModuli(Rubber, eq=False):
         series, rows = super().complex_modulus(omega), self.admissible
         if rows is None or not rows.omega.size:
             return series
-        fitted, known = super().complex_modulus(rows.omega), np.log(rows.omega)
+        fitted, position = super().complex_modulus(rows.omega), np.log(rows.omega)
         at = np.log(np.maximum(np.abs(omega), checks.LEAST))
         pairs = (rows.storage, fitted.real), (rows.loss, np.maximum(fitted.imag, checks.LEAST))
         storage, loss = (
-            np.exp(np.interp(at, known, np.log(measured / series), left=0.0, right=0.0))
+            np.exp(np.interp(at, position, np.log(measured / series), left=0.0, right=0.0))
             for measured, series in pairs
         )
         return np.asarray(storage * series.real + 1j * loss * series.imag)
