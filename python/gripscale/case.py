@@ -17,6 +17,8 @@ from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import Conditions
 from gripscale.conditions.defaults import DRY, Interface, with_defaults
@@ -127,7 +129,8 @@ class Case(Described):
     surface : Profile, sequence of Profile, HeightMap, SineStack or Surface
         Measured heights, or sine waves. Heights are taken as they are, unless `cleaning` is given.
     rubber : Rubber, MasterCurve or MeasuredRubber
-        A master curve is fitted by a Prony series.
+        A master curve is fitted by a Prony series, each row with the weight it has for friction and
+        contact area of this case. The series of a `Rubber` is taken as it is.
     pressure : float or str
         Nominal pressure [Pa], or a text with its unit such as "3 bar".
     speed : float or str
@@ -264,6 +267,7 @@ class Case(Described):
                 f"{self.surface.source or 'a surface without one'}"
             )
         _ = self.rubber_before  # refuses a temperature without a shift
+        self.measured_rubber = fitted_for_load(rubber, self.surface, self.load, conditions)
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
         """Yield surface, rubber, load and conditions."""
@@ -474,6 +478,21 @@ class Case(Described):
                 )
             )
         return doubts
+
+
+def fitted_for_load(
+    measured: MeasuredRubber, surface: Surface, load: Load, conditions: Conditions | None
+) -> MeasuredRubber:
+    """Return a rubber with its series fitted for the waves of a surface under a load.
+
+    That of waves stated by hand, too; at rest, and without a measurement, nothing decides more.
+    """
+    rubber, shift = measured.rubber, 1.0
+    kelvin = None if conditions is None else conditions.temperature
+    if kelvin is not None and rubber.shift is not None and rubber.reference_temperature is not None:
+        shift = float(rubber.shift.a(kelvin, rubber.reference_temperature))
+    waves = surface.sines
+    return measured.fitted_for(2.0 * np.pi * shift * load.speed / waves.wavelength, waves.slope)
 
 
 def described_surface(

@@ -8,7 +8,7 @@ import pytest
 
 from gripscale.core.errors import InputError
 from gripscale.rubber import AdmissibleSeries, Rubber, fit_prony, fit_prony_report
-from gripscale.rubber.material import loss_shape, storage_shape
+from gripscale.rubber.admissible import loss_shape, storage_shape
 from gripscale.rubber.maxwell_fit import Curve, Prior, fit_spectrum, relaxation_times
 from tests.rubber.truths import TRUTHS
 

@@ -72,6 +72,26 @@ def test_any_broad_spectrum_is_fitted(moduli, equilibrium):
     assert (fitted.moduli > 0.0).all()
 
 
+@pytest.mark.parametrize(
+    "truth",
+    [
+        Rubber(1e6, [1e7], [1e-3]),
+        Rubber(1e6, [5e6, 2e7, 1e8], [1e-1, 2e-4, 3e-7]),
+        broad_rubber(),
+        Rubber(1e6, [2e6, 3e7, 5e5, 2e7, 1e6, 3e7], [3e-1, 2e-2, 1.7e-3, 1.4e-4, 1e-5, 1.3e-6]),
+    ],
+    ids=["one term", "three terms", "one a decade", "unequal"],
+)
+def test_clean_data_of_few_terms_are_met_to_a_per_cent(truth):
+    """Terms at the times of a smooth spectrum miss E'' by up to 27 %, a sharp spectrum by 0.5 %."""
+    fitted, report = fit_prony_report(sample(truth, 1.0, 1e8, 81))
+    omega = np.geomspace(1.0, 1e8, 400)
+    ratio = [fitted.complex_modulus(omega), truth.complex_modulus(omega)]
+    assert ratio[0].real == pytest.approx(ratio[1].real, rel=0.01)
+    assert ratio[0].imag == pytest.approx(ratio[1].imag, rel=0.01)
+    assert report.consistent
+
+
 @pytest.mark.parametrize("noise", [0.02, 0.05])
 def test_planted_outliers_and_only_these_are_found(noise):
     """Factors of 0.3 to 3 are 20 times the scatter of 5 %; none of 120 clean rows is 8 times."""

@@ -211,8 +211,9 @@ def _rubber_keys(measured: MeasuredRubber, inputs: _Inputs) -> dict[str, Any]:
     if master is None:
         return {"file": inputs.add(name, ".json", json.dumps(rubber.to_dict(), indent=1))}
     usual, _ = fit_prony_report(master, bulk_modulus=rubber.bulk_modulus)
+    even = measured.fitted_for(np.zeros(1), np.ones(1)).rubber  # before its fit for this case
     series = ("equilibrium_modulus", "moduli", "relaxation_times")
-    if not all(np.array_equal(getattr(usual, key), getattr(rubber, key)) for key in series):
+    if not all(np.array_equal(getattr(usual, key), getattr(even, key)) for key in series):
         raise InputError(
             "a case file cannot state how this series was fitted to its master curve; a case with "
             "its Rubber alone can be saved"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
@@ -16,7 +15,7 @@ from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.conditions.flash_temperature import STONE, ThermalProperties
 from gripscale.core import Array, Checked, InputError, Status, checked, checks, labelled, provenance
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
-from gripscale.half_space.condition_errors import condition_errors, log_change
+from gripscale.half_space.condition_errors import SERIES, condition_changes, log_change
 from gripscale.half_space.conditions import warming_of
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
@@ -39,9 +38,12 @@ FELT = 1.75  # wavelength over thickness up to which a layer is as soft as a hal
 # Shift of measured treads between 20 and 40 C: what warming is worth where no shift was measured.
 DECADES_PER_KELVIN = 0.1
 WARMING = "warming_without_shift"
-# Names of the changes of an answer by a tread on a rigid base, and by warming without a shift.
+# Names of the changes of an answer by a tread on a rigid base, by warming without a shift, and by
+# the measured moduli in place of their series.
 OTHER_CHANGES = tuple(
-    f"{name}_of_{which}" for which in ("tread", "heat") for name in ("contact_fraction", "friction")
+    f"{name}_of_{which}"
+    for which in ("tread", "heat", "series")
+    for name in ("contact_fraction", "friction")
 )
 # Names of changes over `condition`, by one standard error of what is not known of the conditions.
 CONDITION_ERRORS = {
@@ -273,32 +275,37 @@ class DirectContact(Checked, model.Model):
         # of a wet contact the change is that of the dry one, which its grids are of
         dry = replace(self, tolerance=None, conditions=self.conditions and self.conditions.dry)
         start = replace(contact, water=None)
-        solve = partial(dry.contact, rubber, surface, measured, start=start)
-        errors = dict(condition_errors(contact, rubber, lambda scale: solve(load, by_scale=scale)))
-        numbers = np.array(list(errors.values())).reshape(-1, 2).T
+
+        def solve(
+            other: Rubber, by_scale: RubberByScale | None, under: Load = load
+        ) -> RoughContact:
+            return dry.contact(other, surface, measured, under, start, by_scale)
+
+        changes = dict(condition_changes(contact, rubber, solve))
+        numbers = np.array(list(changes.values())).reshape(-1, 2).T
         data = {
             name: labelled("condition", values, "1", text, "direct")
             for (name, text), values in zip(CONDITION_ERRORS.items(), numbers, strict=True)
         }
-        labels = np.array(list(errors), dtype=object)
+        labels = np.array(list(changes), dtype=object)
         answer = answer.assign_coords(condition=("condition", labels)).assign(data)
-        if not self.unstated:
-            return answer
+        signed = {"series": changes[SERIES]} if SERIES in changes else {}
         others: dict[str, Load] = {}
         longest = 0.0 if surface.waves is None else float(surface.sines.wavelength[0])
-        if load.thickness is None and longest > FELT * TREAD:
+        if self.unstated and load.thickness is None and longest > FELT * TREAD:
             others["tread"] = replace(load, thickness=TREAD)
         effects = self.conditions or Conditions()
         cold = rubber.shift is None and "heat" not in effects.off and not effects.water
-        if cold and contact.friction_from_dissipation > 0.0:
+        if self.unstated and cold and contact.friction_from_dissipation > 0.0:
             effects = replace(effects, heat=ThermalProperties(), counterface=STONE)
             rise = warming_of(contact, effects, load.footprint).where_lost
             answer[WARMING] = labelled((), rise, "K", "rise that a shift would count", "direct")
             slower = load.speed * 10.0 ** (-DECADES_PER_KELVIN * rise)
             others["heat"] = replace(load, speed=max(slower, 1e-9 * load.speed))
         for which, other in others.items():
-            changes = log_change(contact, solve(other, by_scale=contact.by_scale))
-            for name, change in changes._asdict().items():
+            signed[which] = log_change(contact, solve(rubber, contact.by_scale, other))
+        for which, of_both in signed.items():
+            for name, change in of_both._asdict().items():
                 text = f"change of ln {name} by {which}"
                 answer[f"{name}_of_{which}"] = labelled((), change, "1", text, "direct")
         return answer

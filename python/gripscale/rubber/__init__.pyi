@@ -1,3 +1,4 @@
+from .admissible import AdmissibleSeries as AdmissibleSeries
 from .columns import FileLayout as FileLayout
 from .extrapolation import Extrapolation as Extrapolation
 from .finite_strain import FiniteStrainFit as FiniteStrainFit
@@ -11,7 +12,6 @@ from .finite_strain import work_error as work_error
 from .master_curve import MasterCurve as MasterCurve
 from .master_curve import read_master_curve as read_master_curve
 from .master_curve import write_master_curve as write_master_curve
-from .material import AdmissibleSeries as AdmissibleSeries
 from .material import Rubber as Rubber
 from .material import temperature_doubts as temperature_doubts
 from .maxwell_fit import Candidate as Candidate

@@ -7,10 +7,7 @@ Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3.
 
 Only shear relaxes: G* = E*/3 and the bulk modulus K is constant. E is the modulus of the
 incompressible limit; the few per cent by which a finite K changes it enter through Poisson's ratio
-nu = (3K - 2|G|) / (2 (3K + |G|)). One Maxwell element of unit modulus has, with x = w tau_i and
-without overflow at any x,
-
-    E'/E_i  = x^2 / (1 + x^2) = 1 / (1 + 1/x^2),   E''/E_i = x / (1 + x^2)
+nu = (3K - 2|G|) / (2 (3K + |G|)).
 
 A master curve fixes E*(w) within its band to about its noise, and beyond its ends less and less.
 The admissible series are extremes: each has the least or the largest E' or E'' at some frequency
@@ -39,91 +36,12 @@ from gripscale.core import Checked, Pictured, checked, checks, shown_value
 from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity, Vector
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.core.units import ZERO_CELSIUS, celsius, readable
+from gripscale.rubber.admissible import AdmissibleSeries
 from gripscale.rubber.shift import Shift, shift_at, shift_from_dict, shown_state
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-def storage_shape(phase: Array) -> Array:
-    """Return E'/E_i [-] at w tau = `phase` [-], any sign, same shape."""
-    size = np.abs(phase)
-    square = np.minimum(size, 1.0) ** 2
-    inverse_square = (1.0 / np.maximum(size, 1.0)) ** 2
-    return np.where(size <= 1.0, square / (1.0 + square), 1.0 / (1.0 + inverse_square))
-
-
-def loss_shape(phase: Array) -> Array:
-    """Return E''/E_i [-] at w tau = `phase` [-], with its sign, same shape."""
-    size = np.abs(phase)
-    smaller = np.where(size <= 1.0, size, 1.0 / np.maximum(size, 1.0))
-    return np.copysign(smaller / (1.0 + smaller**2), phase)
-
-
-# What files hold of admissible series.
-_SERIES = ("relaxation_times", "equilibrium_moduli", "moduli")
-
-
-class AdmissibleSeries(Checked, eq=False):
-    """Prony series on common relaxation times, one a row; `InputError` for other shapes."""
-
-    relaxation_times: Vector = checked(checks.positive_vector, unit="s", repr=False)
-    """Relaxation times [s], shape (terms,), above zero."""
-    equilibrium_moduli: Vector = checked(checks.positive_vector, unit="Pa", repr=False)
-    """E_inf of each series [Pa], shape (series,), above zero."""
-    moduli: Vector = field(repr=False)
-    """Moduli of their Maxwell elements [Pa], shape (series, terms), not negative."""
-    belongs_to: str = field(default="", repr=False, compare=False)
-    """Fingerprint of the rubber's own series, set by the first rubber that gets these."""
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        shape = (len(self.equilibrium_moduli), len(self.relaxation_times))
-        expected = f"moduli must be {shape[0]} rows of {shape[1]} numbers [Pa]"
-        elements = checks.array(self.moduli, expected)
-        if elements.size != math.prod(shape):
-            raise InputError(f"{expected}; got {checks.short_repr(self.moduli)}")
-        if not ((elements >= 0.0) & (elements <= checks.MOST)).all():
-            raise InputError(f"moduli must not be negative [Pa]; got {elements.min():g}")
-        self._set(moduli=elements.reshape(shape))
-
-    def given_to(self, fingerprint: str) -> AdmissibleSeries:
-        """Return them as those of this fingerprint; `InputError` if they belong to another."""
-        if self.belongs_to not in ("", fingerprint):
-            raise InputError(
-                "admissible must belong to this series; got that of other moduli or relaxation "
-                "times: leave it out (admissible=None) where they are changed"
-            )
-        return self if self.belongs_to else replace(self, belongs_to=fingerprint)
-
-    def __len__(self) -> int:
-        return len(self.equilibrium_moduli)
-
-    def complex_moduli(self, omega: Array) -> ComplexArray:
-        """Return E*(w) of each series [Pa] at `omega` [rad/s], shape (series, *omega.shape)."""
-        phase = omega[..., None] * self.relaxation_times
-        storage = storage_shape(phase) @ self.moduli.T + self.equilibrium_moduli
-        loss = loss_shape(phase) @ self.moduli.T
-        return np.moveaxis(storage + 1j * loss, -1, 0)
-
-    def shifted(self, a: float, b: float) -> AdmissibleSeries:
-        """Return the series with times multiplied by `a` and moduli divided by `b` [-]."""
-        return AdmissibleSeries(
-            self.relaxation_times * a, self.equilibrium_moduli / b, self.moduli / b
-        )
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return all numbers as lists; the rubber they belong to is not stored."""
-        return {name: getattr(self, name).tolist() for name in _SERIES}
-
-    @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> AdmissibleSeries:
-        """Return the series of `to_dict`; raise `InputError` if a key is another."""
-        if isinstance(values, Mapping) and set(values) == set(_SERIES):
-            return cls(**values)
-        keys = ", ".join(_SERIES)
-        raise InputError(f"admissible must have the keys {keys}; got {checks.short_repr(values)}")
 
 
 BULK_MODULUS = 2e9  # that of rubber [Pa], where none was measured
@@ -418,6 +336,29 @@ class Rubber(Checked, Pictured, eq=False):
             return np.zeros(frequency.shape, dtype=bool)
         low, high = self.valid_band
         return np.asarray((frequency < low) | (frequency > high))
+
+
+class MeasuredModuli(Rubber, eq=False):
+    """A rubber with the moduli its series was fitted to, which may belong to no linear solid."""
+
+    @classmethod
+    def of(cls, rubber: Rubber) -> MeasuredModuli:
+        """Return it of a rubber that has the rows of its measurement."""
+        return cls(**{item.name: getattr(rubber, item.name) for item in fields(rubber)})
+
+    def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
+        """Return E* [Pa]; between rows ln(measured/fitted) is linear, beyond them zero."""
+        series, rows = super().complex_modulus(omega), self.admissible
+        if rows is None or not rows.omega.size:
+            return series
+        fitted, position = super().complex_modulus(rows.omega), np.log(rows.omega)
+        at = np.log(np.maximum(np.abs(omega), checks.LEAST))
+        pairs = (rows.storage, fitted.real), (rows.loss, np.maximum(fitted.imag, checks.LEAST))
+        storage, loss = (
+            np.exp(np.interp(at, position, np.log(measured / series), left=0.0, right=0.0))
+            for measured, series in pairs
+        )
+        return np.asarray(storage * series.real + 1j * loss * series.imag)
 
 
 BEYOND = 100.0  # how far beyond the data uncertainty is stated: a factor of frequency, two decades

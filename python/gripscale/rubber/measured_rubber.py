@@ -1,17 +1,40 @@
-"""A rubber together with the measurement it was fitted to."""
+"""A rubber together with the measurement it was fitted to, and its fit for a case.
+
+No passive solid follows a measured master curve over fifteen decades within its scatter. A case
+excites a few of them, and there the series of its rubber has to be right: the weight of a row is
+what it decides of friction and contact area. In Persson's theory at light loads, waves of rms slope
+s_i that excite the rubber at w_i have
+
+    A_r/A_0 ~ 1/G_n,   mu ~ sum_i s_i^2 E''(w_i)/G_i,   G_i^2 = sum_(j<=i) s_j^2 |E*(w_j)|^2
+
+(B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626), so that wave i has the
+share c_i = s_i^2 E''_i/(G_i mu) of the friction and a_i = s_i^2 |E*_i|^2/G_n^2 of the area. A row
+at w has the weight
+
+    1 + 100 c(w)/max c,   c(w) = sum_i (c_i + a_i) 2 w w_i/(w^2 + w_i^2),
+
+a wave counting as far as the loss of a Maxwell element reaches. A hundred is enough: with 30 the
+misfit of two treads where it decides differs by 0.2 %.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from gripscale.core import Finding, InputError
+import numpy as np
+
+from gripscale.core import Array, Finding, InputError
+from gripscale.rubber.admissible import loss_shape
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import Rubber
-from gripscale.rubber.prony_report import PronyFit
+from gripscale.rubber.maxwell_fit import Curve
+from gripscale.rubber.prony_report import PronyFit, sizes_of_errors
 from gripscale.rubber.shift import ShiftTable
 from gripscale.rubber.shift_fit import ShiftFit, fit_wlf
 from gripscale.rubber.superposition import Superposition
 from gripscale.rubber.sweeps import Sweeps
+
+_MOST_WEIGHT = 100.0  # of a row that decides most, over one that decides nothing
 
 
 @dataclass(frozen=True)
@@ -31,6 +54,22 @@ class MeasuredRubber:
         """Why its moduli may be those of no rubber."""
         return () if self.fit is None else self.fit.doubts
 
+    def fitted_for(self, omega: Array, slope: Array) -> MeasuredRubber:
+        """Return it with its series fitted anew for waves of a surface, longest first.
+
+        They have the rms `slope` [-] and excite the rubber at `omega` [rad/s], at the temperature
+        of the master curve; at rest all rows count alike. Unchanged without a measurement.
+        """
+        if self.fit is None or self.fit.problem is None:
+            return self
+        rows = self.fit.problem.rows
+        weight = row_weights(rows, omega, slope) if omega.all() else 1.0
+        problem = replace(self.fit.problem, row_weight=weight)
+        rubber = problem.applied_to(self.rubber)
+        sizes = sizes_of_errors(rubber.complex_modulus(rows.omega), rows)
+        fit = replace(self.fit, terms=len(rubber.moduli), problem=problem, **sizes)
+        return replace(self, rubber=rubber, fit=fit)
+
     def shift_fits(self) -> list[ShiftFit]:
         """Return the WLF law that the measured shift follows; none where it follows no such law."""
         if self.master is None or not isinstance(self.master.shift, ShiftTable):
@@ -40,3 +79,16 @@ class MeasuredRubber:
             return [fit_wlf(self.master.shift, reference_temperature=reference)]
         except InputError:
             return []
+
+
+def row_weights(rows: Curve, omega: Array, slope: Array) -> Array:
+    """Return the weight of each row for waves of rms `slope` at `omega` [rad/s], longest first."""
+    position, square = np.log(omega), slope**2
+    storage, loss = (
+        np.exp(np.interp(position, np.log(rows.omega), np.log(modulus)))
+        for modulus in (rows.storage, rows.loss)
+    )
+    felt = np.cumsum(square * (storage**2 + loss**2))
+    friction, area = square * loss / np.sqrt(felt), square * (storage**2 + loss**2) / felt[-1]
+    share = loss_shape(rows.omega[:, None] / omega) @ (friction / friction.sum() + area)
+    return np.asarray(1.0 + _MOST_WEIGHT * share / share.max())

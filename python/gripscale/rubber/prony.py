@@ -27,10 +27,11 @@ from typing import Any
 import numpy as np
 
 from gripscale.core import Array, InputError, Quantity, RubberWarning, checks
-from gripscale.rubber import material, maxwell_fit
+from gripscale.rubber import maxwell_fit
 from gripscale.rubber import prony_report as report
+from gripscale.rubber.admissible import AdmissibleSeries, loss_shape, storage_shape
 from gripscale.rubber.master_curve import MasterCurve
-from gripscale.rubber.material import BULK_MODULUS, AdmissibleSeries, Rubber
+from gripscale.rubber.material import BULK_MODULUS, Rubber
 from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
 from gripscale.rubber.prony_report import PronyFit, likely_reading, root_mean_square
 
@@ -61,7 +62,7 @@ def extremes(
     outside = 10.0 ** (beyond * np.array([0.5, 1.0])) if beyond > 0.0 else np.zeros(0)
     for omega in np.concatenate([low / outside, inside, high * outside]):
         phase = omega * problem.times
-        shapes = material.storage_shape(phase), material.loss_shape(phase)
+        shapes = storage_shape(phase), loss_shape(phase)
         storage = np.concatenate([[problem.unit], shapes[0] * problem.scale, [0.0]])
         loss = np.concatenate([[0.0], shapes[1] * problem.scale, [0.0]])
         for row, offset in ((storage, problem.floor), (loss, 0.0)):
@@ -71,7 +72,8 @@ def extremes(
     equilibrium = problem.floor + problem.unit * every[:, 0]
     # Elements of no weight count as zero.
     moduli[moduli <= 1e-9 * (moduli.sum(axis=1, keepdims=True) + equilibrium[:, None])] = 0.0
-    return AdmissibleSeries(problem.times, _rounded(equilibrium), _rounded(moduli))
+    series = problem.times, _rounded(equilibrium), _rounded(moduli)
+    return AdmissibleSeries(*series, curve.omega, curve.storage, curve.loss)
 
 
 def open_equations(
@@ -186,7 +188,8 @@ def fit_prony_report(
         flank at an end is continued as a power law, a plateau as a plateau. At zero the series is
         bent at the ends: nothing relaxes beyond them.
     smoothing : float
-        Weight of the second differences of the spectrum; zero gives the bare non-negative fit.
+        Weight of the second differences of the spectrum; zero gives the bare non-negative fit. With
+        16 relaxation times a decade, for few sharp relaxations, a hundredth of it counts.
     loss_weight : float
         Weight of the relative errors of E'' against those of E'.
 
@@ -226,7 +229,7 @@ def fit_prony_report(
 
     def fit(part: Curve, terms: int) -> Spectrum:
         times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
-        return maxwell_fit.fit_spectrum(part, times, prior)
+        return maxwell_fit.fit_spectrum(part, times, maxwell_fit.prior_for(terms, rows, prior))
 
     candidates: tuple[maxwell_fit.Candidate, ...] = ()
     if terms is None:
@@ -237,11 +240,8 @@ def fit_prony_report(
         max(least, root_mean_square(ratio - 1.0))
         for least, ratio in zip(screening.believed_scatter, spectrum.ratios(rows), strict=True)
     )
-    present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
     rubber = Rubber(
         spectrum.equilibrium,
-        spectrum.moduli[present],
-        spectrum.times[present],
         bulk_modulus=bulk,
         name=master.name,
         source=master.source,
@@ -250,7 +250,10 @@ def fit_prony_report(
         reference_temperature=master.reference_temperature,
         shift=master.shift,
     )
-    fit_report = report.report_prony(master, rows, screening, candidates, rubber)
+    used = maxwell_fit.prior_for(terms, rows, prior)
+    problem = maxwell_fit.FitProblem(rows, spectrum.times, used)
+    rubber = problem.applied_to(rubber)
+    fit_report = report.report_prony(master, problem, screening, candidates, rubber)
     doubts = tuple(report.moduli_doubts(master, swapped, screening.storage_scatter))
     if swapped.likely and not likely_reading(master, swapped):
         fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))

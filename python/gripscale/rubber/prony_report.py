@@ -23,15 +23,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from gripscale.core import Array, CaseKey, Described, Finding, Topic, doubt
+from gripscale.core import Array, CaseKey, ComplexArray, Described, Finding, Topic, doubt
 from gripscale.core.units import UNITS
 from gripscale.rubber import maxwell_fit
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BEYOND, Rubber, fast_end, slow_end, too_compressible
-from gripscale.rubber.maxwell_fit import Candidate, Curve, Prior, Screening
+from gripscale.rubber.maxwell_fit import Candidate, Curve, FitProblem, Prior, Screening
 
 _WINDOW = 9
 _ALLOWED = 1.5  # local mean over scatter that is believed: four and a half times its own scatter
@@ -279,6 +280,8 @@ class PronyFit(Described):
     """How the series misses the five slowest rows; None within their scatter."""
     fast_end: Misfit | None = None
     """The same of the five fastest."""
+    problem: FitProblem | None = field(default=None, repr=False)
+    """The rows and what else the series was fitted to."""
     doubts: tuple[Finding, ...] = ()
     """Why the moduli may be those of no rubber."""
     findings: tuple[str, ...] = ()
@@ -306,20 +309,23 @@ class PronyFit(Described):
 
 def report_prony(
     master: MasterCurve,
-    rows: Curve,
+    problem: FitProblem,
     screening: Screening,
     candidates: tuple[Candidate, ...],
     rubber: Rubber,
 ) -> PronyFit:
-    """Return the report on `rubber`, fitted to the `rows` of `master` that the screening kept."""
+    """Return the report on `rubber`, fitted to the rows of `master` that the screening kept."""
     assert rubber.admissible is not None
-    scatter, modulus = screening.believed_scatter, rubber.complex_modulus(rows.omega)
+    rows, scatter = problem.rows, screening.believed_scatter
+    modulus = rubber.complex_modulus(rows.omega)
     errors, of_best = (
         (each.real / rows.storage - 1.0, each.imag / rows.loss - 1.0)
         for each in (modulus, rubber.admissible.complex_moduli(rows.omega)[0])
     )
-    loss_factor_error = modulus.imag / modulus.real / (rows.loss / rows.storage) - 1.0
-    inconsistencies = local_misfits(rows, of_best, scatter)
+    # of few sharp relaxations the series itself is the best one
+    size = np.array(scatter)[:, None]
+    best = min(of_best, errors, key=lambda pair: float(np.square(pair / size).sum()))
+    inconsistencies = local_misfits(rows, best, scatter)
     ends: list[Misfit | None] = []  # of the first and the last rows, None within the scatter
     for part in (slice(None, END_ROWS), slice(-END_ROWS, None)):
         omega = rows.omega[part]
@@ -331,18 +337,28 @@ def report_prony(
         terms=len(rubber.moduli),
         candidates=candidates,
         outlier_frequency=master.frequency[~screening.kept],
-        rms_storage=root_mean_square(errors[0]),
-        rms_loss=root_mean_square(errors[1]),
-        rms_loss_factor=root_mean_square(loss_factor_error),
-        mean_loss_factor_error=float(loss_factor_error.mean()),
+        **sizes_of_errors(modulus, rows),
         storage_scatter=screening.storage_scatter,
         loss_scatter=screening.loss_scatter,
         measured_band=(float(rows.omega[0]), float(rows.omega[-1])),
         inconsistencies=inconsistencies,
         slow_end=ends[0],
         fast_end=ends[1],
+        problem=problem,
         findings=tuple(fit_warnings(rubber, inconsistencies, ends)),
     )
+
+
+def sizes_of_errors(modulus: ComplexArray, rows: Curve) -> dict[str, Any]:
+    """Return how large the relative errors of a fitted E* are, as a report names them."""
+    storage, loss = modulus.real / rows.storage - 1.0, modulus.imag / rows.loss - 1.0
+    loss_factor = (1.0 + loss) / (1.0 + storage) - 1.0
+    return {
+        "rms_storage": root_mean_square(storage),
+        "rms_loss": root_mean_square(loss),
+        "rms_loss_factor": root_mean_square(loss_factor),
+        "mean_loss_factor_error": float(loss_factor.mean()),
+    }
 
 
 def root_mean_square(values: Array) -> float:

@@ -36,7 +36,8 @@ from numpy.typing import ArrayLike
 
 from gripscale.core import Array, Checked, Mask, checked, checks
 from gripscale.core.errors import InputError
-from gripscale.rubber.material import Rubber, loss_shape, storage_shape
+from gripscale.rubber.admissible import loss_shape, storage_shape
+from gripscale.rubber.material import Rubber
 from gripscale.rubber.strain_sweeps import DEFORMATIONS, ONE_FREQUENCY, Deformation, StrainSweep
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, neighbours_of
 

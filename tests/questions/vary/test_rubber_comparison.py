@@ -19,7 +19,7 @@ from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts_side_by_side import ranking_figure
 from gripscale.questions.vary.friction_ratio import (
     FrictionRatio,
-    condition_changes,
+    ratio_changes,
     series_changes,
     series_error,
 )
@@ -59,11 +59,11 @@ def changed(**changes: float) -> xr.Dataset:
 def test_what_is_not_known_of_both_compounds_cancels() -> None:
     """The scatter between treads is each compound's own, all else they have in common."""
     typical, other = changed(**{TREADS: 0.2, "shear": 0.1}), changed(**{TREADS: -0.3, "shear": 0.1})
-    assert condition_changes(typical, other) == pytest.approx([0.2, -0.3, 0.0])
+    assert ratio_changes(typical, other) == pytest.approx([0.2, -0.3, 0.0])
     own_sweeps = changed(shear=0.04)
-    assert condition_changes(typical, own_sweeps) == pytest.approx([0.2, 0.0, 0.06])
-    assert condition_changes(typical, xr.Dataset()) == pytest.approx([0.2, 0.0, 0.1])
-    assert condition_changes(xr.Dataset(), xr.Dataset()) == []
+    assert ratio_changes(typical, own_sweeps) == pytest.approx([0.2, 0.0, 0.06])
+    assert ratio_changes(typical, xr.Dataset()) == pytest.approx([0.2, 0.0, 0.1])
+    assert ratio_changes(xr.Dataset(), xr.Dataset()) == []
 
 
 def test_a_temperature_all_can_be_brought_to() -> None:

@@ -184,7 +184,7 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
         continued = direct_contact.continued_curve(filled, case.load, folder)
         totals = direct_contact.direct_contact_totals(of_filled, filled, case.load, continued)
         data = with_filled(data, totals)
-    data.attrs[FINDINGS] = to_json(direct_contact.other_findings(samples, data))
+    data.attrs[FINDINGS] = to_json(direct_contact.other_findings(samples, data, case))
     result = answer_with_inputs(case, data)
     result.curve = curve
     return result

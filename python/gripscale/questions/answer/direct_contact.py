@@ -33,7 +33,7 @@ from gripscale.questions.answer.estimate import (
     answer_of_samples,
 )
 from gripscale.questions.answer.measurements import each_measured
-from gripscale.questions.answer.reliance import estimated_names, has_answer
+from gripscale.questions.answer.reliance import WORTH_NAMING, estimated_names, has_answer
 from gripscale.questions.cut_off.curve import (
     AREA,
     CONTINUED_TO,
@@ -98,12 +98,15 @@ def solve_direct_contact(case: Case) -> xr.Dataset | None:
 ISOTROPIC = "isotropic_road"
 
 
-def other_findings(samples: xr.Dataset, totals: xr.Dataset) -> Iterator[Finding]:
-    """Yield what a tread of 8 mm, and warming without a temperature shift, change in an answer.
+def other_findings(samples: xr.Dataset, totals: xr.Dataset, case: Case) -> Iterator[Finding]:
+    """Yield what the moduli as measured, and what is not stated, change in an answer.
 
-    Nothing for a stated thickness, for waves that do not feel the base, of rubber with a shift, or
-    if the changes are within the sampling error of the answer or that of its grids.
+    The first wherever the interval names the series. The others are a tread of 8 mm, and warming
+    without a temperature shift: nothing for a stated thickness, for waves that do not feel the
+    base, of rubber with a shift, or if the changes are within the sampling error of the answer or
+    that of its grids.
     """
+    master = " The series was fitted before: a case that has the master curve fits it for its load."
     rise = float(samples.get(WARMING, xr.DataArray(math.nan)).mean())
     texts = {
         "tread": ("With a tread of 8 mm on a rigid base, not rubber without end, {}.", "thickness"),
@@ -112,6 +115,11 @@ def other_findings(samples: xr.Dataset, totals: xr.Dataset) -> Iterator[Finding]
             f"{rise:.2g} K where energy is lost: with the shift of other treads {{}}.",
             "shift",
         ),
+        "series": (
+            "With the moduli as measured, not the series fitted to them, {}."
+            f"{'' if case.measured_rubber.fit else master}",
+            "",
+        ),
     }
     for which, (text, key) in texts.items():
         names = {name: f"{name}_of_{which}" for name in estimated_names(totals)}
@@ -119,11 +127,13 @@ def other_findings(samples: xr.Dataset, totals: xr.Dataset) -> Iterator[Finding]
             continue
         changes = {name: math.expm1(float(samples[of].mean())) for name, of in names.items()}
         errors = {name: float(totals[f"answer_{name}_sampling_error"]) for name in names}
-        if not any(abs(changes[name]) > np.fmax(JUDGED_TO, errors[name]) for name in names):
+        least = {n: np.fmax(JUDGED_TO, errors[n]) if key else WORTH_NAMING for n in names}
+        if not any(abs(changes[name]) > least[name] for name in names):
             continue
-        words = Words(text.format(in_words(changes)), " State ", CaseKey(key), " in [rubber].")
+        state = (" State ", CaseKey(key), " in [rubber].") if key else ()
+        words = Words(text.format(in_words(changes)), *state)
         friction, area = changes.get("friction", math.nan), changes["contact_fraction"]
-        cure = f"rubber.{key}"
+        cure = f"rubber.{key}" if key else ""
         yield Finding(Severity.WARNING, words, friction, area, Topic.RUBBER, cure)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model as models
-from gripscale.case import Case
+from gripscale.case import Case, fitted_for_load
 from gripscale.conditions.area_term import ConstantStress, InterfacialShearStress
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import Array, Checked, InputError, Mask, Vector, checked, checks, labelled
@@ -32,6 +32,7 @@ from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.cut_off.curve import contact_curves
 from gripscale.rubber import Rubber
+from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import Surface
 
 
@@ -191,7 +192,7 @@ def predictions_at(
 def measured_design(
     measured: MeasuredFriction,
     model: Model,
-    rubber: Rubber,
+    rubber: Rubber | MeasuredRubber,
     surface: Surface,
     load: Load,
     label: str = "",
@@ -199,11 +200,13 @@ def measured_design(
 ) -> Design:
     """Return the design over `measurement` that `predictions_at` solves; labels begin with one.
 
+    A measured rubber is fitted for each point.
     With the heat of conditions, the interface of each point loses its `warming_stress` [Pa].
     """
     warming = np.zeros(measured.speed.size) if warming_stress is None else warming_stress
     pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
-    case = (model.conditions or Conditions()).temperature_of(rubber)
+    made = MeasuredRubber(rubber, "") if isinstance(rubber, Rubber) else rubber
+    case = (model.conditions or Conditions()).temperature_of(made.rubber)
     kelvin = np.where(
         np.isnan(measured.temperature), math.nan if case is None else case, measured.temperature
     )
@@ -212,6 +215,8 @@ def measured_design(
         point_load = replace(load, pressure=float(p), speed=float(v))
         temperature = None if math.isnan(t) else float(t)
         other = temperature is not None and temperature != case
+        at_kelvin = Conditions(temperature=temperature)
+        met = fitted_for_load(made, surface, point_load, at_kelvin).rubber
         if model.takes_conditions:
             law = ConstantStress(float(warming[at - 1])) if warming[at - 1] > 0.0 else None
             conditions = replace(
@@ -219,9 +224,9 @@ def measured_design(
             )
             if other:
                 conditions = replace(conditions, temperature=temperature)
-            task = Task(rubber, surface, point_load, model.with_conditions(conditions))
+            task = Task(met, surface, point_load, model.with_conditions(conditions))
         else:
-            met = rubber.at(temperature) if other and temperature else rubber
+            met = met.at(temperature) if other and temperature else met
             task = Task(met, surface, point_load, model)
         celsius = "" if temperature is None else f", {t - ZERO_CELSIUS:.4g} C"
         words = f"speed {plain(v, 4)} m/s{celsius}, pressure {p / 1e5:.4g} bar"
@@ -275,7 +280,7 @@ def answers_at(
     for sample, (name, surface) in enumerate(profiles):
         label = f"{name}: " if len(profiles) > 1 else ""
         line = measured_design(
-            measured, direct, case.rubber, surface, case.load, label, warming_stress
+            measured, direct, case.measured_rubber, surface, case.load, label, warming_stress
         )
         points += [replace(point, index=(*point.index, sample)) for point in line.points]
     sizes = {**line.sizes, "sample": len(profiles)}
@@ -284,8 +289,9 @@ def answers_at(
     curves: list[xr.Dataset | None] = [None] * len(line.points)
     if case.below_measurement.down_to is not None:
         model = case.continuation()
+        rubber, label = case.measured_rubber, "continued: "
         continued = measured_design(
-            measured, model, case.rubber, case.surface, case.load, "continued: ", warming_stress
+            measured, model, rubber, case.surface, case.load, label, warming_stress
         )
         solved = bench.solve(continued.tasks, contact_curves)
         curves = [solved[point.task.key] for point in continued.points]

@@ -201,7 +201,12 @@ def calibrate(
         for _ in range(MOST_WARMINGS if warms else 1):
             if model == Chain.name:
                 design = measured_design(
-                    friction, case.chain, rubber, surface, case.load, warming_stress=stress
+                    friction,
+                    case.chain,
+                    case.measured_rubber,
+                    surface,
+                    case.load,
+                    warming_stress=stress,
                 )
                 predicted = predicted_of(solve_design(design, bench))
             else:

@@ -13,12 +13,12 @@ from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.cut_off_exponents import NOT_CONVERGED, NOT_TOLD, OCTAVE
 from gripscale.questions.answer.reliance import friction_sentence
 from gripscale.questions.chain.view import PredictionView
-from gripscale.questions.inputs.findings import LARGE_MISFIT
 from gripscale.report.elements import number_text, percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 from gripscale.rubber.material import LEAST_POISSON_RATIO, poisson_ratio
 from gripscale.wave.result import LARGE_MISMATCH
 
+LARGE_MISFIT = 0.05  # of a series from the moduli it stands for: friction errs by about as much
 # What a wave may be flagged for, and in words.
 FLAGS = {
     "strain_extrapolated": "the strain lies beyond the strain sweep; its last moduli are used",

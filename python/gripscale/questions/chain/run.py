@@ -8,7 +8,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from gripscale.case import Case
+from gripscale.case import Case, fitted_for_load
 from gripscale.chain import ChainError
 from gripscale.chain.prediction import ChainResult
 from gripscale.io import netcdf
@@ -86,7 +86,9 @@ class ChainRun:
 
             try:
                 load = replace(case.load, speed=speed)
-                case.chain.solve(case.rubber, case.surface.sines, load, on_scale=keep)
+                surface, effects = case.surface, case.conditions
+                rubber = fitted_for_load(case.measured_rubber, surface, load, effects).rubber
+                case.chain.solve(rubber, surface.sines, load, on_scale=keep)
             except ChainError as failure:
                 self.failures[name] = failure
             finally:

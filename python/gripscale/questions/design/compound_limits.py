@@ -41,7 +41,7 @@ from numpy.typing import NDArray
 from gripscale.core import Array, Checked, InputError, Mask, RubberWarning, checked, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius
 from gripscale.rubber import Rubber
-from gripscale.rubber.material import loss_shape, storage_shape
+from gripscale.rubber.admissible import loss_shape, storage_shape
 from gripscale.rubber.shift import EDGE
 
 LIMITED_QUANTITIES = ("storage_modulus", "loss_factor", "loss_compliance")

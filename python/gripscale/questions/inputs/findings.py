@@ -11,7 +11,6 @@ from gripscale.io.table import significant
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.report.elements import number_text, percent_text
 
-LARGE_MISFIT = 0.05  # of a series from the moduli it stands for: friction errs by about as much
 LARGE_RESIDUAL = 0.1  # of the heights of the sine waves
 
 
@@ -58,17 +57,7 @@ def signed_percent(change: float) -> str:
 
 
 def misfits(record: InputRecord) -> Iterator[Finding]:
-    """Yield by how much the rubber misses its loss factor, and the sine waves their heights."""
-    loss = record.loss_factor_error
-    if abs(loss) > LARGE_MISFIT:
-        yield Finding(
-            Severity.WARNING,
-            f"At the frequencies of the waves the loss factor of the Prony series is "
-            f"{percent_text(abs(loss))} {'above' if loss > 0.0 else 'below'} the measured one: the "
-            "error of the friction is about as large.",
-            loss,
-            topic=Topic.RUBBER,
-        )
+    """Yield by how much the sine waves miss their heights."""
     residual = record.number("sines_residual_decades")
     height = 10.0 ** (0.5 * residual) - 1.0  # C_z goes with the square of the height
     if height > LARGE_RESIDUAL:

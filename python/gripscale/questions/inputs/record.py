@@ -353,22 +353,6 @@ class InputRecord:
         counted = self.data["file_role"].values != "measured"
         return [str(digest) for digest in self.data["file_sha256"].values[counted]]
 
-    @property
-    def loss_factor_error(self) -> float:
-        """Mean relative error of the loss factor of the Prony series where the waves excite it.
-
-        NaN at rest, without a master curve, and where none of its rows lies between the waves.
-        """
-        if "master_series_loss" not in self.data:
-            return math.nan
-        names = ("master_loss", "master_storage", "master_series_loss", "master_series_storage")
-        loss, storage, series_loss, series_storage = (self.data[name].values for name in names)
-        omega = 2.0 * math.pi * self.data["master_frequency"].values
-        low, high = self.number("excited_low_rad_per_s"), self.number("excited_high_rad_per_s")
-        inside = (omega >= low) & (omega <= high)
-        error = (series_loss / series_storage)[inside] / (loss / storage)[inside] - 1.0
-        return float(error.mean()) if inside.any() else math.nan
-
     def warnings(self) -> Iterator[Finding]:
         """Yield what is doubtful about load, conditions, rubber and surface."""
         yield from from_json(self.text("findings"))

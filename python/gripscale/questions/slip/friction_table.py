@@ -16,7 +16,7 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from gripscale.case import Case
+from gripscale.case import Case, fitted_for_load
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import ZERO_CELSIUS, Array, InputError
 from gripscale.core.provenance import software
@@ -86,7 +86,8 @@ def _solved(case: Case, temperatures: Sequence[float], fastest: float, bench: Be
         model = AnswerModel(None, there, case.below_measurement)
         label = f"{speed:.3g} m/s, {pressure:.3g} Pa"
         label += f", {kelvin - ZERO_CELSIUS:.3g} C" if shifted else ""
-        points.append(Point(index, label, Task(rubber, case.surface, load, model)))
+        fitted = fitted_for_load(case.measured_rubber, case.surface, load, there).rubber
+        points.append(Point(index, label, Task(fitted, case.surface, load, model)))
     design = Design({name: axis.size for name, axis in values.items()}, points)
     data = solve_design(design, bench, study_numbers).assign_coords(values)
     failed = [str(word) for word in data.prediction_status.values.flat if word != "converged"]

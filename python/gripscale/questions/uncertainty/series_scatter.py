@@ -18,19 +18,21 @@ to the moduli not being negative). With the rows of `maxwell_fit` in units of th
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from gripscale.core.arrays import Array
-from gripscale.rubber import MasterCurve, PronyFit, Rubber
+from gripscale.rubber import MasterCurve, PronyFit
 from gripscale.rubber.maxwell_fit import LEAST_SCATTER, Curve, Equations, Spectrum, non_negative
 from gripscale.rubber.prony import DECADES_BEYOND, largest_modulus, open_equations
 
 _FEWEST_BLOCKS = 8  # blocks there are at least to draw from
 # Fits after which the scatter, in whose units the equations are, is that about their solution.
 _PASSES = 3
+# Weight of a row over the largest, from which on it counts: of a case its series misses the others.
+LEAST_WEIGHT = 0.03
 MOST_TAKEN = 0.75  # share of the degrees of freedom a fit is believed to take at most
 
 
@@ -58,6 +60,10 @@ class SeriesScatter:
         """
         kept = ~np.isin(master.frequency, fit.outlier_frequency)
         curve = Curve(master.angular_frequency, master.storage, master.loss).rows(kept)
+        if fit.problem is not None:
+            weight = np.broadcast_to(fit.problem.row_weight, curve.omega.shape)
+            counted = weight > LEAST_WEIGHT * weight.max()
+            curve = curve.rows(counted) if counted.sum() > 2 * _FEWEST_BLOCKS else curve
         limit = largest_modulus(float(curve.storage.max()), bulk_modulus)
         scatter = fit.rms_storage, fit.rms_loss
         for _ in range(_PASSES):
@@ -117,15 +123,3 @@ class SeriesScatter:
         noise = random.standard_normal(len(self._beyond)) * self._beyond
         errors = np.concatenate([self._residuals[order].T.ravel(), noise, [0.0]])
         return self.problem.spectrum(non_negative(self.problem.matrix, self.problem.right + errors))
-
-
-def with_series(rubber: Rubber, spectrum: Spectrum) -> Rubber:
-    """Return `rubber` with another series, and nothing said of what else fits."""
-    present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
-    return replace(
-        rubber,
-        equilibrium_modulus=spectrum.equilibrium,
-        moduli=spectrum.moduli[present],
-        relaxation_times=spectrum.times[present],
-        admissible=None,
-    )

@@ -17,8 +17,9 @@ from gripscale.core import Array, InputError, checks
 from gripscale.questions.uncertainty import sampled_inputs as quantities
 from gripscale.questions.uncertainty.profile_blocks import ProfileBlocks
 from gripscale.questions.uncertainty.sampled_inputs import CleanedProfiles, Inputs, Range
-from gripscale.questions.uncertainty.series_scatter import SeriesScatter, with_series
+from gripscale.questions.uncertainty.series_scatter import SeriesScatter
 from gripscale.rubber import Rubber
+from gripscale.rubber.maxwell_fit import with_series
 from gripscale.surface import Profile, SineStack, Surface, clean, sine_ambiguity
 from gripscale.surface.low_pass import followed
 from gripscale.surface.sines import FACTOR_RANGE

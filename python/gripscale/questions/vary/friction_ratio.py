@@ -18,7 +18,7 @@ and what is left has these sources:
   `LOAD_SENSITIVITY` times the difference of the logarithms of both areas.
 - conditions: what is not known of softening and heat (`gripscale.conditions.alternatives`) is the
   same of both, and the difference of its changes counts; the scatter between treads of each
-  compound that has a typical softening counts by itself.
+  compound that has a typical softening counts by itself, and so does what its series misses.
 
 Two roads share none of the errors of their answers.
 """
@@ -35,6 +35,7 @@ import xarray as xr
 
 from gripscale.conditions.alternatives import TREADS
 from gripscale.core import Array, ComplexArray, labelled
+from gripscale.half_space.condition_errors import SERIES
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
 from gripscale.half_space.model import CONDITION_ERRORS, DirectContact
 from gripscale.half_space.result import RoughContact
@@ -264,14 +265,14 @@ def compound_ratio(over: xr.Dataset, under: xr.Dataset) -> FrictionRatio:
         if "series_change" in each
     ]
     rubbers = [series_error(change) for change in changes if change.size]
-    rubbers += condition_changes(over, under)
+    rubbers += ratio_changes(over, under)
     area = LOAD_SENSITIVITY * abs(log_ratio("answer_contact_fraction"))
     largest = grid_error(lambda name: log_ratio(f"profile_{name}")), area
     even = [error / math.sqrt(3.0) for error in largest]
     return FrictionRatio.of_sources(log_ratio("answer_friction"), sampling, *even, *rubbers)
 
 
-def condition_changes(over: xr.Dataset, under: xr.Dataset) -> list[float]:
+def ratio_changes(over: xr.Dataset, under: xr.Dataset) -> list[float]:
     """Return what each condition that is not known changes in G, by one standard error."""
     none = xr.DataArray(
         np.zeros((1, 0)), {"condition": np.array([], "U1")}, ("sample", "condition")
@@ -281,5 +282,5 @@ def condition_changes(over: xr.Dataset, under: xr.Dataset) -> list[float]:
         for each in (over, under)
     )
     high, low = xr.align(high, low, join="outer", fill_value=0.0)
-    own, shared = high.condition == TREADS, high.condition != TREADS
-    return [*high[own].values, *low[own].values, *(high - low)[shared].values]
+    own = high.condition.isin([TREADS, SERIES])
+    return [*high[own].values, *low[own].values, *(high - low)[~own].values]

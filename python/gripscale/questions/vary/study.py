@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from gripscale.case import Case
+from gripscale.case import Case, fitted_for_load
 from gripscale.chain.chain import Chain
 from gripscale.core import InputError
 from gripscale.core.provenance import software
@@ -267,18 +267,16 @@ class Study:
         for index in np.ndindex(*sizes.values()):
             at = dict(zip(sizes, index, strict=True))
             values: dict[str, Any] = {axis.name: axis.values[at[axis.name]] for axis in axes}
-            model, rubber = self.model, self.rubbers[at.get("rubber", 0)]
+            model, measured = self.model, self.measured_rubbers[at.get("rubber", 0)]
             if "pressure_classes" in values and isinstance(model, Chain):
                 model = replace(model, pressure_classes=values["pressure_classes"])
             if "temperature" in values:
                 model = inputs.at_temperature(model, values["temperature"])
             if "effects" in values:
                 model = inputs.with_effects(model, values["effects"])
-            if not model.takes_conditions and case.conditions is not None:
-                rubber = case.conditions.before(rubber)
-            if rubber.name != case.rubber.name:
-                model = inputs.for_rubber(model, rubber)
-            inputs.rubber_before(rubber, model)
+            if measured.rubber.name != case.rubber.name:
+                model = inputs.for_rubber(model, measured.rubber)
+            inputs.rubber_before(measured.rubber, model)
             loads = {name: values[name] for name in OF_THE_LOAD if name in values}
             load = replace(case.load, **loads)
             if load.speed == 0.0:
@@ -289,6 +287,11 @@ class Study:
             key = (number, *changes.items())
             if key not in self._varied:
                 self._varied[key] = self.surfaces[number].varied(**changes)
+            conditions = model.conditions if model.takes_conditions else case.conditions
+            # each point is the answer of a case with its load
+            rubber = fitted_for_load(measured, self._varied[key], load, conditions).rubber
+            if not model.takes_conditions and conditions is not None:
+                rubber = conditions.before(rubber)
             words = [f"{axis.name} {axis.called(at[axis.name], case.units)}" for axis in axes]
             label = ", ".join(words)
             points.append(Point(index, label, Task(rubber, self._varied[key], load, model)))
