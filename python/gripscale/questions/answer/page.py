@@ -20,7 +20,7 @@ from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
-from gripscale.questions.answer.estimate import LINES_TO_SURFACE
+from gripscale.questions.answer.estimate import ERROR_LEFT, LINES_TO_SURFACE
 from gripscale.questions.answer.filler import both_answers
 from gripscale.questions.answer.findings import (
     MEASURED_FRICTION,
@@ -196,6 +196,13 @@ def _in_interval(data: xr.Dataset) -> Iterator[str]:
     ]
     if data.attrs.get(SHEAR_STRESS) == DRY_TREAD.kind:
         parts.append(f"shear stress between treads {percent_text(STRESS_SCATTER)}")
+    if ERROR_LEFT in data:
+        share = percent_text(1.0 - float(data[ERROR_LEFT]))
+        yield (
+            f"the area term was fitted to measured friction: {share} of the variance of the "
+            "friction cancels here (all of it at the measured points, nothing on another surface "
+            "or rubber)"
+        )
     if parts:
         of = " and ".join(_WORDS[each] for each in names)
         yield f"in the interval, standard errors of {of}: {'; '.join(parts)}"
