@@ -202,6 +202,8 @@ class ContactByCutOff(Described):
         for name in _BANDS.values():
             for end, sign in (("lower", -1.0), ("upper", 1.0)):
                 values = self.values(name) * np.exp(sign * self.band(name))
+                if name == "contact_fraction":
+                    values = np.minimum(values, 1.0)
                 data[f"{name}_{end}"] = over(values, "1", f"{end} end of the 90 % band")
         data["octave_slope"] = over(
             [step.slope for step in self.steps], "1", "slope of the last octave on the faces"

@@ -102,7 +102,7 @@ def _under_rising_load(
     start = loaded(step.pressure, TOUCH * load)
     touch = solve_grid(response, height, start, most, START_TOLERANCE)
     regions = periodic_regions(~touch.active)
-    closed = regions.where(~regions.percolates.any(axis=1))
+    closed = regions.where(np.asarray(~regions.percolates.any(axis=1)))
     step = replace(step, gap=np.where(closed, touch.gap, step.gap))
     pools = Pools(np.zeros(height.size, dtype=np.intp), np.zeros(1), np.zeros(1, dtype=bool))
     touched = np.zeros(height.shape, dtype=bool)

@@ -32,7 +32,13 @@ from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import BASIS
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact, errors_left
-from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
+from gripscale.questions.answer.intervals import (
+    MOST,
+    LogError,
+    combined,
+    half_width,
+    interval_ends,
+)
 
 DIRECT = DirectContact.name  # name of the model that every answer starts from
 
@@ -238,9 +244,10 @@ def described(data: xr.Dataset) -> xr.Dataset:
 
 def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, xr.DataArray]:
     """Return a number of an answer by its name, with its uncertainty and 90 % interval."""
-    there = value.notnull()
-    width = half_width(error).where(there)
-    low, high = interval_ends(value, width)
+    there, most = value.notnull(), MOST.get(name, math.inf)
+    value = value.clip(max=most)
+    low, high = interval_ends(value, half_width(error).where(there), most)
+    width = (high - low) / (2.0 * value.where(value > 0.0))
     numbers = {"": value, "_uncertainty": error.sigma.where(there), "_half_width": width}
     ends = {"_low": low, "_high": high}
     return {f"answer_{name}{end}": number for end, number in (numbers | ends).items()}
