@@ -6,9 +6,9 @@ A stretch is suspect where its heights stand off the others,
 
 about a line through the medians of pieces (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
 doi:10.1080/01621459.1968.10480934), which a plate does not pull, its sides are steps, not slopes,
-and it is flat, not round as an exposed stone; or where it is smooth: the rms departure from its own line is below 0.02 of that of the
-usual piece. Heights missing at its ends belong to it, as steel shines. What happens often belongs
-to the surface, as grooves and joints do.
+and it is flat, not round as an exposed stone; or where it is smooth: the rms departure from its own
+line is below 0.02 of that of the usual piece. Heights missing at its ends belong to it, as steel
+shines. What happens often belongs to the surface, as grooves and joints do.
 """
 
 from __future__ import annotations
