@@ -7,6 +7,7 @@ takes any of them.
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
@@ -149,6 +150,11 @@ class Model(Protocol):
         """Word for the model in results, tables and case files."""
 
     @property
+    def method(self) -> tuple[str, ...]:
+        """What a page says of it: texts, and names of equations in `gripscale.report.equations`."""
+        return (inspect.getdoc(self) or "").partition("\n")[:1]
+
+    @property
     def needs(self) -> frozenset[SurfacePart]:
         """Parts of a surface that the answer depends on; all of them by default."""
         return frozenset({"waves", "measurement", "cut_off"})
@@ -183,6 +189,7 @@ class Model(Protocol):
         """
 
 
+METHOD = "method"  # attribute of a result: `Model.method` of its model
 # Name of the sentence that says how an answer ended: `converged`, or why there are no totals.
 STATUS = "prediction_status"
 # Name of the word of its `Status`; empty where the sentence is a refusal, which has none.

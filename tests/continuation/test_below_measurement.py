@@ -107,6 +107,8 @@ def test_a_line_whose_last_octaves_disagree_is_not_continued():
         r"its last two octaves are 1\.\d\d and 0\.\d\d times",
         found.refusal,
     )
+    assert "The roughness is not continued" in repr(found)
+    assert found.to_dataset().attrs["refusal"] == found.refusal
     surface = Surface(THREE_SINES, "", measured=Measured.of([line]))
     answer = ContinuedContact(down_to=0.2e-3).predict(tread(), surface, Load(3e5, 0.3, 0.1))
     assert answer.prediction_status.item() == found.refusal

@@ -277,9 +277,9 @@ def test_what_layers_do_not_have_is_refused() -> None:
         ([], "pairs of a Rubber"),
         (3.0, "pairs of a Rubber"),
         ([CAP], "pairs of a Rubber"),
-        ([(CAP, 1e-3), ("base", 1e-3)], "rubber of layer 2 must be a Rubber; got str"),
-        ([(CAP, 0.0)], "thickness of layer 1"),
-        ([(CAP, np.inf)], "thickness of layer 1"),
+        ([(CAP, 1e-3), ("base", 1e-3)], "rubber of layer 1 must be a Rubber; got str"),
+        ([(CAP, 0.0)], "thickness of layer 0"),
+        ([(CAP, np.inf)], "thickness of layer 0"),
     ],
 )
 def test_layers_name_what_is_wrong(layers: object, words: str) -> None:
@@ -333,3 +333,9 @@ def test_layers_are_the_finite_strain_blocks_of_their_height(depth: float, speed
     gentle = block_over_layer(0.002, depth, speed)
     # without strain, by extrapolation; the grid of the block is good for 0.2 % in area
     np.testing.assert_allclose(2.0 * gentle - steep, 1.0, atol=0.004)
+
+
+def test_layers_are_printed_by_the_number_that_a_sensitivity_takes() -> None:
+    shown = dict(gs.Layers([(CAP, 4e-3), (CAP, 6e-3)]).shown_rows())
+    assert [*shown] == ["layer 0", "layer 1"]
+    assert shown["layer 1"].startswith("6")

@@ -131,3 +131,13 @@ def test_a_start_in_water_is_refused(contacts: dict[float, gs.RoughContact]) -> 
         solve(MAP, tolerance=None, start=contacts[PRESSURES[0]])
     with pytest.raises(gs.InputError, match="water"):
         gs.sensitivity(contacts[PRESSURES[0]])
+
+
+def test_an_isolated_dimple_closes_with_its_water_under_the_whole_load() -> None:
+    """At the first touch: exact are the nominal pressure and the volume of the pit."""
+    x = np.arange(64) * 1e-5
+    radius = np.hypot(x[:, None] - 3.2e-4, x - 3.2e-4) / 2e-4
+    heights = -1e-5 * np.where(radius < 1.0, 0.5 + 0.5 * np.cos(np.pi * radius), 0.0)
+    wet = solve(HeightMap(x, x, heights), pressure=3e5, tolerance=None, water=True)
+    assert wet.water.pool_pressure == pytest.approx([3e5], rel=5e-3)
+    assert wet.water.pool_volume == pytest.approx([-heights.sum() * 1e-10], rel=0.01)

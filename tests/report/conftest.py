@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -14,10 +15,11 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.case_file import read_case
+from gripscale.chain.chain import Chain
 from gripscale.core.provenance import CASE_TITLE
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
-from gripscale.model import TOTALS
+from gripscale.model import METHOD, TOTALS
 from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.vary.axis import axes_of
 from tests.run_case import run_case
@@ -136,6 +138,7 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "nominal_pressure": 3e5,
             "footprint": 0.1,
             "conditions": "null",
+            METHOD: json.dumps(Chain.method),
             "version_gripscale": "0.1.0",
         },
     )

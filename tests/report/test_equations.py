@@ -8,8 +8,13 @@ import re
 
 import pytest
 
-from gripscale.report.elements import Equation
-from gripscale.report.equations import draw_equations, method_equations
+from gripscale.chain.chain import Chain
+from gripscale.conditions import Conditions, ConstantStress
+from gripscale.half_space.model import DirectContact
+from gripscale.questions.vary.answer_model import AnswerModel
+from gripscale.report.elements import Equation, Text
+from gripscale.report.equations import draw_equations, method_equations, method_section
+from gripscale.theory import Persson
 
 EVERY = pytest.mark.parametrize("equation", method_equations(), ids=lambda equation: equation.name)
 
@@ -31,3 +36,28 @@ def test_picture_is_what_matplotlib_draws() -> None:
     assert stored is not None
     for new, old in zip(drawn.groups(), stored.groups(), strict=True):
         assert float(new) == pytest.approx(float(old), rel=0.02)
+
+
+def names(*methods: tuple[str, ...]) -> list[str]:
+    """Return the names of the equations in the section of methods."""
+    elements = method_section(*methods).elements
+    return [element.name for element in elements if isinstance(element, Equation)]
+
+
+def test_the_method_is_that_of_the_models_that_were_run() -> None:
+    direct = ["prony", "half_space", "rough_contact", "rough_friction"]
+    dry = AnswerModel(conditions=Conditions(shear_stress=ConstantStress(1e6)))
+    assert names(DirectContact.method) == direct
+    assert names(AnswerModel().method) == [*direct, "surface"]
+    assert names(dry.method) == [*direct, "surface", "interface"]
+    assert names(Chain.method)[:2] == ["correlation", "sines"]
+    assert names(Chain.method, DirectContact.method).count("prony") == 1
+    both = {*Chain.method, *dry.method}
+    assert {equation.name for equation in method_equations()} <= both  # none that no model names
+
+
+def test_a_model_without_equations_says_what_it_is() -> None:
+    (element,) = method_section(Persson().method).elements
+    assert isinstance(element, Text)
+    assert "Persson" in str(element)
+    assert not method_section().elements

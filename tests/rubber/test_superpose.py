@@ -268,3 +268,21 @@ def test_whatever_is_measured_is_superposed_or_refused(seed):
         else:
             assert np.isfinite([master.frequency, master.storage, master.loss]).all()
             assert np.isfinite(master.shift.horizontal_error).all()
+
+
+@pytest.mark.parametrize("noise", [0.005, 0.01])
+def test_a_vertical_shift_that_was_left_out_is_said_and_in_the_errors(noise):
+    """b_T grows by 0.34 % a kelvin, as density and temperature make it; without it nothing is."""
+    sweeps = measured(TRANSITION, noise, lift=0.0034)
+    master, report = superpose_report(sweeps, reference_temperature=ROOM)
+    assert "try vertical" in report.findings[0]
+    table = master.shift
+    error = np.abs(shift_errors(sweeps, table))
+    assert error.max() > 0.1
+    assert (error <= 2.0 * table.horizontal_error + 1e-9).all()
+    lifted, report = superpose_report(sweeps, reference_temperature=ROOM, vertical=True)
+    assert np.abs(shift_errors(sweeps, lifted.shift)).max() < 0.02
+    assert not any("try vertical" in finding for finding in report.findings)
+    for seed in range(4):
+        _, report = superpose_report(measured(TRANSITION, noise, seed), reference_temperature=ROOM)
+        assert not report.findings

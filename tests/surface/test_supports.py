@@ -73,3 +73,15 @@ def test_the_longest_part_is_the_road_on_whole_grains():
 def test_a_hill_without_steps_is_no_plate():
     hill = 10e-3 * np.exp(-0.5 * ((ROUGH.x - 0.2) / 8e-3) ** 2)
     assert support_plates(Profile(ROUGH.x, hill + 0.1 * ROUGH.z)) == ()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_round_exposed_stones_of_a_short_profile_are_none(seed):
+    """Half circles of 2 to 6 mm in fine mortar, 15 to 30 mm apart, over 0.1 m; all have steps."""
+    random, x = np.random.default_rng(seed), 1e-4 * np.arange(1000)
+    z, middle = random.normal(0.0, 5e-5, x.size), random.uniform(0.0, 0.01)
+    while middle < x[-1]:
+        radius = random.uniform(2e-3, 6e-3)
+        z = np.maximum(z, np.sqrt(np.maximum(radius**2 - (x - middle) ** 2, 0.0)))
+        middle += 2.0 * radius + random.uniform(15e-3, 30e-3)
+    assert support_plates(Profile(x, z)) == ()

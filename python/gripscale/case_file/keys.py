@@ -17,7 +17,7 @@ from itertools import pairwise
 from gripscale.case_file import tables
 from gripscale.case_file.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
 from gripscale.case_file.schema import CaseTable, KeyQuantity, expected, quantity_of, table_of
-from gripscale.conditions.area_term import SHEAR_STRESSES
+from gripscale.conditions.area_term import SHEAR_STRESSES, FittedPoints
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
 
@@ -39,6 +39,7 @@ TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
     ("conditions.heat", ThermalProperties, "conditions.md"),
     ("conditions.counterface", ThermalProperties, "conditions.md"),
     ("conditions.shear_stress", SHEAR_STRESSES, "conditions.md"),
+    ("conditions.shear_stress.fitted_to", FittedPoints, "measured-friction.md"),
     ("below_measurement", tables.BelowMeasurementTable, "below-measurement.md"),
     ("below_measurement.finer", tables.FinerTable, "below-measurement.md"),
     ("measured", tables.MeasuredTable, "direct-contact.md"),

@@ -296,6 +296,8 @@ def table_of(law: Any) -> type[CaseTable]:
             most = 2 if get_origin(value) is tuple else None
             pair = PydanticField(min_length=2, max_length=most)
             value = Annotated[list[number], pair] if several else number
+        elif isinstance(value, type) and issubclass(value, checks.Checked):
+            value = Annotated[Any, stated_law(value)]
         default = ... if item.default is MISSING else item.default
         keys[item.name] = (value | None if optional else value, default)
     return create_model(law.__name__, __base__=CaseTable, **keys)
@@ -323,7 +325,9 @@ def law_keys(law: Any) -> dict[str, Any]:
         check = item.metadata["check"]
         kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
         several = isinstance(value, Sequence) and not isinstance(value, str)
-        if kind == "temperature":
+        if isinstance(value, checks.Checked):
+            value = law_keys(value)
+        elif kind == "temperature":
             value = [kelvin_text(each) for each in value] if several else kelvin_text(value)
         keys[item.name] = list(value) if several else value
     return keys

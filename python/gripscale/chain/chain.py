@@ -197,6 +197,13 @@ class Chain(Checked, model.Model):
     """
 
     name: ClassVar[str] = "chain"
+    method: ClassVar[tuple[str, ...]] = (
+        "The measured surface is approximated by superposed sine waves. On each wave, largest "
+        "first, a rubber block at finite strain is pressed and slid. The next wave receives the "
+        "pressure in its contact.",
+        *("correlation", "sines", "prony", "network", "steady"),
+        *("contact", "pressure", "area", "friction"),
+    )
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"waves"})
     takes_conditions: ClassVar[bool] = True
 

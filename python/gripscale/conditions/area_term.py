@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields
+from dataclasses import asdict, fields
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
@@ -37,6 +37,34 @@ class InterfacialShearStress(Protocol):
         """
 
 
+def _numbers(name: str, value: Any, *, rule: Callable[..., Array], unit: str) -> tuple[float, ...]:
+    """Return checked numbers as a tuple, which can be compared and stored."""
+    return tuple(rule(name, value, unit=unit).tolist())
+
+
+class FittedPoints(Checked):
+    """Measured points that a law was fitted to, and how well the friction is known there."""
+
+    contact: str = checked(checks.instance, kind=str)
+    """Hash of surface, rubber and effects the law was fitted with."""
+    speed: Sequence[float] = checked(_numbers, rule=checks.positive_vector, unit="m/s")
+    """Sliding speed of each [m/s]."""
+    contact_fraction: Sequence[float] = checked(_numbers, rule=checks.positive_vector, unit="")
+    """Predicted A_r/A_0 of each [-]."""
+    half_width: Sequence[float] = checked(_numbers, rule=checks.positive_vector, unit="")
+    """Half of the 90 % interval of the friction of each, by fit and measurement [-]."""
+    temperature: Sequence[float] | None = checked(
+        _numbers, rule=checks.positive_vector, unit="K", default=None
+    )
+    """Of the rubber before each contact [K], where it is known."""
+
+
+def _fitted_to(name: str, value: Any) -> FittedPoints:
+    if isinstance(value, Mapping):
+        return checks.from_mapping(FittedPoints, name, value)
+    return checks.instance(name, value, FittedPoints)
+
+
 class ConstantStress(Checked):
     """The same at every speed and temperature."""
 
@@ -44,6 +72,8 @@ class ConstantStress(Checked):
 
     stress_0: float = checked(checks.not_negative, unit="Pa")
     """Interfacial shear stress [Pa]."""
+    fitted_to: FittedPoints | None = checked(_fitted_to, default=None, repr=False)
+    """What the law was fitted to, as `gripscale calibrate` writes it."""
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
@@ -71,6 +101,8 @@ class GaussianStress(Checked):
     """How that speed shifts with the temperature; 0: not at all [eV]."""
     reference_temperature: float | None = checked(checks.positive, unit="K", default=None)
     """Temperature T_0 that speed_0 holds for; needed with an activation energy [K]."""
+    fitted_to: FittedPoints | None = checked(_fitted_to, default=None, repr=False)
+    """What the law was fitted to, as `gripscale calibrate` writes it."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -114,17 +146,14 @@ class LeGalKlueppelStress(Checked):
     """Speed v_c at which half of that is gained [m/s]."""
     exponent: float = checked(checks.positive)
     """Exponent n of the speed: how steeply it is gained [-]."""
+    fitted_to: FittedPoints | None = checked(_fitted_to, default=None, repr=False)
+    """What the law was fitted to, as `gripscale calibrate` writes it."""
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
         with np.errstate(divide="ignore", over="ignore"):
             slowness = (self.critical_speed / sliding_speeds(speed)) ** self.exponent
         return np.asarray(self.stress_0 * (1.0 + self.ratio / (1.0 + slowness)))
-
-
-def _numbers(name: str, value: Any, *, rule: Callable[..., Array], unit: str) -> tuple[float, ...]:
-    """Return checked numbers as a tuple, which can be compared and stored."""
-    return tuple(rule(name, value, unit=unit).tolist())
 
 
 class TableStress(Checked):
@@ -174,8 +203,12 @@ def shear_stress_from_dict(values: Mapping[str, Any]) -> InterfacialShearStress:
 def shear_stress_to_dict(law: InterfacialShearStress) -> dict[str, Any]:
     """Return kind and parameters of a law as plain values."""
     values = {f.name: getattr(law, f.name) for f in fields(law)}  # type: ignore[arg-type]
-    laws = {n: shear_stress_to_dict(v) for n, v in values.items() if hasattr(v, "stress")}
-    return {"kind": law.kind} | values | laws
+    for name, value in values.items():
+        if isinstance(value, FittedPoints):
+            values[name] = asdict(value)
+        elif hasattr(value, "stress"):
+            values[name] = shear_stress_to_dict(value)
+    return {"kind": law.kind} | values
 
 
 def adhesive_friction(shear_stress: float, contact_fraction: float, pressure: float) -> float:

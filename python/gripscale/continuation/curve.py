@@ -30,7 +30,7 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -150,6 +150,12 @@ class ContactByCutOff(Described):
     overlap: float
     """Slope of the faces over that of the finer measurement where both are measured [-]."""
 
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield its fields, and why it ends where the measurement does if it was to go on."""
+        yield from super().shown_rows()
+        if self.refusal:
+            yield "refusal", self.refusal
+
     @property
     def wavelength(self) -> Array:
         """Shortest wavelength of each step [m]."""
@@ -196,6 +202,8 @@ class ContactByCutOff(Described):
         for name in _BANDS.values():
             for end, sign in (("lower", -1.0), ("upper", 1.0)):
                 values = self.values(name) * np.exp(sign * self.band(name))
+                if name == "contact_fraction":
+                    values = np.minimum(values, 1.0)
                 data[f"{name}_{end}"] = over(values, "1", f"{end} end of the 90 % band")
         data["octave_slope"] = over(
             [step.slope for step in self.steps], "1", "slope of the last octave on the faces"
@@ -214,6 +222,7 @@ class ContactByCutOff(Described):
             "title": "Contact and friction against the cut-off",
             "nominal_pressure": contact.nominal_pressure,
             "speed": contact.speed,
+            "refusal": self.refusal,
         }
         coordinate = over(self.wavelength, "m", "shortest wavelength of the surface")
         return xr.Dataset(
@@ -279,7 +288,8 @@ def contact_by_cut_off(
     """Return contact and friction of measured lines, solved with one cut-off after the other.
 
     Cut-offs are an octave apart. Above the shortest wavelength that the lines resolve, the waves
-    are measured; below, they are continued and the numbers have a `band`, but for a `refusal`.
+    are measured; below, they are continued and the numbers have a `band`. A curve with a `refusal`
+    ends with the measurement; it shows why, and its Dataset has the attribute.
     Raises `InputError` if an argument is out of its range, a finer measurement does not reach
     `down_to` or is rougher or smoother than the faces by more than a factor of three where both are
     measured; and as `solve_rough_contact` does.

@@ -191,6 +191,10 @@ class DirectContact(Checked, model.Model):
     """
 
     name: ClassVar[str] = "direct"
+    method: ClassVar[tuple[str, ...]] = (
+        "Rubber at small strain is pressed on the heights as they were measured, and slid.",
+        *("prony", "half_space", "rough_contact", "rough_friction"),
+    )
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
     takes_conditions: ClassVar[bool] = True
 

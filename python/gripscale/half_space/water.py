@@ -41,6 +41,9 @@ POOL_TOLERANCE = 1e-7
 # closes within a step is trapped at its end, with less water. Half the steps change the friction of
 # a map by up to 3 %, where the contact percolates.
 FIRST_LOAD, LOAD_STEPS = 0.1, 48
+# Load over the load at which a region that is closed under the first load, and was here already,
+# has its water: all but this share of what closes at the first touch.
+TOUCH = 1e-3
 _ERRORS = ("contact_fraction_error", "friction_error")
 
 
@@ -96,9 +99,14 @@ def _under_rising_load(
     loads = load * np.geomspace(FIRST_LOAD, 1.0, steps)
     start = loaded(response.full_contact(height, loads[0]), loads[0])
     step = solve_grid(response, height, start, most, START_TOLERANCE)
+    start = loaded(step.pressure, TOUCH * load)
+    touch = solve_grid(response, height, start, most, START_TOLERANCE)
+    regions = periodic_regions(~touch.active)
+    closed = regions.where(np.asarray(~regions.percolates.any(axis=1)))
+    step = replace(step, gap=np.where(closed, touch.gap, step.gap))
     pools = Pools(np.zeros(height.size, dtype=np.intp), np.zeros(1), np.zeros(1, dtype=bool))
     touched = np.zeros(height.shape, dtype=bool)
-    for under in loads[1:]:
+    for under in loads:
         pools = _trapped(pools, step, height, level, touched)
         touched, goal = step.active, POOL_TOLERANCE if under == loads[-1] else START_TOLERANCE
         start = loaded(step.pressure, under)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import io
 import re
+from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -19,12 +20,6 @@ from gripscale.report.elements import Equation, Section, Text
 _LW = "Lind & Wangenheim 2014, ASME IMECE2014-37998"
 
 _POINTS = 14.0  # size of the letters [pt]
-
-_METHOD = (
-    "The measured surface is approximated by superposed sine waves. On each wave, largest first, "
-    "a rubber block at finite strain is pressed and slid. The next wave receives the pressure in "
-    "its contact."
-)
 
 # name, LaTeX, words, source
 _EQUATIONS = [
@@ -99,12 +94,48 @@ _EQUATIONS = [
         "discretisation's own error.",
         f"{_LW}, equation 3; balance of energy",
     ),
+    (
+        "half_space",
+        r"u(q) = \dfrac{2}{|q| \, M(q_x v)} \, p(q) , \qquad M = \dfrac{E^*}{1 - \nu^2}",
+        "Displacement of a viscoelastic half-space under each harmonic of the contact pressure, at "
+        "small strain; rubber of finite thickness has the compliance of its layer.",
+        "K. L. Johnson, Contact Mechanics (1985), section 13.2",
+    ),
+    (
+        "rough_contact",
+        r"p \geq 0 , \qquad g = u + u_0 - h \geq 0 , \qquad p \, g = 0 , \qquad "
+        r"\langle p \rangle = p_0",
+        "Frictionless contact with the heights h as measured, by a primal-dual active set.",
+        "M. Hintermüller, K. Ito & K. Kunisch, SIAM J. Optim. 13 (2002) 865",
+    ),
+    (
+        "rough_friction",
+        r"\mu = \dfrac{1}{p_0} \left\langle p \, \dfrac{\partial h}{\partial x} \right\rangle",
+        "Friction of the hysteresis, and independently from the energy lost in every harmonic.",
+        "balance of energy",
+    ),
+    (
+        "surface",
+        r"A_{\mathrm{surface}} = \mathrm{erf} \left( f^{\, 1 - A/2} \, \mathrm{erf}^{-1} A "
+        r"\right) , \qquad \ln \dfrac{\mu_{\mathrm{surface}}}{\mu} = (1 - A^4) \ln g "
+        r"+ A^4 \ln 1.11",
+        "From the area A and the friction of measured lines to the isotropic surface they lie on; "
+        "f and g follow from how far the heights of a line reach up and how few carry. A map "
+        "needs no such step.",
+        "synthetic surfaces of eight families, method of this software",
+    ),
+    (
+        "interface",
+        r"\mu_{\mathrm{adh}} = \tau_f(v, T) \, \dfrac{A_r}{A_0 \, p_0}",
+        "Area term: the real contact area sheared at the stress of the interface.",
+        "B. Lorenz et al., J. Chem. Phys. 142 (2015) 194701",
+    ),
 ]
 
 
 @cache
 def method_equations() -> list[Equation]:
-    """Return the equations of the method, in the order of the chain, with pictures in base64."""
+    """Return every equation that a model may name, with pictures in base64."""
     equations = []
     for name, latex, words, source in _EQUATIONS:
         svg = picture(name)
@@ -138,9 +169,14 @@ def draw_equations(latex: str) -> str:
     return drawn.getvalue()
 
 
-def method_section() -> Section:
-    """Return the equations with their sources."""
-    return Section("method", "Method", [Text(_METHOD), *method_equations()])
+def method_section(*methods: Sequence[str]) -> Section:
+    """Return what the models that were run say of themselves (`gripscale.model.Model.method`).
+
+    Each method is texts and names of equations; nothing else is shown.
+    """
+    known = {equation.name: equation for equation in method_equations()}
+    items = dict.fromkeys(item for method in methods for item in method)
+    return Section("method", "Method", [known.get(item) or Text(item) for item in items])
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
 
@@ -270,8 +270,9 @@ def superpose_report(
     lifted = checks.flag("vertical", vertical)
     checks.one_of("moduli", moduli, SHIFTED_MODULI)
     scatter: dict[str, float] = {}
+    doubt = ""
     if shift is None:
-        shift, scatter = _fitted_shift(sweeps, reference, lifted, moduli)
+        shift, scatter, doubt = _fitted_shift(sweeps, reference, lifted, moduli)
     elif not isinstance(shift, Shift):
         raise InputError(f"shift must be a Shift, such as WLF; got {checks.short_repr(shift)}")
     elif lifted:
@@ -289,13 +290,15 @@ def superpose_report(
         source=sweeps.source,
         shift=shift,
     )
-    return master, report_superposition(sweeps, shift, reference, scatter)
+    report = report_superposition(sweeps, shift, reference, scatter)
+    findings = (*filter(None, [doubt]), *report.findings)
+    return master, replace(report, findings=findings)
 
 
 def _fitted_shift(
     sweeps: Sweeps, reference: float, lifted: bool, moduli: str
-) -> tuple[ShiftTable, dict[str, float]]:
-    """Return the shift of the sweeps, and the scatter of each modulus."""
+) -> tuple[ShiftTable, dict[str, float], str]:
+    """Return the shift of the sweeps, the scatter of each modulus, and that b_T is missing."""
     kelvin = sweeps.temperatures.copy()
     for end in (0, -1):  # 20 °C, where the last sweep was measured at 19.97
         outside = reference < kelvin[0] if end == 0 else reference > kelvin[-1]
@@ -308,7 +311,7 @@ def _fitted_shift(
             key="reference_temperature",
         )
     if len(kelvin) == 1:
-        return ShiftTable(kelvin, [0.0], [0.0], reference_temperature=reference), {}
+        return ShiftTable(kelvin, [0.0], [0.0], reference_temperature=reference), {}, ""
     both = sweep_rows(sweeps, "both")
     pairs = pairwise([both.of(sweep) for sweep in range(both.sweeps)])
     for colder, ((x, cold), (next_x, warm)) in enumerate(pairs):
@@ -337,7 +340,19 @@ def _fitted_shift(
         for block in (joint.covariance[:count, :count], joint.covariance[count:, count:])
     ]
     held = ShiftTable(kelvin, joint.log_a, vertical=joint.log_b)
+    doubt = ""
+    if moduli == "both" and not lifted:
+        other = align(rows, *start(rows, lifted=True), lifted=True)
+        gain = rows.x.size * float(np.log(joint.scatter / other.scatter).sum())
+        if gain > count - 1:  # Akaike's criterion: b_T explains more than its number
+            missed = against @ (other.log_a - joint.log_a)
+            error[0] = np.hypot(error[0], missed)
+            doubt = (
+                f"vertical shifts, up to {10.0 ** np.abs(against @ other.log_b).max() - 1.0:.0%}, "
+                f"superpose the sweeps better and change log10 a_T by up to "
+                f"{np.abs(missed).max():.2f}, which is in its errors: try vertical"
+            )
     log_a, log_b = held.log_a(kelvin, reference), held.log_b(kelvin, reference)
     vertical, vertical_error = (log_b, error[1]) if lifted else (None, None)
     table = ShiftTable(kelvin, log_a, error[0], vertical, vertical_error, reference)
-    return table, scatter
+    return table, scatter, doubt

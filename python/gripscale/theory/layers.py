@@ -58,7 +58,7 @@ def _pairs(name: str, value: Any) -> tuple[tuple[Rubber, float], ...]:
             checks.instance(f"rubber of layer {number}", rubber, Rubber),
             checks.positive(f"thickness of layer {number}", thickness, unit="m"),
         )
-        for number, (rubber, thickness) in enumerate(pairs, start=1)
+        for number, (rubber, thickness) in enumerate(pairs)
     )
 
 
@@ -82,8 +82,8 @@ class Layers(Checked):
         return iter(self.layers)
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
-        """Yield thickness and rubber of each layer, that in contact first."""
-        for number, (rubber, thickness) in enumerate(self, start=1):
+        """Yield thickness and rubber of each layer, that in contact is layer 0."""
+        for number, (rubber, thickness) in enumerate(self):
             yield f"layer {number}", f"{readable(thickness, 'm')} of {rubber.name or 'rubber'}"
 
     @property

@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 from scipy import stats
 
+from gripscale.questions.answer.estimate import with_interval
 from gripscale.questions.answer.intervals import LEVEL, LogError, combined, half_width
 
 DRAWS = 20_000
@@ -51,3 +52,17 @@ def test_what_is_not_known_is_not_left_out() -> None:
     assert math.isnan(half_width(combined([known, unknown])))
     single = LogError(xr.DataArray(0.1), xr.DataArray(0.0))
     assert math.isnan(half_width(single))
+
+
+def test_no_interval_of_an_area_holds_more_than_all_of_it() -> None:
+    """Of 0.97 with an error of 5 %; the friction, which has no such limit, keeps its interval."""
+    error = LogError(xr.DataArray(0.05), xr.DataArray(np.inf))
+
+    def ends(name: str, value: float) -> list[float]:
+        numbers = with_interval(name, xr.DataArray(value), error)
+        return [float(numbers[f"answer_{name}{end}"]) for end in ("_low", "", "_high")]
+
+    width = math.exp(0.05 * 1.645)
+    assert ends("friction", 0.97) == pytest.approx([0.97 / width, 0.97, 0.97 * width], rel=1e-4)
+    assert ends("contact_fraction", 0.97) == pytest.approx([0.97 / width, 0.97, 1.0], rel=1e-4)
+    assert ends("contact_fraction", 1.02)[1:] == [1.0, 1.0]

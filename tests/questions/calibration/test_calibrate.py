@@ -30,6 +30,11 @@ FLANK = np.geomspace(1e-6, 1e-4, 6)
 """Speeds far below the top of the bell."""
 
 
+def numbers(law: InterfacialShearStress) -> dict[str, float]:
+    """Return the parameters of a law by their names."""
+    return {name: value for name, value in vars(law).items() if value is not None}
+
+
 @pytest.mark.parametrize(
     ("law", "fixed"),
     [(ConstantStress(3e6), {}), (TRUE, REFERENCE), (PLATEAUS, {})],
@@ -38,7 +43,7 @@ def test_a_law_is_found_from_what_it_made(
     law: InterfacialShearStress, fixed: dict[str, float]
 ) -> None:
     fit = fit_area_term(*measurement(law, seed=None), law=law.kind, fixed=fixed)
-    found, true = vars(fit.law), vars(law)
+    found, true = numbers(fit.law), numbers(law)
     assert found == pytest.approx(true, rel=1e-5)
     assert fit.friction == pytest.approx(fit.measured.friction, abs=1e-7)
 
@@ -62,7 +67,7 @@ def test_points_are_paired_in_the_order_of_the_caller() -> None:
         )  # fmt: skip
         there = hysteresis(inside.speed[order], inside.temperature[order])
         fit = fit_area_term(mixed, there, fixed=REFERENCE)
-        assert vars(fit.law) == pytest.approx(vars(TRUE), rel=1e-5)
+        assert numbers(fit.law) == pytest.approx(numbers(TRUE), rel=1e-5)
         assert fit.friction == pytest.approx(inside.friction[order], abs=1e-7)
         assert fit.measured.speed.tolist() == inside.speed[order].tolist()
 
@@ -188,7 +193,7 @@ def test_the_table_of_a_case_gives_the_law_back() -> None:
     }
     assert table["reference_temperature"] == "20 C"
     law = shear_stress_from_dict({"kind": table["kind"], **values, **REFERENCE})
-    assert vars(law) == pytest.approx(vars(fit.law), rel=1e-5)
+    assert numbers(law) == pytest.approx(numbers(fit.law), rel=1e-5)
 
 
 def test_everything_is_in_the_dataset(tmp_path) -> None:

@@ -6,6 +6,7 @@ which takes a third of it away. A fit beside the area of the lines misses by as 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -205,3 +206,75 @@ def test_roughness_below_the_measurement_is_in_the_fitted_area() -> None:
     result = gs.calibrate(case, measured, law="constant")
     assert result.estimates[0].value == pytest.approx(4e6, rel=1e-6)
     assert answered(result.law).friction == pytest.approx(truth.friction, rel=1e-9)
+
+
+def test_the_interval_at_the_points_is_that_of_fit_and_measurement(calibrated: Calibration) -> None:
+    """At most twice their errors; without the record of its points that of the whole answer."""
+    law, fit = calibrated.law, calibrated.fit
+    assert fit is not None
+    error = np.hypot(fit.friction_error, 0.003 * max(fit.scatter, 1.0))
+    for at in (0, len(SPEEDS) - 1):
+        answer, forgetful = (answer_at(each, at) for each in (law, replace(law, fitted_to=None)))
+        low, high = answer.friction_interval
+        assert high - low <= 2.0 * 2.0 * error[at]
+        assert low < float(calibrated.data.measured_friction[at]) < high
+        assert answer.contact_fraction_interval == forgetful.contact_fraction_interval
+        before = np.subtract(*forgetful.friction_interval[::-1])
+        assert before > 5.0 * (high - low)
+
+
+def relative_width(law: InterfacialShearStress, **changes: Any) -> float:
+    """Return ln(high/low) of the friction at the last point, with other inputs of the case."""
+    conditions = Conditions(
+        temperature=changes.pop("temperature", KELVINS[-1]), heat="none", shear_stress=law
+    )
+    case = made(conditions, **{"speed": SPEEDS[-1], "pressure": 3e5} | changes)
+    low, high = gs.answer(case).friction_interval
+    return float(np.log(high / low))
+
+
+@pytest.mark.parametrize(
+    "changes", [{"speed": 3.0}, {"temperature": 313.15}, {"pressure": 3e6}, {"footprint": 0.06}]
+)
+def test_away_from_the_points_the_interval_is_that_of_the_answer(
+    calibrated: Calibration, changes: dict[str, float]
+) -> None:
+    """A decade or 10 K away, at several times the area, or on another contact."""
+    near = relative_width(calibrated.law)
+    wide = relative_width(calibrated.law, **changes)
+    today = relative_width(replace(calibrated.law, fitted_to=None), **changes)
+    assert wide == pytest.approx(today, rel=0.02)
+    assert wide > 3.0 * near
+
+
+def test_between_near_and_away_the_variance_rises_in_proportion(calibrated: Calibration) -> None:
+    law, forgetful = calibrated.law, replace(calibrated.law, fitted_to=None)
+    squares = []
+    for speed in (0.3, 0.3 * 10.0**0.25, 0.3 * 10.0**0.5):
+        ratio = relative_width(law, speed=speed) / relative_width(forgetful, speed=speed)
+        squares.append(ratio**2)
+    assert np.diff(squares) == pytest.approx(0.3, abs=0.06)  # 0.25, and the change of the area
+
+
+def test_a_variation_and_a_comparison_know_the_fit(calibrated: Calibration) -> None:
+    conditions = Conditions(temperature=KELVINS[-1], heat="none", shear_stress=calibrated.law)
+    case = made(conditions, speed=0.3)
+    width = np.subtract(*gs.answer(case).friction_interval[::-1])
+    varied = gs.vary(case, speed=[0.3, 3.0]).data
+    widths = (varied.answer_total_friction_high - varied.answer_total_friction_low).values
+    assert widths[0] == pytest.approx(width, rel=0.01)
+    assert widths[1] > 3.0 * width
+    compared = gs.compare(case, models=["direct"]).data
+    high, low = (float(compared[f"answer_total_friction_{end}"]) for end in ("high", "low"))
+    assert high - low == pytest.approx(width, rel=1e-6)
+
+
+def test_the_record_of_the_points_is_saved_with_the_case(
+    calibrated: Calibration, tmp_path: Path
+) -> None:
+    conditions = Conditions(temperature=293.15, heat="none", shear_stress=calibrated.law)
+    made(conditions).save(tmp_path / "case.toml")
+    read = gs.read_case(tmp_path / "case.toml").conditions
+    assert read is not None
+    assert read.shear_stress == calibrated.law
+    assert calibrated.law.fitted_to is not None  # type: ignore[attr-defined]

@@ -25,6 +25,7 @@ from gripscale.half_space.model import JUDGED_TO, WARMING, DirectContact, resolv
 from gripscale.half_space.result import TRAPPED_WATER
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
+from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.estimate import (
     DIRECT,
     Factor,
@@ -194,6 +195,9 @@ def direct_contact_totals(
         continuation_factors(case, curve),
         sampled=sampled,
         conditions=case.conditions,
+        contacts=[
+            Contact(case.rubber, case.surface, load, case.conditions, case.below_measurement)
+        ],
     )
     if curve is not None and not any(refusals(curve)):
         best[CONTINUED_TO] = case.below_measurement.down_to

@@ -23,6 +23,7 @@ import xarray as xr
 from gripscale.conditions.conditions import Conditions
 from gripscale.conditions.dry_road import DRY_TREAD, STRESS_SCATTER
 from gripscale.conditions.strain_rule import LOG_AREA, LOG_FRICTION
+from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
@@ -30,7 +31,14 @@ from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import BASIS
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.intervals import LogError, combined, half_width, interval_ends
+from gripscale.questions.answer.calibrated import Contact, errors_left
+from gripscale.questions.answer.intervals import (
+    MOST,
+    LogError,
+    combined,
+    half_width,
+    interval_ends,
+)
 
 DIRECT = DirectContact.name  # name of the model that every answer starts from
 
@@ -88,6 +96,8 @@ BASIS_SHARES = ("steep_share", "missing_share")
 ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
 # Friction of the area term over the contact area of an answer, and with the hysteresis.
 AREA_TERM, TOTAL = "answer_adhesive_friction", "answer_total_friction"
+# Share of the variance of an answer that is left beside a fit to measured friction.
+ERROR_LEFT = "answer_error_left"
 
 
 def answer_of_samples(
@@ -97,13 +107,15 @@ def answer_of_samples(
     sampled: SampledErrors | None = None,
     solved_finite_strain: FactorNumbers | None = None,
     conditions: Conditions | None = None,
+    contacts: Sequence[Contact] = (),
 ) -> xr.Dataset:
     """Return the answer of the solved models.
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
     known one replaces it, `solved_finite_strain` the assumed factor of finite strain.
-    Typical laws among the `conditions` add their errors.
+    Typical laws among the `conditions` add their errors. Where the area term was fitted to measured
+    friction, `contacts`, one for each answer, say what of the errors is left (`calibrated`).
 
     `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
     ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
@@ -140,22 +152,28 @@ def answer_of_samples(
         shares = (share for share in (*BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
         data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
     errors_of: dict[str, LogError] = {}
+    errors_of_total: dict[str, LogError] = {}
+    left, fit = xr.ones_like(unknown), xr.zeros_like(unknown)
+    if direct is not None and contacts:
+        area = reduce.mean(direct, "contact_fraction")
+        left, fit = errors_left(contacts, area * values["contact_fraction"].prod("factor"))
     for name in ESTIMATED:
         mean, road, grid = unknown, LogError(unknown, unknown), unknown
         if direct is not None:
             mean, road = reduce.mean(direct, name), reduce.road_error(direct, name)
             # even within the estimated error, and the same for all profiles
             grid = reduce.estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
-        errors = [road, _certain(grid)]
-        if sampled is not None:
-            errors = [*([] if sampled.of_road else [road]), _certain(grid), *sampled.errors[name]]
+        errors = [_certain(grid)] if sampled and sampled.of_road else [road, _certain(grid)]
+        of_inputs = [] if sampled is None else [*sampled.errors[name]]
         value, each = values[name].where(included), [numbers[name][1] for numbers in solved]
         sigma = over_factors([error.sigma for error in each]).where(included)
         errors += [
             LogError(sigma.isel(factor=at).fillna(0.0), error.freedom)
             for at, error in enumerate(each)
         ]
-        errors_of[name] = combined(errors)
+        errors_of[name] = combined([*errors, *of_inputs])
+        errors = [LogError(left**0.5 * error.sigma, error.freedom) for error in errors]
+        errors_of_total[name] = combined([*errors, *of_inputs])
         data = data.assign(with_interval(name, mean * value.prod("factor"), errors_of[name]))
         data[f"answer_{name}_sampling_error"] = road.sigma
         data[f"answer_{name}_grid_error"] = grid
@@ -166,9 +184,12 @@ def answer_of_samples(
         data = with_total_friction(
             data,
             term * data["answer_contact_fraction_factor"].prod("factor"),
-            errors_of,
+            errors_of_total,
             _stress_error(conditions),
+            fit,
         )
+        if getattr(conditions and conditions.shear_stress, "fitted_to", None) is not None:
+            data[ERROR_LEFT] = left
     return described(data)
 
 
@@ -223,22 +244,27 @@ def described(data: xr.Dataset) -> xr.Dataset:
 
 def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, xr.DataArray]:
     """Return a number of an answer by its name, with its uncertainty and 90 % interval."""
-    there = value.notnull()
-    width = half_width(error).where(there)
-    low, high = interval_ends(value, width)
+    there, most = value.notnull(), MOST.get(name, math.inf)
+    value = value.clip(max=most)
+    low, high = interval_ends(value, half_width(error).where(there), most)
+    width = (high - low) / (2.0 * value.where(value > 0.0))
     numbers = {"": value, "_uncertainty": error.sigma.where(there), "_half_width": width}
     ends = {"_low": low, "_high": high}
     return {f"answer_{name}{end}": number for end, number in (numbers | ends).items()}
 
 
 def with_total_friction(
-    data: xr.Dataset, term: xr.DataArray, errors: Mapping[str, LogError], stress_error: float = 0.0
+    data: xr.Dataset,
+    term: xr.DataArray,
+    errors: Mapping[str, LogError],
+    stress_error: float = 0.0,
+    fit: xr.DataArray | float = 0.0,
 ) -> xr.Dataset:
     """Return an answer with the friction of its area term, and the total friction of both.
 
     Unchanged where the term is NaN. Errors of hysteresis and contact area have common sources, such
     as the surface: at worst they add up in full. That of the stress, of the logarithm, has none in
-    common with them.
+    common with them, nor that of its `fit`, the half width of a 90 % interval of the total.
     """
     if not bool(term.notnull().any()):
         return data
@@ -248,7 +274,8 @@ def with_total_friction(
     sigma = (1.0 - share) * friction.sigma + share * area.sigma
     sigma = (sigma**2 + (share * stress_error) ** 2) ** 0.5
     freedom = xr.apply_ufunc(np.minimum, friction.freedom, area.freedom)
-    error = LogError(sigma, freedom)
+    of_fit = xr.apply_ufunc(np.arcsinh, fit / total) / QUANTILE_90
+    error = combined([LogError(sigma, freedom), _certain(of_fit)])
     return data.assign({AREA_TERM: term} | with_interval("total_friction", total, error))
 
 
@@ -334,6 +361,7 @@ ANSWER_NUMBERS = {
     for end, text in ends.items()
 } | {
     AREA_TERM: "friction μ of the area term over the contact area of the answer",
+    ERROR_LEFT: "share of the variance of the answer that a fit to measured friction leaves",
     **{f"answer_{share}": BASIS[f"total_{share}"] for share in BASIS_SHARES},
     **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
 }

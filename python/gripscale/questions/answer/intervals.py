@@ -14,6 +14,7 @@ Its half width over y is sinh(t s).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -21,6 +22,7 @@ import numpy as np
 import xarray as xr
 
 LEVEL = 0.9  # share of cases in which an interval holds the truth
+MOST = {"contact_fraction": 1.0}  # upper limits of numbers that have one
 
 
 class LogError(NamedTuple):
@@ -50,8 +52,11 @@ def half_width(error: LogError) -> xr.DataArray:
 
 
 def interval_ends(
-    value: xr.DataArray, half_width: xr.DataArray
+    value: xr.DataArray, half_width: xr.DataArray, most: float = math.inf
 ) -> tuple[xr.DataArray, xr.DataArray]:
-    """Return both ends of an interval of relative half width; NaN if it is not known."""
+    """Return both ends of an interval of relative half width; NaN if it is not known.
+
+    The upper is `most` at most: nothing is in contact with more than all of its area.
+    """
     log = half_width.copy(data=np.arcsinh(half_width.values))
-    return value * np.exp(-log), value * np.exp(log)
+    return value * np.exp(-log), (value * np.exp(log)).clip(max=most)

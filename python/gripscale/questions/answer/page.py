@@ -13,14 +13,16 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import SHEAR_STRESS
+from gripscale.chain.chain import Chain
 from gripscale.conditions.dry_road import DRY_ASSUMPTIONS, DRY_TREAD, STRESS_SCATTER
 from gripscale.core.finding import FILLED, Finding
 from gripscale.core.units import display_unit_of, in_mm
+from gripscale.half_space.model import DirectContact
 from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
-from gripscale.questions.answer.estimate import LINES_TO_SURFACE
+from gripscale.questions.answer.estimate import ERROR_LEFT, LINES_TO_SURFACE
 from gripscale.questions.answer.filler import both_answers
 from gripscale.questions.answer.findings import (
     MEASURED_FRICTION,
@@ -196,6 +198,13 @@ def _in_interval(data: xr.Dataset) -> Iterator[str]:
     ]
     if data.attrs.get(SHEAR_STRESS) == DRY_TREAD.kind:
         parts.append(f"shear stress between treads {percent_text(STRESS_SCATTER)}")
+    if ERROR_LEFT in data:
+        share = percent_text(1.0 - float(data[ERROR_LEFT]))
+        yield (
+            f"the area term was fitted to measured friction: {share} of the variance of the "
+            "friction cancels here (all of it at the measured points, nothing on another surface "
+            "or rubber)"
+        )
     if parts:
         of = " and ".join(_WORDS[each] for each in names)
         yield f"in the interval, standard errors of {of}: {'; '.join(parts)}"
@@ -236,11 +245,20 @@ def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Findin
             Section("contact", "Rubber on the surface", contact_elements(data, record)),
             Section("surface", "Surface", surface_section(record)),
             Section("rubber", "Rubber", rubber_section(record)),
-            method_section(),
+            method_section(method_of_answer(data)),
             rerun_section(data.attrs),
         ],
         basis_lines(data),
     )
+
+
+def method_of_answer(data: xr.Dataset) -> list[str]:
+    """Return how the model of an answer says it works, with its further steps."""
+    if not reliance.is_measured(data):
+        return [*Chain.method]
+    steps = {"surface": LINES_TO_SURFACE in data.factor_label.values}
+    steps["interface"] = bool(friction_parts(data))
+    return [*DirectContact.method, *(name for name, taken in steps.items() if taken)]
 
 
 def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -16,7 +16,11 @@ import numpy as np
 import scipy
 import xarray as xr
 
-from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_to_dict
+from gripscale.conditions.area_term import (
+    FittedPoints,
+    InterfacialShearStress,
+    shear_stress_to_dict,
+)
 from gripscale.core import Array, Described, checks, labelled, provenance
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.model import STATUS, STATUS_WORD
@@ -103,6 +107,8 @@ class AreaTermFit(Described):
     """What the law says of points it was not fitted to, where asked for."""
     held_out_by: str = ""
     """Whether a temperature or a decade of speed was left out; empty for neither."""
+    fitted_to: FittedPoints | None = None
+    """The record that the law carries of its points, where answers can use it."""
 
     @property
     def problem(self) -> fit.CalibrationProblem:
@@ -112,7 +118,8 @@ class AreaTermFit(Described):
     @property
     def law(self) -> InterfacialShearStress:
         """The law with the best parameters."""
-        return self.problem.law(self.optimum.theta)
+        law: Any = self.problem.law(self.optimum.theta)
+        return law if self.fitted_to is None else replace(law, fitted_to=self.fitted_to)  # type: ignore[no-any-return]
 
     @property
     def spread_known(self) -> bool:
@@ -190,9 +197,24 @@ class AreaTermFit(Described):
     @property
     def band(self) -> Array:
         """Half of the interval of the friction at the measured points [-], at `LEVEL`."""
+        return self.friction_error * self._quantile
+
+    @property
+    def half_width(self) -> Array:
+        """Half of the interval of the friction by fit and measurement, of the points fitted [-].
+
+        A law that misses the points by more than their spread is no better than its scatter.
+        """
+        spread, error = self.problem.points.spread, self.friction_error[self.predicted.has_answer]
+        measured = self.scatter if spread is None else spread * max(self.scatter, 1.0)
+        return self._quantile * np.hypot(error, measured)
+
+    @property
+    def _quantile(self) -> float:
+        """Half width of an interval at `LEVEL` over a standard error."""
         tail = 0.5 * (1.0 + fit.LIKELIHOOD_LEVEL)
         normal, student = scipy.special.ndtri(tail), scipy.special.stdtrit(self.freedom, tail)
-        return self.friction_error * float(normal if self.spread_known else student)
+        return float(normal if self.spread_known else student)
 
     @cached_property
     def profiles(self) -> dict[str, tuple[Array, Array]]:

@@ -272,7 +272,7 @@ def check_names(kind: str, fixed: Iterable[str]) -> list[str]:
     Raises `InputError` unless the law can be fitted, and names of what is fixed belong to it.
     """
     checks.one_of("law", kind, KINDS)
-    names = [parameter.name for parameter in fields(SHEAR_STRESSES[kind])]
+    names = [f.name for f in fields(SHEAR_STRESSES[kind]) if f.name in PARAMETERS]
     checks.allowed_names("parameter", fixed, names)
     return names
 

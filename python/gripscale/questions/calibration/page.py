@@ -228,6 +228,7 @@ def notes(calibration: AreaTermFit) -> Iterator[str]:
 def shear_stress_table(calibration: AreaTermFit) -> str:
     """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
     law = shear_stress_to_dict(calibration.law)
+    points = law.pop("fitted_to")
     estimates = {estimate.name: estimate for estimate in calibration.estimates}
     source = Path(calibration.measured.source).name or "a measurement"
     lines = [
@@ -246,4 +247,13 @@ def shear_stress_table(calibration: AreaTermFit) -> str:
         text = f'"{text}"' if unit else text
         about = estimates[name].interval if name in estimates else "held"
         lines.append(f"{name} = {text}  # {about}")
+    if points is not None:
+        if points["temperature"] is not None:
+            points["temperature"] = [f"{kelvin!r} K" for kelvin in points["temperature"]]
+        stated = ((key, value) for key, value in points.items() if value is not None)
+        lines += [
+            "# Without this table an answer has the whole error of its contact area.",
+            "[conditions.shear_stress.fitted_to]",
+            *(f"{key} = {json.dumps(value)}" for key, value in stated),
+        ]
     return "\n".join(lines) + "\n"

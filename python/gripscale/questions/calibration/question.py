@@ -7,6 +7,7 @@ result.law
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -17,7 +18,12 @@ import numpy as np
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.charts.draw import image
-from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
+from gripscale.conditions import Conditions
+from gripscale.conditions.area_term import (
+    FittedPoints,
+    InterfacialShearStress,
+    shear_stress_from_dict,
+)
 from gripscale.core import Array, InputError, checks
 from gripscale.core.finding import Finding, Severity, to_json
 from gripscale.experiment.design import solve_design
@@ -30,6 +36,7 @@ from gripscale.experiment.measured_friction import (
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Table
 from gripscale.model import INPUT_DOUBTS
+from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.calibration import calibration_law as laws
 from gripscale.questions.calibration import page
@@ -216,6 +223,8 @@ def calibrate(
             if np.nan_to_num(np.abs(change)).max() < SAME_FRICTION:
                 break
     fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
+    if model != Chain.name:  # whose answers have no interval
+        fit = replace(fit, fitted_to=_points_of(fit, case))
     data = fit.to_dataset().assign_attrs(
         case.attributes, model=model, notes="\n".join(page.notes(fit))
     )
@@ -234,6 +243,25 @@ def _measured_stress(predicted: Predicted, measured: MeasuredFriction) -> Array:
     missing = measured.friction - predicted.friction
     adds = predicted.has_answer & (missing > 0.0)
     return np.divide(missing, predicted.leverage, out=np.zeros(missing.size), where=adds)
+
+
+def _points_of(fit: AreaTermFit, case: Case) -> FittedPoints:
+    """Return the record of the points of a fit beside the direct contact of a case."""
+    below, answered = case.below_measurement, fit.predicted.has_answer
+    contact = Contact(case.rubber, case.surface, case.load, case.conditions, below)
+    before = (case.conditions or Conditions()).temperature_of(case.rubber)
+    kelvin = np.where(
+        np.isnan(fit.measured.temperature),
+        math.nan if before is None else before,
+        fit.measured.temperature,
+    )[answered]
+    return FittedPoints(
+        contact.key,
+        fit.measured.speed[answered].tolist(),
+        fit.predicted.contact_fraction[answered].tolist(),
+        fit.half_width.tolist(),
+        None if np.isnan(kelvin).any() else kelvin.tolist(),
+    )
 
 
 def measured_of(case: Case, measured: MeasuredFriction | str | Path | None) -> MeasuredFriction:

@@ -16,6 +16,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
+from gripscale.chain.chain import Chain
 from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.core.provenance import versions
 from gripscale.experiment.design import CONVERGED
@@ -154,7 +155,10 @@ def run_page(run: RunSource) -> Page:
         [
             *_sections_of_inputs(run),
             *_sections_of_results(run),
-            method_section(),
+            method_section(
+                [] if run.direct is None else answer.method_of_answer(run.direct),
+                Chain.method if run.by_wave else (),
+            ),
             rerun_section(run.attrs),
         ],
         () if run.direct is None else answer.basis_lines(run.direct),

@@ -214,7 +214,8 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         if np.isfinite(spread).any():
             # A spread above the number itself has no end on a logarithmic axis.
             low = np.maximum(values - spread, 1e-3 * values)
-            marks.append(ShadedBand(x, low, values + spread, look.colour, curve.label, alpha=0.18))
+            high = np.minimum(values + spread, 1.0 if area else np.inf)
+            marks.append(ShadedBand(x, low, high, look.colour, curve.label, alpha=0.18))
     if np.isfinite(comparison[f"answer_{name}_factor"]).any():
         answer = believed(comparison, name)
         values, *ends = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +17,7 @@ from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, 
 from gripscale.core.units import DisplayUnit
 from gripscale.experiment.measured_friction import measured_series
 from gripscale.half_space.model import DirectContact
+from gripscale.questions.answer.intervals import MOST
 from gripscale.questions.answer.reliance import headline
 
 ASIDE = ("windows",)  # groups of other surfaces, which only give factors of the answer
@@ -120,12 +121,13 @@ class Row:
     colour: str = INK
     filled: bool = True
     note: str = ""  # said in place of a number there is not
+    most: float = math.inf  # upper limit of the number, where it has one
 
     @property
     def ends(self) -> tuple[float, float]:
         """The number less and plus one standard uncertainty; NaN where that is unknown."""
         spread = math.exp(self.uncertainty)
-        return self.value / spread, self.value * spread
+        return self.value / spread, min(self.value * spread, self.most)
 
     @property
     def numbers(self) -> list[float]:
@@ -136,6 +138,11 @@ class Row:
 
 def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the lines of one panel; both panels have the same."""
+    for row in _rows(comparison, name):
+        yield replace(row, most=MOST.get(name, math.inf))
+
+
+def _rows(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     comparison = on_the_surface(comparison)
     totals = comparison[f"total_{name}"].values.tolist()
     values = dict(zip(comparison.model.values, totals, strict=True))
@@ -182,5 +189,5 @@ def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
         value *= factor
     if np.isfinite(factors).any():
         answer = headline(comparison, name)
-        width = math.log(answer.high / answer.value) if answer.value > 0.0 else math.nan
+        width = math.log(answer.value / answer.low) if answer.value > 0.0 else math.nan
         yield Row(BEST, answer.value, width, marker="*", colour=ORANGE)

@@ -25,6 +25,7 @@ from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import Doubtful
 from gripscale.questions.answer import estimate as estimates
 from gripscale.questions.answer import samples as reduce
+from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.estimate import Factor
 from gripscale.questions.answer.intervals import half_width
 from gripscale.questions.answer.waves import estimate_of_waves
@@ -78,7 +79,13 @@ class SolvedLadder(Described):
             names = ["friction", "contact_fraction", "adhesive_friction"]
             return estimate_of_waves(chain[names].where(reduce.converged(chain)))
         conditions = self.case.conditions
-        best = estimates.answer_of_samples(self.samples, self.factors, conditions=conditions)
+        contacts = [
+            Contact(s.rubber, s.surface, s.load, s.conditions, self.case.below_measurement)
+            for s in self.setups
+        ]
+        best = estimates.answer_of_samples(
+            self.samples, self.factors, conditions=conditions, contacts=contacts
+        )
         return estimates.with_large_strain(best, self.samples, self.factors, conditions)
 
     @property

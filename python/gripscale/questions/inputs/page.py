@@ -296,7 +296,7 @@ def conditions_lines(conditions: Conditions, rubber: Rubber) -> Iterator[str]:
 
 def _numbers(law: Any) -> str:
     """Return kind and numbers of a law; of tables how many."""
-    values = {f.name: getattr(law, f.name) for f in fields(law)}
+    values = {f.name: getattr(law, f.name) for f in fields(law) if f.repr}
     texts = (
         f"{name} {len(value)} values"
         if isinstance(value, tuple)

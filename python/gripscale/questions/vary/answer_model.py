@@ -14,7 +14,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.core import Checked, InputError, checked
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import Bench
-from gripscale.half_space.model import JUDGED_TO
+from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.half_space.solve import relative_tolerance
 from gripscale.model import Load, OnProgress
 from gripscale.questions.answer import samples as reduce
@@ -57,6 +57,12 @@ class AnswerModel(Checked, model.Model):
     conditions: Conditions | None = None
     below_measurement: BelowMeasurement = field(default_factory=BelowMeasurement)
     compared: bool = False
+
+    @property
+    def method(self) -> tuple[str, ...]:
+        """What a page says of it."""
+        sheared = self.conditions is not None and self.conditions.shear_stress is not None
+        return (*DirectContact.method, "surface", *(["interface"] if sheared else []))
 
     def with_conditions(self, conditions: Conditions | None) -> AnswerModel:
         """Return the model under other conditions."""

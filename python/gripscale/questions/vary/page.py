@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -18,6 +19,7 @@ from gripscale.io.table import NONE, Column, Table, least_to_most, percent, sign
 from gripscale.model import (
     ADHESIVE_FRICTION,
     FRICTION_OUTSIDE_BAND,
+    METHOD,
     STATUS,
     input_doubts_of,
     status_words,
@@ -318,7 +320,7 @@ def study_page(data: xr.Dataset) -> Page:
             Section("predictions", "Predictions", [study_table(data, count)]),
             Section("curves", "Curves", study_charts(data)),
             *input_sections(data),
-            method_section(),
+            method_section(json.loads(data.attrs.get(METHOD, "[]"))),
             rerun_section(data.attrs),
         ],
         (line.strip() for line in study_lines(data)),

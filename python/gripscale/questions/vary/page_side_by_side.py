@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from abc import abstractmethod
 from collections.abc import Iterator, Sequence
@@ -19,7 +20,7 @@ from gripscale.core.finding import sentences
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, significant
-from gripscale.model import STATUS, input_doubts_of
+from gripscale.model import METHOD, STATUS, input_doubts_of
 from gripscale.questions.inputs.page import input_sections, rubbers_of, texture_table
 from gripscale.questions.vary.inputs import READING_NOTES, TEMPERATURE
 from gripscale.questions.vary.page import answer_columns
@@ -224,7 +225,7 @@ class SideBySide(Variation):
             [
                 Section(f"{self.dim}s", "Ranking", elements),
                 *input_sections(data),
-                method_section(),
+                method_section(json.loads(data.attrs.get(METHOD, "[]"))),
                 rerun_section(data.attrs),
             ],
             [line.strip() for line in self.lines],

@@ -37,7 +37,7 @@ from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.experiment.task import Task, canonical_json, load_stored
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io import netcdf
-from gripscale.model import Model, input_doubts
+from gripscale.model import METHOD, Model, input_doubts
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
 from gripscale.questions.vary.answer_model import AnswerModel
@@ -328,4 +328,5 @@ class Study:
             "study_key": self.key,
             "description": json.dumps(self.description()),
             "model": model.name,
+            METHOD: json.dumps([*model.method]),
         }
