@@ -18,7 +18,6 @@ import gripscale as gs
 from benchmarks.measure import name
 from benchmarks.table import show
 from gripscale.case_file import read_case
-from gripscale.questions.chain.run import planned
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine, WaveLoad, WaveProblem
 from tests.samples import ROOT
 
@@ -76,14 +75,14 @@ def _whole_command(console: Console) -> None:
             ["time, all", " ".join(f"{s:.1f}" for s in seconds), f"aim {AIM_SECONDS:.0f} s"],
             ["peak memory", f"{max(megabytes):.0f} MB", f"< {MOST_MEGABYTES:.0f} MB"],
         ],
-        "Dynamic and static chain, eight waves each, six figures.",
+        "Direct contact of two profiles, chain of eight waves, eight figures.",
     )
 
 
 def _chains() -> list[Chain]:
     case = read_case(CASE)
     chains = []
-    for title, speed in planned(case).items():
+    for title, speed in {"dynamic": case.load.speed, "static": 0.0}.items():
         marks = [time.perf_counter()]
         default = gs.solve_chain(
             case.rubber,

@@ -1,19 +1,30 @@
-"""The chain of a case file solved into a folder, as `gripscale run` solves it."""
+"""The chain of a case file, and the result files of `gripscale run`."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+import gripscale as gs
 from gripscale.case_file import folder, read_case, read_case_file
-from gripscale.case_file.read import CaseFile
-from gripscale.questions.chain.run import ChainRun
+from gripscale.experiment.solve import Bench
+from gripscale.io import netcdf
+from gripscale.questions.answer.answer import ANSWER_FILE, answer, solved_chain
+from gripscale.questions.page_of_folder import CHAIN_FILE
 
 
-def run_case(file: CaseFile | str | Path, *, output: Path | None = None) -> ChainRun:
-    """Solve the chain of a case file; without a folder nothing is written."""
-    file = file if isinstance(file, CaseFile) else read_case_file(file)
-    run = ChainRun(read_case(file))
-    if output is not None:
-        folder.prepare(output, file)
-    run.solve(output)
-    return run
+def chain_of(path: Path) -> gs.ChainResult:
+    """Solve the chain of a case file."""
+    case = read_case(path)
+    return case.chain.solve(case.rubber, case.surface.sines, case.load)
+
+
+def run_case(path: Path, output: Path) -> gs.Answer:
+    """Solve a case file into a folder."""
+    case = read_case(path)
+    result = answer(case)
+    if result.chain is None:
+        result.chain = solved_chain(case, Bench(None))
+    folder.prepare(output, read_case_file(path))
+    result.save(output / ANSWER_FILE)
+    netcdf.save(result.chain, output / CHAIN_FILE)
+    return result

@@ -91,19 +91,16 @@ def case_text(
     surface: str,
     rubber: str = STYRENE_BUTADIENE,
     solver: str = COARSE_BLOCK,
-    *,
-    static: bool | None = None,
 ) -> str:
     """Return the text of a case at 3 bar and 0.3 m/s with the keys of three of its tables.
 
     A measured rubber is unfilled: its moduli do not fall with the strain.
     """
     rubber = f"filled = false\n{rubber}" if "file = " in rubber else rubber
-    at_rest = "" if static is None else f"static = {str(static).lower()}\n"
     return (
         f"[surface]\n{surface}\n\n[rubber]\n{rubber}\n\n"
         '[load]\npressure = "3 bar"\nspeed = "0.3 m/s"\nfootprint = "100 mm"\n'
-        f"{at_rest}\n[solver]\n{solver}\n"
+        f"\n[solver]\n{solver}\n"
     )
 
 

@@ -163,8 +163,6 @@ class Case(Described):
         then has trapped water (`gripscale.solve_rough_contact`).
     load_time : float or "passage"
         How long a wave is loaded [s]: while the contact above it passes, or a time.
-    static : bool
-        Whether the chain also predicts the relaxed rubber at rest.
     chain : Chain, optional
         Solver and pressure classes of the chain of waves; its conditions are those of the case.
     below_measurement : BelowMeasurement, optional
@@ -201,7 +199,6 @@ class Case(Described):
         interface: Interface | None = None,
         water: bool | Quantity | None = None,
         load_time: LoadTime = "passage",
-        static: bool = False,
         chain: Chain | None = None,
         below_measurement: BelowMeasurement | None = None,
         klueppel_heinrich: KlueppelHeinrich | None = None,
@@ -229,7 +226,6 @@ class Case(Described):
             for name, value in chosen.items()
         }
         self.load = Load(**values, load_time=load_time, thickness=thickness)
-        self.static = static
         if isinstance(rubber, Rubber):
             rubber = MeasuredRubber(rubber, rubber.source)
         elif not isinstance(rubber, MeasuredRubber):
@@ -358,7 +354,7 @@ class Case(Described):
     @cached_property
     def key(self) -> str:
         """Hash of everything that an answer depends on, but for the software."""
-        parts = [self.surface, self.measured_rubber, self.load, self.static, self.chain]
+        parts = [self.surface, self.measured_rubber, self.load, self.chain]
         parts += [self.filled]
         parts += [] if self.conditions is None else [self.conditions.water]
         parts += [self.below_measurement, self.klueppel_heinrich, self.cleaning]

@@ -72,7 +72,10 @@ def test_a_value_put_into_the_text_is_stated_there_and_nothing_else_changes(valu
 def test_comments_stay_and_a_key_can_be_taken_out() -> None:
     text = with_value(CASE, ("load", "speed"), "1 m/s")
     assert text == CASE.replace('"0.3 m/s"', '"1 m/s"')
-    assert with_value(with_value(CASE, ("load", "static"), True), ("load", "static"), None) == CASE
+    assert (
+        with_value(with_value(CASE, ("load", "load_time"), "1 s"), ("load", "load_time"), None)
+        == CASE
+    )
     assert with_value(CASE, ("conditions", "heat", "density"), None) == CASE
 
 
@@ -123,15 +126,13 @@ def test_a_file_in_place_of_a_law_is_shown_and_can_be_taken_out(state: CaseState
 def test_what_is_typed_is_in_the_text_and_what_is_in_the_text_is_shown(state: CaseState) -> None:
     shown = fields(table_form(state, "load", ()))
     shown["speed"].value = "2"
-    shown["static"].value = "true"
     shown["pressure"].value = "4 MPa"
-    assert case_tables(state.text)["load"] == {
-        "pressure": "4 MPa", "speed": "2 m/s", "footprint": "100 mm", "static": True}  # fmt: skip
+    typed = {"pressure": "4 MPa", "speed": "2 m/s"}
+    assert case_tables(state.text)["load"] == typed | {"footprint": "100 mm"}
     assert shown["pressure"].value == "4"
     state.set_text(CASE)
     assert state.text == CASE
     assert [shown[name].value for name in ("speed", "pressure")] == ["0.3", "3"]
-    assert shown["static"].value == "by default: false"
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 from tests.cli.conftest import inputs as inputs
 from tests.samples import TWO_WAVES, case_text
 
-CASE = case_text(TWO_WAVES, static=True)
+CASE = case_text(TWO_WAVES)
 
 
 @pytest.fixture

@@ -49,7 +49,7 @@ def test_quantities_become_si_and_defaults_are_filled_in(tmp_path: Path) -> None
     file = read_case_file(written(tmp_path, GOOD))
     load = file.case.load
     assert (load.pressure, load.speed, load.footprint) == (3e5, 0.3, 0.1)
-    assert (load.static, load.load_time) == (False, "passage")
+    assert load.load_time == "passage"
     assert file.case.solver.options() == {}
     assert file.text == GOOD
 
@@ -122,6 +122,7 @@ def test_quantity(text: str | float, kind: str, si: float) -> None:
 WRONG = [
     ("pressure =", "presure =", "unknown key [load] presure; did you mean pressure?"),
     ("[load]", "[lod]", "unknown key [lod]; did you mean load?"),
+    ("[load]", "[load]\nstatic = true", "unknown key [load] static; it is gone: speed = 0 solves"),
     ("scales = 8", "xyzzy = 8", "unknown key [surface] xyzzy; expected one of files,"),
     ('"3 bar"', '"3 furlong"', "[load] pressure = '3 furlong': unknown unit 'furlong'; expected"),
     ('"3 bar"', '"3 mm"', "unknown unit 'mm'; expected one of Pa, kPa, psi, bar"),
@@ -364,5 +365,5 @@ def test_shipped_case_is_valid_and_its_files_are_there() -> None:
     assert roles == ["surface", "surface", "rubber", "rubber", "conditions"]
     assert all(file.resolve(name).is_file() for _, name in file.case.named_files())
     assert file.case.load.pressure == 3e5
-    assert (file.case.load.speed, file.case.load.static) == (0.3, False)
+    assert file.case.load.speed == 0.3
     assert (surface.scales or 0) >= 8

@@ -14,10 +14,10 @@ from gripscale.case_file import read_case, read_case_file
 from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.questions import Study
-from tests.run_case import run_case
+from tests.run_case import chain_of
 from tests.samples import HALF_PLANE, case_text, write_road
 
-CASE = case_text('files = ["road.txt"]\nscales = 3\n{end}', solver=HALF_PLANE, static=False)
+CASE = case_text('files = ["road.txt"]\nscales = 3\n{end}', solver=HALF_PLANE)
 ROAD = surface.self_affine_profile(0.8, 3e-3, 6e-4, length=0.1, step=1e-4, seed=1)
 
 
@@ -93,21 +93,19 @@ def test_waves_by_hand_have_no_cut_off(case: Path) -> None:
 
 
 def test_a_run_keeps_and_tells_it(case: Path, tmp_path: Path) -> None:
-    results = run_case(case, output=tmp_path / "out")
-    inputs = netcdf.load_tree(tmp_path / "out" / "dynamic.nc")["inputs"]
+    outcome = CliRunner().invoke(app, ["run", str(case), "--output", str(tmp_path / "again")])
+    assert outcome.exit_code == 0, outcome.output
+    inputs = netcdf.load_tree(tmp_path / "again" / "answer.nc")["inputs"]
     assert inputs.attrs["cut_off_m"] == pytest.approx(4e-4)
     assert "the measurement carries" in inputs.attrs["cut_off_rule"]
     slopes = inputs["rms_slope_of_surface"].values
     assert (np.diff(slopes) >= 0.0).all()
     assert slopes[-1] == pytest.approx(inputs.attrs["cut_off_surface_slope"])
-    assert results.dynamic is not None
-    outcome = CliRunner().invoke(app, ["run", str(case), "--output", str(tmp_path / "again")])
-    assert outcome.exit_code == 0, outcome.output
     words = " ".join(outcome.output.split())
     assert "cut-off: 0.4 mm (the shortest wavelength that the measurement carries)" in words
-    exponent = results.dynamic.cut_off_exponents.friction
-    chain = (tmp_path / "again" / "chain.txt").read_text(encoding="utf-8")
-    assert f"d ln μ / d ln λ_min = {exponent:.2f}" in " ".join(chain.split())
+    exponent = chain_of(case).cut_off_exponents.friction
+    report = (tmp_path / "again" / "report.txt").read_text(encoding="utf-8")
+    assert f"d ln μ / d ln λ_min = {exponent:.2f}" in " ".join(report.split())
     outcome = CliRunner().invoke(app, ["report", str(tmp_path / "again")])
     assert outcome.exit_code == 0, outcome.output
     page = next((tmp_path / "again").glob("*.html")).read_text(encoding="utf-8")
@@ -132,11 +130,10 @@ def test_a_study_varies_lengths_and_rules_side_by_side(case: Path, tmp_path: Pat
     names = ["0.001 m", "instrument", "rms slope 0.4 of the surface"]
     assert found.cut_off.values.tolist() == names
     alone = [
-        run_case(write(case, end)).dynamic
-        for end in ('"1 mm"', '"instrument"', "{ rms_slope = 0.4 }")
+        chain_of(write(case, end)) for end in ('"1 mm"', '"instrument"', "{ rms_slope = 0.4 }")
     ]
-    assert found.total_friction.values.tolist() == [one.friction for one in alone if one]
-    exponents = [one.cut_off_exponents.friction for one in alone if one]
+    assert found.total_friction.values.tolist() == [one.friction for one in alone]
+    exponents = [one.cut_off_exponents.friction for one in alone]
     assert found.total_friction_cut_off_exponent.values.tolist() == exponents
     outcome = CliRunner().invoke(
         app, ["study", str(case), "--vary", "cut_off=1 mm,instrument", "--workers", "1"]

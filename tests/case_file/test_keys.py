@@ -63,7 +63,6 @@ def test_every_key_says_what_it_takes_and_means_and_where_to_read_on() -> None:
     ("section", "key", "takes", "default"),
     [
         ("load", "speed", 'a speed such as "0.3 m/s", or a plain number in m/s', NEEDED),
-        ("load", "static", "true or false", "false"),
         ("solver", "columns", "a whole number, at least 4, at most 4096, a multiple of 2", "-"),
         ("surface", "crop", 'a list of 2, each a length such as "100 mm"', "-"),
         ("surface", "detrend", '"linear" or "mean" or "none"', '"linear"'),
@@ -92,7 +91,6 @@ def test_a_key_with_a_quantity_says_which() -> None:
     load = next(section for section in sections() if section.name == "load")
     quantities = {key.name: key.quantity for key in load.keys}
     assert quantities["footprint"] == KeyQuantity("length", pair=False)
-    assert quantities["static"] is None
 
 
 def test_the_command_prints_all_tables_or_one_with_what_belongs_to_it() -> None:

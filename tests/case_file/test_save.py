@@ -197,7 +197,6 @@ def test_everything_else_of_a_case_comes_back(tmp_path: Path) -> None:
         speed=0.3,
         footprint=0.08,
         load_time=float("inf"),
-        static=True,
         kind="counterface",
         chain=Chain(FiniteStrainBlock(tolerance=0.03), pressure_classes=2),
         below_measurement=BelowMeasurement(2e-5, HurstExponent(0.7), seed=4),
@@ -205,7 +204,7 @@ def test_everything_else_of_a_case_comes_back(tmp_path: Path) -> None:
         friction=measured,
     )
     other = moved(case, tmp_path)
-    assert (other.load, other.static, other.chain) == (case.load, case.static, case.chain)
+    assert (other.load, other.chain) == (case.load, case.chain)
     assert other.below_measurement == case.below_measurement
     assert other.kind == "counterface"
     assert " on the counterface " in other.title

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.case_file import folder, read_case, read_case_file
+from gripscale.case_file import folder, read_case_file
 from gripscale.case_file import folder as results_folder
 from gripscale.case_file.folder import renamed, saved_case
 from tests.run_case import run_case
@@ -19,30 +19,23 @@ def test_the_results_folder_alone_gives_the_same_result_elsewhere(
 ) -> None:
     there = tmp_path / "work"
     shutil.copytree(inputs, there)
-    first = run_case(there / "case.toml", output=there / "results")
+    first = run_case(there / "case.toml", there / "results")
     moved = tmp_path / "elsewhere"
     shutil.move(there / "results", moved)
     shutil.rmtree(there)
-    again = run_case(moved / "case.toml", output=tmp_path / "again")
-    assert first.dynamic is not None
-    assert again.dynamic is not None
-    assert again.dynamic.friction == first.dynamic.friction
+    again = run_case(moved / "case.toml", tmp_path / "again")
+    assert again.friction == first.friction
     # The copy of the copy is the copy.
     assert (tmp_path / "again" / "case.toml").read_text() == (moved / "case.toml").read_text()
 
 
 def test_a_saved_case_run_into_its_own_folder_keeps_its_files(inputs: Path, tmp_path: Path) -> None:
-    first = run_case(inputs / "case.toml", output=tmp_path / "results")
+    first = run_case(inputs / "case.toml", tmp_path / "results")
     case = tmp_path / "results" / "case.toml"
     text = case.read_text()
-    again = run_case(case, output=tmp_path / "results")
+    again = run_case(case, tmp_path / "results")
     assert case.read_text() == text
-    assert read_case(case).surface.sines.wavelength.tolist() == (
-        again.case.surface.sines.wavelength.tolist()
-    )
-    assert again.dynamic is not None
-    assert first.dynamic is not None
-    assert again.dynamic.friction == first.dynamic.friction
+    assert again.friction == first.friction
 
 
 STRANGE = """\

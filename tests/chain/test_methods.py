@@ -1,14 +1,12 @@
 """The methods of rubbers, sweeps and results are the functions of the same name."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import gripscale as gs
 from gripscale.rubber import Sweeps
 from gripscale.surface import self_affine_profile
-from tests.samples import SHIFTED_LOAD, SHIFTED_RUBBER, SHIFTED_SINES
+from tests.samples import SHIFTED_RUBBER
 
 ROAD = self_affine_profile(0.8, 2e-3, 1e-4, 0.1, 1e-4, seed=1)
 
@@ -47,16 +45,3 @@ def test_a_direct_contact_is_drawn():
     touched = np.isfinite(touching)
     np.testing.assert_allclose(touching[touched], upper[touched], atol=1e-6)
     assert stretch.get_aspect() == 1.0
-
-
-def test_a_prediction_writes_its_page(tmp_path: Path):
-    prediction = gs.solve_chain(
-        SHIFTED_RUBBER,
-        SHIFTED_SINES,
-        pressure=SHIFTED_LOAD.pressure,
-        speed=SHIFTED_LOAD.speed,
-        footprint=SHIFTED_LOAD.footprint,
-        solver="half_plane",
-    )
-    page = prediction.report(tmp_path / "page.html")
-    assert f"{prediction.friction:.3g}" in page.read_text(encoding="utf-8")

@@ -7,13 +7,11 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from gripscale.chain import Chain, ChainError, ChainResult, solve_chain
+from gripscale.chain import Chain, ChainError, solve_chain
 from gripscale.chain.prediction import PressureClasses
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
-from gripscale.io import netcdf
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.theory import HalfPlane
@@ -134,14 +132,6 @@ def test_class_that_fails_is_named_and_ends_the_chain() -> None:
     failed = caught.value.partial.scales[-1]
     assert failed.pressure_received > 4e6
     assert np.isnan(caught.value.partial.friction)
-
-
-def test_dataset_brings_the_classes_back(tmp_path) -> None:
-    made = solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=4, **LOAD)
-    data = made.to_dataset()
-    assert data.class_pressures.sizes == {"scale": 3, "pressure_class": 4}
-    again = ChainResult.from_dataset(netcdf.load_dataset(netcdf.save(data, tmp_path / "result.nc")))
-    xr.testing.assert_identical(again.to_dataset(), data)
 
 
 def test_the_model_takes_the_classes() -> None:

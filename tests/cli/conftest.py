@@ -14,7 +14,6 @@ CASE = case_text(
     'files = ["road.txt"]\ncrop = ["10 mm", "390 mm"]\nscales = 3\ns_wavelength = 3',
     'file = "dma.txt"\nterms = 6',
     HALF_PLANE.replace("64", "128") + '\n\n[output]\nfolder = "results"',
-    static=True,
 )
 
 

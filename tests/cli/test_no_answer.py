@@ -112,7 +112,7 @@ def test_what_cannot_be_solved_is_an_error_before_all_else(shell: Shell, case: P
     frequency = np.geomspace(1e-3, 1e3, 49)
     relaxed = 1j * frequency / (1.0 + 1j * frequency)
     write_master_curve(case.with_name("dma.txt"), frequency, 1e6 * relaxed + 1e3j * frequency)
-    replaced(case, 'footprint = "100 mm"', 'footprint = "100 mm"\nstatic = true')
+    replaced(case, '"0.3 m/s"', "0")
     result = shell("run", case)
     assert (result.exit_code, result.stdout) == (2, "")
     assert "the pressure squeezes the rubber, a melt at rest, flat" in result.stderr

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -12,15 +11,15 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner, Result
 
-from gripscale.case_file.folder import AT_TIMES, CASE_NOTE, NOTE, RESULT_FILES
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.case_file.folder import AT_TIMES, CASE_NOTE, RESULT_FILES
 from gripscale.cli import app
 from gripscale.core.status import Status
+from gripscale.experiment import Task
 from gripscale.io import netcdf
 from gripscale.questions.terminal import time_left
 from gripscale.theory import HalfPlane
 from gripscale.wave import ScaleResult, WaveProblem
-from tests.samples import Shell
+from tests.samples import TWO_WAVES, Shell
 
 
 @pytest.fixture(scope="module")
@@ -36,11 +35,16 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     assert result.exit_code == 0, result.output
     assert result.stderr == ""
     written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
+    kept = {name for name in written if name.startswith("predictions/")}
+    assert len(kept) == 2, "the direct contact and the chain"
     of_others = {"cut_off.nc"} | {
         name for name in RESULT_FILES if any(f"/{figure}." in name for figure in AT_TIMES)
     }
     of_others |= {name for name in RESULT_FILES if name.endswith((".pdf", ".svg"))}
-    assert written == {*RESULT_FILES, CASE_NOTE, "inputs/road.txt", "inputs/dma.txt"} - of_others
+    assert (
+        written
+        == {*RESULT_FILES, CASE_NOTE, "inputs/road.txt", "inputs/dma.txt"} - of_others | kept
+    )
 
 
 def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -> None:
@@ -71,10 +75,9 @@ def test_the_chain_is_printed_where_it_is_asked_for(
     _, opening, last = result.output.split("Answer: ")
     assert last.strip(), "the answer is the last thing"
     assert opening.startswith(last.strip())
-    chain = (target / "chain.txt").read_text(encoding="utf-8")
     again = shell("run", inputs / "case.toml", "--output", target, "--chain").output
-    for words in ("Dynamic, 0.3 m/s", "Static", "stretch"):
-        assert words in chain
+    for words in ("Dynamic, 0.3 m/s", "stretch"):
+        assert words in (target / "report.txt").read_text(encoding="utf-8")
         assert words in again
         assert words not in result.output
 
@@ -82,7 +85,7 @@ def test_the_chain_is_printed_where_it_is_asked_for(
 def test_results_file_holds_the_chain_and_its_inputs(
     done: tuple[Result, Path], inputs: Path
 ) -> None:
-    data = netcdf.load_dataset(done[1] / "dynamic.nc")
+    data = netcdf.load_dataset(done[1] / "chain.nc")
     assert data.sizes["scale"] == 3
     np.testing.assert_allclose(
         data.pressure_received[1:],
@@ -93,9 +96,6 @@ def test_results_file_holds_the_chain_and_its_inputs(
     assert data.total_friction > 0.0
     assert data.attrs["case"] == (inputs / "case.toml").read_text()
     assert data.attrs["surface_source"].endswith("road.txt")
-    rest = netcdf.load_dataset(done[1] / "static.nc")
-    assert np.isinf(rest.load_time).all()
-    assert rest.total_contact_fraction > data.total_contact_fraction
 
 
 def test_case_is_copied_but_for_the_names_of_its_files(
@@ -110,116 +110,88 @@ def test_case_is_copied_but_for_the_names_of_its_files(
 
 def test_report_holds_the_tables(done: tuple[Result, Path]) -> None:
     text = (done[1] / "report.txt").read_text(encoding="utf-8")
-    assert (done[1] / "chain.txt").read_text(encoding="utf-8").count("converged") == 6
+    assert text.count(" converged") == 3
+    assert "For comparison, the paper's chain of waves: μ = " in text
     assert "s_wavelength = 3.000" in text
 
 
-def lame(wave: int) -> Any:
-    """Return the half-plane's `solve`, whose given wave (counted from 1) does not converge."""
-    count, solve = 0, HalfPlane.solve
-
-    def lamed(
-        self: HalfPlane, problem: WaveProblem, start: ScaleResult | None = None
-    ) -> ScaleResult:
-        nonlocal count
-        count += 1
-        good = solve(self, problem, start)
-        return replace(good, status=Status.ITERATION_LIMIT) if count == wave else good
-
-    return lamed
-
-
 @pytest.mark.usefixtures("undrawn")
-def test_wave_that_fails_keeps_what_was_solved(
+def test_a_chain_that_fails_leaves_the_answer_of_a_measured_surface(
     shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(HalfPlane, "solve", lame(2))
+    solve = HalfPlane.solve
+
+    def failing(
+        self: HalfPlane, problem: WaveProblem, start: ScaleResult | None = None
+    ) -> ScaleResult:
+        return replace(solve(self, problem, start), status=Status.ITERATION_LIMIT)
+
+    monkeypatch.setattr(HalfPlane, "solve", failing)
     case = changed()
     result = shell("run", case)
+    assert result.exit_code == 0, result.output
+    assert "chain of waves: No totals: wave 1 did not converge (iteration limit)" in " ".join(
+        result.stdout.split()
+    )
+    chain = netcdf.load_dataset(case.parent / "results" / "chain.nc")
+    assert str(chain.prediction_status.item()).startswith("wave 1 of 3")
+    stated = case.with_name("stated.toml")
+    _, rest = case.read_text().split("[rubber]")
+    stated.write_text(f"{TWO_WAVES}[rubber]{rest}")
+    result = shell("run", stated, "--output", case.parent / "stated")
     assert result.exit_code == 3
-    assert "wave 2 of 3" in result.stderr
+    assert result.stderr.count("\n") == 1
+    assert "wave 1 of 2" in result.stderr
     assert "iteration limit" in result.stderr
-    assert len(result.stderr.splitlines()) == 1
-    assert "No totals: wave 2 did not converge" in (
-        case.parent / "results" / "chain.txt"
-    ).read_text(encoding="utf-8")
-    data = netcdf.load_dataset(case.parent / "results" / "dynamic.nc")
-    assert data.status.values.tolist() == ["converged", "iteration limit"]
-    assert np.isfinite(data.running_friction.values).tolist() == [True, False]
-    assert str(data.prediction_status.item()).startswith("wave 2 of 3")
-    rest = netcdf.load_dataset(case.parent / "results" / "static.nc")
-    assert rest.sizes["scale"] == 3
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_waves_solved_before_an_interrupt_are_on_disk(
-    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    case, count, solve = changed("static = true", "static = false"), 0, HalfPlane.solve
-
-    def stopping(
-        self: HalfPlane, problem: WaveProblem, start: ScaleResult | None = None
-    ) -> ScaleResult:
-        nonlocal count
-        count += 1
-        if count == 3:
-            raise KeyboardInterrupt
-        return solve(self, problem, start)
-
-    monkeypatch.setattr(HalfPlane, "solve", stopping)
-    result = shell("run", case)
-    assert result.exit_code == 130
-    assert netcdf.load_dataset(case.parent / "results" / "dynamic.nc").sizes["scale"] == 2
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
     shell: Shell, changed: Callable[..., Path]
 ) -> None:
-    case = changed("static = true", "static = false")
+    case = changed()
     figures = case.parent / "results" / "figures"
     figures.mkdir(parents=True)
     for name in ("static.nc", "notes.txt", "figures/heat.png", "figures/mine.png"):
         (case.parent / "results" / name).write_text("old")
     assert shell("run", case).exit_code == 0
-    left = {p.name for p in (case.parent / "results").rglob("*") if p.is_file()}
-    texts = {"case.toml", "report.txt", "chain.txt", "road.txt", "dma.txt", NOTE}
-    texts |= {CASE_NOTE, "report.html"}
-    assert left == texts | {"dynamic.nc", "answer.nc", "notes.txt", "mine.png"}
+    folder = case.parent / "results"
+    left = {p.name for p in folder.rglob("*") if p.is_file() and p.parent.name != "predictions"}
+    texts = {"case.toml", "report.txt", "road.txt", "dma.txt", CASE_NOTE, "report.html"}
+    assert left == texts | {"chain.nc", "answer.nc", "notes.txt", "mine.png"}
 
 
-def test_a_finished_run_is_shown_again_and_not_made_again(
-    shell: Shell, inputs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.usefixtures("undrawn")
+def test_what_was_finished_before_ctrl_c_is_kept_and_not_solved_again(
+    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(FigureFolder, "rendered", lambda *_: {"png": b"a picture"})
-    case = tmp_path / "case.toml"
-    case.write_text((inputs / "case.toml").read_text())
-    for path in inputs.iterdir():
-        if path.is_file() and path.name != case.name:
-            shutil.copy(path, tmp_path)
-    figure = tmp_path / "results" / "figures" / "profile.png"
+    def stop(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
 
-    def drawn(*options: str) -> bool:
-        """Run the case; return whether its figures were drawn."""
-        before = figure.stat().st_mtime_ns if figure.is_file() else 0
-        result = shell("run", case, *options)
-        assert result.exit_code == 0, result.output
-        assert "Answer" in result.stdout
-        new = figure.stat().st_mtime_ns != before
-        assert ("nothing was solved again" in " ".join(result.stdout.split())) != new
-        return new
+    case, solve = changed(), Task.solve
+    with monkeypatch.context() as patch:
+        patch.setattr("gripscale.case_file.prepare_surface", stop)
+        patch.setattr("gripscale.case_file.read_case", stop)
+        for command in (["fit-surface", case.with_name("road.txt")], ["run", case]):
+            stopped = shell(*command)
+            assert stopped.exit_code == 130
+            assert stopped.stderr == "Stopped; nothing was finished.\n"
+    with monkeypatch.context() as patch:  # in the chain, when the direct contact is solved
+        patch.setattr(HalfPlane, "solve", stop)
+        stopped = shell("run", case)
+    assert stopped.exit_code == 130
+    assert "Answer: " in stopped.stdout
+    assert f"what was finished is kept in {case.parent / 'results'}" in stopped.stderr
+    solved: list[str] = []
 
-    assert drawn()
-    assert not drawn()
-    assert drawn("--fresh")
-    assert not drawn()
-    figure.unlink()
-    assert drawn()
-    case.write_text(case.read_text() + "# a remark\n")
-    assert drawn()
-    (tmp_path / "results" / "uncertainty").mkdir()
-    (tmp_path / "results" / "uncertainty" / "uncertainty.nc").write_text("none")
-    assert drawn()
+    def counting(self: Task, *arguments: Any, **options: Any) -> Any:
+        solved.append(self.model.name)
+        return solve(self, *arguments, **options)
+
+    monkeypatch.setattr(Task, "solve", counting)
+    first, second = (shell("run", case).stdout for _ in range(2))
+    assert solved == ["chain"]
+    assert first == second
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -235,7 +207,8 @@ def test_waves_by_hand_and_a_named_rubber_need_no_files(shell: Shell, tmp_path: 
     assert result.exit_code == 0, result.output
     assert "1 wave: real contact area" in result.stdout
     assert "Dynamic" not in result.stdout
-    assert (tmp_path / "results" / "static.nc").exists()
+    chain = netcdf.load_dataset(tmp_path / "results" / "chain.nc")
+    assert np.isinf(chain.load_time).all()
 
 
 @pytest.mark.parametrize(
@@ -249,24 +222,3 @@ def test_waves_by_hand_and_a_named_rubber_need_no_files(shell: Shell, tmp_path: 
 )
 def test_a_line_says_how_long_the_others_may_take(seconds: float, words: str) -> None:
     assert time_left(seconds) == words
-
-
-def test_ctrl_c_says_that_results_are_kept_only_where_there_are_some(
-    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    case = changed("static = true", "static = false")
-
-    def stop(*_: object, **__: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("gripscale.case_file.prepare_surface", stop)
-    monkeypatch.setattr("gripscale.case_file.read_case", stop)
-    for command in (["fit-surface", case.with_name("road.txt")], ["run", case]):
-        stopped = shell(*command)
-        assert stopped.exit_code == 130
-        assert stopped.stderr == "Stopped; nothing was finished.\n"
-    monkeypatch.undo()
-    assert shell("run", case).exit_code == 0
-    monkeypatch.setattr("gripscale.case_file.read_case", stop)
-    kept = shell("run", case, "--fresh")
-    assert f"what was finished is kept in {case.parent / 'results'}" in kept.stderr

@@ -48,7 +48,7 @@ def ask(shell: Shell, question: str, case: Path, *options: object) -> Any:
 def test_json_is_the_result_and_nothing_else(
     shell: Shell, changed: Callable[..., Path], question: str
 ) -> None:
-    case = changed("static = true", "static = false")
+    case = changed()
     done = ask(shell, question, case, "--json")
     assert done.stderr == ""
     content = json.loads(done.stdout)
@@ -69,7 +69,7 @@ def test_json_of_a_run_has_the_numbers_of_its_answer(
     case = changed()
     first = ask(shell, "answer", case, "--json").stdout
     again = ask(shell, "answer", case, "--json").stdout
-    assert first == again  # of the stored run, which is not solved again
+    assert first == again
     stored = gs.load(case.parent / "results" / "answer.nc")
     answer = json.loads(first)["answer"]
     assert (answer["friction"], answer["friction_interval"]) == (stored.friction, [None, None])
@@ -90,7 +90,7 @@ def test_json_of_a_run_has_the_numbers_of_its_answer(
 def test_quiet_prints_answer_and_all_findings(
     shell: Shell, changed: Callable[..., Path], question: str
 ) -> None:
-    case = changed("static = true", "static = false")
+    case = changed()
     done = shell(*QUESTIONS[question][:1], case, *QUESTIONS[question][1:], "-q", columns=5000)
     result = gs.load(next((case.parent / "results").rglob(f"{question}.nc")))
     warnings = [*warning_lines(result.findings, widths=result.half_widths)]
@@ -137,7 +137,7 @@ def test_missing_and_infinite_numbers_are_null(
 def test_results_of_another_case_are_not_replaced_unless_asked(
     shell: Shell, changed: Callable[..., Path]
 ) -> None:
-    case = changed("static = true", "static = false")
+    case = changed()
     other = case.with_name("fast.toml")
     other.write_text(case.read_text().replace('"0.3 m/s"', '"3 m/s"'))
     for question, folder in (("answer", ""), ("study", "study")):
@@ -160,7 +160,7 @@ def test_results_of_another_case_are_not_replaced_unless_asked(
 def test_a_project_may_be_moved_with_its_results(
     shell: Shell, changed: Callable[..., Path], tmp_path: Path
 ) -> None:
-    case = changed("static = true", "static = false")
+    case = changed()
     ask(shell, "study", case)
     moved = tmp_path / "moved"
     moved.mkdir()
@@ -230,29 +230,13 @@ def test_help_is_whole_and_as_wide_as_the_terminal(columns: int) -> None:
         assert summary in " ".join(text.split()), name
 
 
-@pytest.mark.usefixtures("undrawn")
-def test_a_finished_run_is_shown_as_wide_as_the_terminal(
-    shell: Shell, changed: Callable[..., Path]
-) -> None:
-    case = changed()
-    first = shell("run", case, columns=100)
-    basis = first.stdout.partition("\nAnswer: ")[2].partition("\nWarnings")[0]
-    assert len(basis.splitlines()) > 3
-    for columns in (80, 100, 140):
-        again = shell("run", case, columns=columns).stdout
-        assert "nothing was solved again" in " ".join(again.split())
-        lines = [line for line in again.splitlines() if "/" not in line or " " in line.strip()]
-        assert columns - 25 < max(map(len, lines)) <= columns
-        assert (basis in again) == (columns == 100)
-
-
 def test_the_shell_completes_commands_and_options(
     shell: Shell, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("_GRIPSCALE_COMPLETE", "complete_bash")
     for words, number, expected in (
         ("gripscale comp", 1, ["compare", "compare-rubbers", "compare-surfaces"]),
-        ("gripscale run --fr", 2, ["--fresh"]),
+        ("gripscale run --ch", 2, ["--chain"]),
     ):
         monkeypatch.setenv("COMP_WORDS", words)
         monkeypatch.setenv("COMP_CWORD", str(number))

@@ -62,20 +62,6 @@ def test_the_stress_is_that_at_the_temperature_in_the_contact():
     assert found.adhesive_friction == pytest.approx(stress * found.contact_fraction / 3e5)
 
 
-def test_conditions_and_what_they_did_survive_a_file(tmp_path):
-    from gripscale.io import netcdf
-
-    found = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=EVERYTHING, **LOAD)
-    again = gs.ChainResult.from_dataset(
-        netcdf.load_dataset(netcdf.save(found.to_dataset(), tmp_path / "all.nc"))
-    )
-    assert again.conditions == EVERYTHING
-    assert again.total_friction == found.total_friction
-    for name in ("temperature", "strain", "storage_modulus_ratio", "passes"):
-        for one, other in zip(again.scales, found.scales, strict=True):
-            assert one.details[name] == other.details[name]
-
-
 @pytest.mark.parametrize("conditions", [Conditions(), EVERYTHING])
 def test_conditions_survive_their_dict(conditions):
     assert Conditions.from_dict(conditions.to_dict()) == conditions

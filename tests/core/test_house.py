@@ -168,7 +168,6 @@ READERS = {
     "io.text_table": "measured files",
     "io.workbook": "names of sheets",
     "questions.answer.charts": "names of files",
-    "questions.chain.run_page": "names of classes",
     "questions.inputs.page": "paths",
     "questions.vary.axis": "ranges as typed",
     "report.equations": "SVG",

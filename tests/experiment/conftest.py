@@ -11,7 +11,7 @@ import xarray as xr
 
 from tests.samples import THREE_WAVES, case_text
 
-CASE = case_text(THREE_WAVES, static=False)
+CASE = case_text(THREE_WAVES)
 
 
 @pytest.fixture

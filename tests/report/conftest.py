@@ -1,10 +1,10 @@
-"""Results to report on: a real, coarse run; the same with a failed wave; a small study."""
+"""Results to report on: a coarse run; the same with a failed wave; a small study."""
 
 from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -29,7 +29,6 @@ CASE = '# A small case <b>with</b> "marks" & signs\n' + case_text(
     'files = ["road.txt", "lane.txt"]\ncrop = ["10 mm", "390 mm"]\nscales = 3\ns_wavelength = 3',
     'file = "dma.txt"\nterms = 6',
     COARSE_BLOCK + '\n\n[output]\nfolder = "results"',
-    static=True,
 )
 WAVES = 3
 
@@ -47,7 +46,7 @@ def run_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """The results folder of a real run, without its printed figures."""
     folder = tmp_path_factory.mktemp("somewhere-private")
     write_inputs(folder)
-    assert run_case(folder / "case.toml", output=folder / "results").converged
+    run_case(folder / "case.toml", folder / "results")
     yield folder / "results"
     shutil.rmtree(folder)
 
@@ -57,25 +56,6 @@ def read(path: Path) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
     tree = netcdf.load_tree(path)
     groups = {name: part.to_dataset(inherit=False) for name, part in tree.children.items()}
     return tree.to_dataset(), groups
-
-
-Change = Callable[[xr.Dataset], xr.Dataset]
-
-
-@pytest.fixture
-def changed_run(run_folder: Path, tmp_path: Path) -> Callable[..., Path]:
-    """Copy the run, predictions passed through a function; meshes, slow to draw, stay out."""
-
-    def change(edit: Change, *names: str) -> Path:
-        target = tmp_path / "changed"
-        target.mkdir()
-        for name in ("dynamic", "static"):
-            data, groups = read(run_folder / f"{name}.nc")
-            data = edit(data) if name in names else data
-            netcdf.save(data.drop_vars(["mesh_x", "mesh_z"]), target / f"{name}.nc", groups)
-        return target
-
-    return change
 
 
 def fail_second_wave(data: xr.Dataset) -> xr.Dataset:
@@ -94,9 +74,13 @@ def fail_second_wave(data: xr.Dataset) -> xr.Dataset:
 
 
 @pytest.fixture
-def failed_folder(changed_run: Callable[..., Path]) -> Path:
-    """The run with a dynamic prediction that failed at its second wave."""
-    return changed_run(fail_second_wave, "dynamic")
+def failed_folder(run_folder: Path, tmp_path: Path) -> Path:
+    """The run with a chain that failed at its second wave."""
+    target = tmp_path / "failed"
+    shutil.copytree(run_folder, target)
+    data, _ = read(target / "chain.nc")
+    netcdf.save(fail_second_wave(data), target / "chain.nc")
+    return target
 
 
 @pytest.fixture(scope="session")

@@ -1,9 +1,8 @@
-"""Models side by side, as a page and as a chapter of a run's report, read without a browser."""
+"""Models side by side, as a page, read without a browser."""
 
 from __future__ import annotations
 
 import re
-import shutil
 from pathlib import Path
 
 import pytest
@@ -51,22 +50,6 @@ def test_failed_sample_is_loud(compared_folder: Path) -> None:
     warnings = [a for _, a in page.tags if a.get("class") == "notice warning"]
     assert warnings, "the estimate stands without it"
     assert "speed 3 m/s, direct contact, measured surface: 1 of 2 samples failed" in page.text
-
-
-def test_chapter_of_a_run_is_of_just_its_case(
-    run_folder: Path, compared: list[xr.Dataset], tmp_path: Path
-) -> None:
-    for name in ("dynamic.nc", "static.nc"):
-        shutil.copy(run_folder / name, tmp_path)
-    folder = tmp_path / "comparison"
-    folder.mkdir()
-    ladder, over = compared
-    netcdf.save(ladder, folder / "comparison.nc")
-    netcdf.save(over.assign_attrs(case="# another"), folder / "over_speed.nc")
-    page = Page(write_report(tmp_path))
-    chapter = {one for one in figures(page) if one in FIGURES}
-    assert chapter == {one for one in FIGURES if "speed" not in one}
-    assert "belongs to another version of the case and is left out" in page.text
 
 
 def test_one_file_is_a_page_too(compared_folder: Path) -> None:

@@ -15,8 +15,8 @@ from .conftest import read
 
 
 def test_run_records_its_inputs_beside_the_prediction(run_folder: Path) -> None:
-    data, groups = read(run_folder / "dynamic.nc")
-    inputs = groups["inputs"]
+    data, _ = read(run_folder / "chain.nc")
+    inputs = read(run_folder / "answer.nc")[1]["inputs"]
     assert data.sizes["wave"] == 3
     assert inputs.sizes["profile"] == 2
     np.testing.assert_allclose(inputs.attrs["sines_s_wavelength"], 3.0, rtol=1e-12)
@@ -34,7 +34,7 @@ def test_run_records_its_inputs_beside_the_prediction(run_folder: Path) -> None:
 def test_recorded_curves_are_those_of_the_fits(run_folder: Path) -> None:
     """What the page plots is what the prepared inputs evaluate to."""
     made = read_case(run_folder.parent / "case.toml")
-    inputs = read(run_folder / "dynamic.nc")[1]["inputs"]
+    inputs = read(run_folder / "answer.nc")[1]["inputs"]
     correlation, measured = made.surface.correlation, made.surface.measured
     rubber = made.measured_rubber
     assert correlation is not None

@@ -42,7 +42,7 @@ RUBBER_FIELDS = (
 )
 # Tables of the case by name: their title and the fields at the top.
 LOAD_TABLES = {
-    "load": ("Load", ("pressure", "speed", "footprint", "static", "load_time")),
+    "load": ("Load", ("pressure", "speed", "footprint", "load_time")),
     "conditions": ("Conditions", ("temperature", "interface", "strain_norm")),
     "solver": ("Solver of one wave", ("model", "points", "columns", "tolerance")),
     "chain": ("Chain of waves", ("pressure_classes",)),

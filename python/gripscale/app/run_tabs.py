@@ -7,16 +7,13 @@ from __future__ import annotations
 
 import asyncio
 import io
-import math
 import shlex
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 import panel as pn
-import xarray as xr
 
 from gripscale.app import elements
 from gripscale.app.case import CaseState, case_tables, field_text
@@ -28,12 +25,11 @@ from gripscale.charts.draw import panels_on_page
 from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE
 from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.core.units import display_unit_of
 from gripscale.io.table import Column, Table
-from gripscale.model import with_adhesive
 from gripscale.questions import page_of_folder
-from gripscale.questions.answer.reliance import has_answer, headline, no_answer
-from gripscale.questions.chain.run_page import RunSource
-from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.answer.answer import Answer
+from gripscale.questions.answer.reliance import has_answer, headline, is_measured, no_answer
 from gripscale.questions.registry import Form
 from gripscale.questions.words import AXIS_TITLES, HEADINGS, SYMBOLS
 from gripscale.report.elements import Element, Text
@@ -230,28 +226,22 @@ def all_runs_tab(runs: Runs) -> pn.Column:
 
 
 class ComparedRun(NamedTuple):
-    """A prediction of a run, and the answer at its speed where the surface was measured."""
+    """A run and its answer."""
 
     run: AppRun
-    view: PredictionView
-    direct: xr.Dataset | None
+    answer: Answer
 
 
 def compared_elements(runs: Runs) -> elements.PageElements:
-    """Return table and figures of all runs that have results."""
+    """Return table and figures of all runs that have an answer."""
     compared: list[ComparedRun] = []
     for run in runs.all:
         try:
             result = None if run.running else page_of_folder.read_result(run.folder)
         except GripscaleError:
-            continue  # stopped or failed before its first wave
-        if isinstance(result, RunSource):
-            for view in result.by_wave:
-                name = run.name + ("" if view.moving else ", at rest")
-                direct = result.direct
-                if direct is None or not has_answer(direct) or direct.nominal_speed != view.speed:
-                    direct = None
-                compared.append(ComparedRun(run, replace(view, name=name), direct))
+            continue  # stopped or failed before its answer
+        if isinstance(result, Answer):
+            compared.append(ComparedRun(run, result))
     if not compared:
         return [Text(NONE_TO_COMPARE)]
     return [runs_table(compared), *answer_charts(compared)]
@@ -259,15 +249,15 @@ def compared_elements(runs: Runs) -> elements.PageElements:
 
 def answer_charts(compared: Sequence[ComparedRun]) -> list[Chart]:
     """Return friction and contact area of the runs with their intervals; nothing without any."""
-    answers = [(view.name, direct) for _, view, direct in compared if direct is not None]
-    if not answers:
+    answered = [each for each in compared if has_answer(each.answer.data)]
+    if not answered:
         return []
-    at = np.arange(len(answers), dtype=float)
-    ticks = {float(i): name for i, (name, _) in enumerate(answers)}
-    runs = PlotAxis(low=-0.5, high=len(answers) - 0.5, ticks=ticks)
+    at = np.arange(len(answered), dtype=float)
+    ticks = {float(i): run.name for i, (run, _) in enumerate(answered)}
+    runs = PlotAxis(low=-0.5, high=len(answered) - 0.5, ticks=ticks)
     panels = []
     for name in reversed(SYMBOLS):
-        value, low, high = np.array([headline(direct, name) for _, direct in answers]).T
+        value, low, high = np.array([headline(answer.data, name) for _, answer in answered]).T
         points = Series(at, value, BLUE, dash="", marker="o", size=6.0, low=low, high=high)
         words = f"{HEADINGS[name]} {SYMBOLS[name]}"
         panels.append(
@@ -284,42 +274,23 @@ def answer_charts(compared: Sequence[ComparedRun]) -> list[Chart]:
 
 
 def runs_table(compared: Sequence[ComparedRun]) -> Table:
-    """Return the answer and the chain of each prediction, and the keys in which cases differ."""
-    first = compared[0][0].text
-    totals, states = [], []
-    for _, view, direct in compared:
-        with_area_term = with_adhesive(view.data)
-        numbers = [
-            view.total("contact_fraction"),
-            view.total("friction") if view.moving else math.nan,
-            math.nan if with_area_term is None else float(with_area_term),
-        ]
-        totals.append(numbers if view.complete else [math.nan] * len(numbers))
-        if direct is not None and no_answer(direct):
-            states.append("answer not to be relied on")
-        else:
-            states.append("complete" if view.complete else f"{view.waves} of {view.planned} waves")
-    speeds = [view.display_unit("speed").text(view.speed, 3) for _, view, _ in compared]
-    changes = [", ".join(changed_keys(first, run.text)) for run, _, _ in compared]
-    area, friction, with_term = zip(*totals, strict=True)
-    names = [view.name for _, view, _ in compared]
-    columns = [Column("run", names), Column("speed", speeds, words=False)]
-    answers = [direct for _, _, direct in compared]
-    for name in reversed(SYMBOLS) if any(answer is not None for answer in answers) else ():
-        estimates = [
-            (math.nan,) * 3 if answer is None else headline(answer, name) for answer in answers
-        ]
-        value, *ends = zip(*estimates, strict=True)
+    """Return the answer of each run, and the keys in which cases differ."""
+    first = compared[0].run.text
+    answers = [answer.data for _, answer in compared]
+    speeds = [display_unit_of(data.attrs, "speed").text(float(data.nominal_speed), 3)
+              for data in answers]  # fmt: skip
+    columns = [
+        Column("run", [run.name for run, _ in compared]),
+        Column("speed", speeds, words=False),
+    ]
+    for name in reversed(SYMBOLS):
+        value, *ends = zip(*(headline(data, name) for data in answers), strict=True)
         columns.append(Column(f"answer_{name}", value, SYMBOLS[name], group="answer"))
         if np.isfinite(ends).any():
             both = np.stack(ends, axis=1)
             columns.append(Column(f"answer_{name}_interval", both, "90 %", group="answer"))
-    columns += [
-        Column("friction", friction, "μ", group=_CHAIN),
-        Column("contact_fraction", area, "A_r/A_0", group=_CHAIN),
-    ]
-    if np.isfinite(with_term).any():
-        columns.append(Column("with_area_term", with_term, "μ with the area term", group=_CHAIN))
+    states = [_state(answer) for _, answer in compared]
+    changes = [", ".join(changed_keys(first, run.text)) for run, _ in compared]
     columns += [
         Column("status", states),
         Column("changes", changes, "keys that differ from the first", words=True),
@@ -327,7 +298,13 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
     return Table("runs", columns, "The runs of this visit")
 
 
-_CHAIN = "chain of waves"
+def _state(answer: Answer) -> str:
+    """Return how far an answer is to be trusted, in words."""
+    if not has_answer(answer.data):
+        return "no answer"
+    if no_answer(answer.data):
+        return "not to be relied on"
+    return "" if is_measured(answer.data) else "chain of waves"
 
 
 def changed_keys(first: str, other: str) -> Iterator[str]:

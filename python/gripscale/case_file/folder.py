@@ -8,13 +8,11 @@ Files too large to be copied are named where they are.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import re
-import time
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import count
@@ -25,7 +23,6 @@ from gripscale.case_file.json_schema import write_schema
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.tables import CaseTables, FigureKind
 from gripscale.core.errors import GripscaleError, InputError
-from gripscale.core.provenance import versions, whole_package
 from gripscale.io.folders import (
     make_folder,
     path_between,
@@ -34,7 +31,6 @@ from gripscale.io.folders import (
     write_bytes,
     write_text,
 )
-from gripscale.io.netcdf import write_whole
 from gripscale.io.text_table import read_bytes
 
 SAVED_CASE, INPUTS = "case.toml", "inputs"
@@ -123,16 +119,13 @@ _FIGURES = (
 )
 # Figures of cases with conditions, or with sweeps at several temperatures.
 AT_TIMES = ("cut_off", "heat", "superposition", "superposition_tests", "shift")
-# What a finished run was made from and the files it left, so that it need not be repeated.
-NOTE = ".finished.json"
-REPORT_PAGE = "report.html"
 # Everything a run may write into its folder, beside copies of the files the case names.
 RESULT_FILES = (
-    *(NOTE, SAVED_CASE, REPORT_PAGE, "report.txt", "chain.txt"),
-    *("dynamic.nc", "static.nc", "answer.nc", "cut_off.nc"),
+    *(SAVED_CASE, "report.html", "report.txt", "answer.nc", "chain.nc", "cut_off.nc"),
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
-
+# What earlier versions wrote as well.
+_OF_OTHER_VERSIONS = (".finished.json", "chain.txt", "dynamic.nc", "static.nc")
 
 CASE_NOTE = ".case"  # the case whose results are in a folder, by its path from there
 
@@ -155,23 +148,16 @@ def claim(folder: Path, case: Path, *, replace: bool = False) -> None:
     write_text(note, f"{name}\n")
 
 
-def earlier_run(folder: Path, keep: Collection[str] = ()) -> str:
-    """Return a sentence on what an earlier run left in `folder` but for `keep`, or nothing."""
-    replaced = [name for name in RESULT_FILES if (folder / name).exists() and name not in keep]
-    if not replaced:
-        return ""
-    newest = max((folder / name).stat().st_mtime for name in replaced)
-    when = time.strftime("%Y-%m-%d %H:%M", time.localtime(newest))
-    files = "1 file" if len(replaced) == 1 else f"{len(replaced)} files"
-    return f"Replaces {files} of an earlier run, of {when}, in {folder}."
+def prepare(folder: Path, file: CaseFile) -> None:
+    """Make `folder`, remove what an earlier run left, and save the case in it.
 
-
-def prepare(folder: Path, file: CaseFile, keep: Collection[str] = ()) -> None:
-    """Make `folder`, remove what an earlier run left but for `keep`, and save the case in it."""
+    Predictions stay: each is found by all it depends on.
+    """
     saved = saved_case(file, folder)
     make_folder(folder / "figures")
     try:
-        for name in {*RESULT_FILES, *saved_inputs(folder)} - {*keep, *saved.copies, SAVED_CASE}:
+        earlier = {*RESULT_FILES, *_OF_OTHER_VERSIONS, *saved_inputs(folder)}
+        for name in earlier - {*saved.copies, SAVED_CASE}:
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
         raise unwritable(folder, error) from error
@@ -190,44 +176,3 @@ def write_saved(saved: SavedCase, folder: Path, case_name: str = SAVED_CASE) -> 
         write_bytes(folder / target, content)
     write_schema(saved.text, folder)
     write_text(folder / case_name, saved.text)
-
-
-def is_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> bool:
-    """Return whether `folder` holds all results of a case, made by this very software.
-
-    `others` are files beside those of the case that a run shows; they may be missing. Results
-    that have another size or date than the run gave them do not count.
-    """
-    try:
-        noted = json.loads((folder / NOTE).read_text(encoding="utf-8"))
-        return bool(
-            noted["key"] == _key(file, others) and noted["files"] == _files(folder, noted["files"])
-        )
-    except (OSError, ValueError, TypeError, KeyError):
-        return False
-
-
-def note_finished(file: CaseFile, folder: Path, others: tuple[Path, ...] = ()) -> None:
-    """Note that `folder` holds all results of a case."""
-    kept = {NOTE, REPORT_PAGE}  # a page may be written anew
-    present = [name for name in RESULT_FILES if name not in kept and (folder / name).is_file()]
-    present += [path.relative_to(folder).as_posix() for path in folder.glob("figures/direct_*")]
-    noted = json.dumps({"key": _key(file, others), "files": _files(folder, present)})
-    write_whole(folder / NOTE, lambda path: path.write_text(noted, encoding="utf-8"))
-
-
-def _key(file: CaseFile, others: tuple[Path, ...]) -> str:
-    """Return a hash of the case, its files, the other files and the software, faces included."""
-    inputs = json.dumps([whole_package(), versions(), str(file.path), file.text], sort_keys=True)
-    digest = hashlib.sha256(inputs.encode())
-    for _, name in file.case.named_files():
-        digest.update(hashlib.sha256(read_bytes(file.resolve(name))).digest())
-    for path in others:
-        digest.update(path.read_bytes() if path.is_file() else b"-")
-    return digest.hexdigest()
-
-
-def _files(folder: Path, names: list[str]) -> dict[str, list[int]]:
-    """Return size and date of the files of a folder."""
-    stats = {name: (folder / name).stat() for name in names}
-    return {name: [stat.st_size, stat.st_mtime_ns] for name, stat in stats.items()}

@@ -441,7 +441,6 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 kind=table.kind,
                 load_time=load.nominal.load_time,
                 thickness=file.case.rubber.thickness,
-                static=load.static,
                 chain=chain,
                 conditions=conditions,
                 filled=_filled(file.case.rubber, file.case.conditions.softening),

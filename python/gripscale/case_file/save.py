@@ -144,7 +144,7 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         | {"thickness": load.thickness, "extrapolate": case.chain.extrapolate}
         | {"filled": case.filled},
         "load": {name: getattr(load, name) for name in ("pressure", "speed", "footprint")}
-        | {"static": case.static, "load_time": load.load_time, "tester": case.tester or None},
+        | {"load_time": load.load_time, "tester": case.tester or None},
         "solver": _solver_keys(case.chain),
         "chain": {"pressure_classes": case.chain.pressure_classes},
         "conditions": _conditions_keys(case.stated_conditions, inputs)

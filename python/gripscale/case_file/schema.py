@@ -7,10 +7,11 @@ import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields
-from types import UnionType
+from types import MappingProxyType, UnionType
 from typing import (
     Annotated,
     Any,
+    ClassVar,
     Literal,
     NamedTuple,
     Union,
@@ -162,6 +163,8 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
     kind, value = first["type"], first["input"]
     if kind == "extra_forbidden":
         names = list(owner.model_fields)
+        if instead := getattr(owner, "gone", {}).get(key):
+            return f"unknown key {where}; it is gone: {instead}"
         near = difflib.get_close_matches(key, names, n=1)
         hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
         return f"unknown key {where}; {hint}"
@@ -211,6 +214,8 @@ class CaseTable(BaseModel):
 
     # the tables that a case names are checked when it is read, the others never
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, defer_build=True)
+    # keys of earlier versions, and what to state instead
+    gone: ClassVar[Mapping[str, str]] = MappingProxyType({})
 
 
 def _positive(value: float) -> float:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
@@ -263,14 +264,14 @@ def _load_time(value: Any) -> float | str:
 class LoadTable(CaseTable):
     """How hard, how fast and over what length the rubber is pressed and slid."""
 
+    gone: ClassVar[Mapping[str, str]] = {"static": "speed = 0 solves the relaxed rubber at rest"}
+
     pressure: Pressure
     """Nominal pressure."""
     speed: Speed
     """Sliding speed; 0 is the relaxed rubber at rest."""
     footprint: Length
     """Length of the nominal contact: how long the largest wave is loaded."""
-    static: bool = False
-    """The relaxed rubber at rest, too."""
     load_time: Annotated[Any, Reading(LOAD_TIME, _load_time)] = "passage"
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
     tester: TesterName | None = None

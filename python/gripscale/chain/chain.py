@@ -19,7 +19,7 @@ from typing import Any, ClassVar
 import xarray as xr
 
 from gripscale import model
-from gripscale.chain.conditions import mark_unsettled, solve_coupled_chain
+from gripscale.chain.conditions import solve_coupled_chain
 from gripscale.chain.prediction import ChainError, ChainResult, ChainSolve, RubberAt
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import Checked, Quantity, checked, checks, provenance
@@ -125,8 +125,8 @@ def solve_chain(
         t_1 = footprint/speed, t_i = A_(i-1)/speed. A number fixes it for every wave [s],
         infinity lets the mean state relax fully. Always infinite at zero speed.
     on_scale
-        Called with the prediction so far after every wave. With iterated conditions it is called
-        in every iteration, with the status `conditions not settled`, and once at the end.
+        Called with the prediction so far after every wave; with iterated conditions in every
+        iteration.
     start
         A prediction at a neighbouring speed, pressure or rubber: each wave starts from its wave of
         the same number, if there is one. The results agree to the residual of the solver, in less
@@ -254,12 +254,7 @@ class Chain(Checked, model.Model):
             return chain(self.rubber_at, start)
         if not conditions.iterated:
             return chain(lambda wave, so_far: before, start)
-        if on_scale is None:
-            return solve_coupled_chain(chain, rubber, conditions)
-        unsettled = replace(chain, on_scale=lambda so_far: on_scale(mark_unsettled(so_far)))
-        result = solve_coupled_chain(unsettled, rubber, conditions)
-        on_scale(result)
-        return result
+        return solve_coupled_chain(chain, rubber, conditions)
 
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None

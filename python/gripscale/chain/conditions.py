@@ -59,14 +59,6 @@ def solve_coupled_chain(solver: ChainSolve, rubber: Rubber, conditions: Conditio
     return replace(solved, scales=scales)
 
 
-def mark_unsettled(so_far: ChainResult) -> ChainResult:
-    """Return a prediction on the way to the fixed point with a status that says so."""
-    *others, last = so_far.scales
-    if not last.converged:
-        return so_far
-    return replace(so_far, scales=[*others, replace(last, status=Status.CONDITIONS_NOT_SETTLED)])
-
-
 @dataclass(frozen=True)
 class WaveStates:
     """Temperature rise [K] and strain [-] of each wave, and the rubber they make."""

@@ -24,8 +24,6 @@ import json
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -34,18 +32,17 @@ import xarray as xr
 import gripscale
 from gripscale import model
 from gripscale.conditions.conditions import Conditions
-from gripscale.core import Array, Pictured, Status, checks, labelled, provenance
+from gripscale.core import Array, Pictured, Status, labelled, provenance
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.core.units import readable
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_curve
-from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import SineStack
 from gripscale.wave.kernel import RefinableSolver, WaveSolver
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
-from gripscale.wave.result import CHAIN, LW, ScaleResult, waves_from_dataset, waves_to_dataset
+from gripscale.wave.result import CHAIN, LW, ScaleResult, waves_to_dataset
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -329,50 +326,6 @@ class ChainResult(Pictured):
     def plot(self) -> Figure:
         """Draw area and friction down to each wave; see `gripscale.questions.contact_figure`."""
         return gripscale.questions.contact_figure({"chain": self.to_dataset()})
-
-    def report(self, output: str | Path) -> Path:
-        """Write a page of this prediction at `output`; see `gripscale.questions.write_report`."""
-        with TemporaryDirectory() as folder:
-            stored = netcdf.save(self.to_dataset(), Path(folder) / "prediction.nc")
-            return Path(gripscale.questions.write_report(stored, output))
-
-    @classmethod
-    def from_dataset(cls, data: xr.Dataset) -> ChainResult:
-        """Return the prediction of a Dataset, in memory or read from a file.
-
-        Raises `InputError` if the Dataset is not that of a prediction of the chain.
-        """
-        checks.instance("data", data, xr.Dataset)
-        try:
-            scales = waves_from_dataset(data)
-            if CLASS_PRESSURES in data:
-                rows = [row[np.isfinite(row)] for row in data[CLASS_PRESSURES].values]
-                scales = [
-                    replace(s, details={**s.details, CLASS_PRESSURES: row}) if len(row) > 1 else s
-                    for s, row in zip(scales, rows, strict=True)
-                ]
-            time = str(data.attrs["load_time"])
-            conditions = json.loads(data.attrs.get("conditions", "null"))
-            return cls(
-                rubber=Rubber.from_dict(json.loads(data.attrs["rubber_parameters"])),
-                sines=SineStack(data["sines_wavelength"].values, data["sines_amplitude"].values),
-                load=Load(
-                    pressure=float(data["nominal_pressure"]),
-                    speed=float(data["nominal_speed"]),
-                    footprint=float(data["footprint"]),
-                    load_time="passage" if time == "passage" else float(time),
-                    thickness=float(data["thickness"]) if "thickness" in data else None,
-                ),
-                scales=scales,
-                planned=int(data.attrs["planned_waves"]),
-                conditions=None if conditions is None else Conditions.from_dict(conditions),
-            )
-        except (KeyError, TypeError, ValueError) as error:
-            kind = data.attrs.get("model") or data.attrs.get("title") or "another kind"
-            raise InputError(
-                "data must be what `to_dataset` of a prediction of the chain returns; got a "
-                f"Dataset of {kind}"
-            ) from error
 
     def _of_converged(self, values: Sequence[float]) -> Array:
         converged = np.array([scale.converged for scale in self.scales], dtype=bool)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -16,16 +15,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class Drawing(ABC):
-    """What a figure on paper is drawn from."""
-
-    @abstractmethod
-    def on_paper(self) -> Figure:
-        """Draw it with matplotlib."""
-
-
 @dataclass(frozen=True)
-class Sheet(PanelGrid, Drawing):
+class Sheet(PanelGrid):
     """A figure of panels."""
 
     def on_paper(self) -> Figure:

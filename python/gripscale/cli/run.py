@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import sys
-from datetime import datetime
 from pathlib import Path
 from typing import Annotated
 
@@ -21,12 +20,6 @@ def run(
     output: Annotated[
         Path | None, option("Results folder, instead of the one in the case.", metavar="DIR")
     ] = None,
-    fresh: Annotated[
-        bool,
-        typer.Option(
-            "--fresh", help="Solve all anew, also what an earlier run of the same case finished."
-        ),
-    ] = False,
     chain: Annotated[
         bool,
         typer.Option(
@@ -34,45 +27,12 @@ def run(
         ),
     ] = False,
 ) -> None:
-    """Answer with contact area and friction of a case."""
-    from gripscale.case_file.folder import is_finished, note_finished
-    from gripscale.charts.figure_folder import FigureFolder, figures_elsewhere
-    from gripscale.io.folders import require_writable
+    """Answer with contact area and friction of a case; resumes where it was stopped."""
+    from gripscale.cli.solve_run import solve_run
 
     work = terminal.CaseCommand(case)
-    file = work.file
-    target = output if output is not None else file.resolve(file.case.output.folder)
-    shown_too = (target / "uncertainty" / "uncertainty.nc",)
-    if not fresh and is_finished(file, target, shown_too):
-        _show_again(work, target, chain=chain)
-        return
-    require_writable(target)
-    terminal.RESULTS_FOLDER.set(target)
-    with figures_elsewhere(FigureFolder(target / "figures", file.case.output.figures)) as figures:
-        from gripscale.cli.solve_run import solve_run  # while the other process starts
-
-        solve_run(work, target, figures, show_chain=chain)
-        note_finished(file, target, shown_too)
-
-
-def _show_again(work: terminal.CaseCommand, target: Path, *, chain: bool) -> None:
-    """Print the answer of a finished run once more."""
-    from gripscale.case_file.prepare import named_files
-    from gripscale.questions.answer.answer import ANSWER_FILE
-    from gripscale.questions.chain.run import CHAIN_REPORT
-    from gripscale.questions.result import warning_lines
-    from gripscale.questions.stored import load
-
-    console, answer = work.console, load(target / ANSWER_FILE)
-    time = (target / terminal.RUN_REPORT).stat().st_mtime
-    findings = warning_lines(answer.findings, terminal.RUN_REPORT, answer.half_widths)
-    terminal.print_parts(console, [*answer.lines, *findings])
-    if chain and (target / CHAIN_REPORT).is_file():
-        console.print((target / CHAIN_REPORT).read_text(encoding="utf-8"), soft_wrap=True)
-    finished = f"Finished {datetime.fromtimestamp(time):%Y-%m-%d %H:%M}."
-    same = "Case, files and software are the same; nothing was solved again (--fresh does)."
-    terminal.print_parts(console, ["", f"{finished} {same} {terminal.RUN_CLOSING} {target}"])
-    terminal.print_result(answer, work.file.path, named_files(work.file))
+    target = output or work.file.resolve(work.file.case.output.folder)
+    solve_run(work, target, show_chain=chain)
 
 
 @command

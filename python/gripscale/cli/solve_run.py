@@ -6,108 +6,89 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gripscale.case_file import folder
+from gripscale.charts.figure_folder import FigureFolder
 from gripscale.core.provenance import version_of
+from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
 from gripscale.questions import terminal
-from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, answer_with_inputs
+from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, bench_of, solved_chain
 from gripscale.questions.answer.page import slopes_table
-from gripscale.questions.answer.waves import waves_answer
-from gripscale.questions.chain.charts import heat_sheet
-from gripscale.questions.chain.page import LEGEND, heat_table, prediction_table
-from gripscale.questions.chain.run import CHAIN_REPORT, DYNAMIC, ChainRun
-from gripscale.questions.chain.run_figures import draw_contact, draw_inputs
-from gripscale.questions.chain.view import PredictionView, title
-from gripscale.questions.compare.page import judgement
+from gripscale.questions.chain.page import LEGEND, chain_tables, judgement
 from gripscale.questions.cut_off.question import CutOff, cut_off_result
+from gripscale.questions.inputs.charts_of_rubber import rubber_figures
+from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
-from gripscale.questions.page_of_folder import write_report
+from gripscale.questions.inputs.record import excited
+from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE, write_report
 from gripscale.questions.result import warning_lines
 from gripscale.questions.uncertainty.page import uncertainty_lines
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.questions.words import OF_THE_PAPER
-from gripscale.report.failures import explained
+from gripscale.rubber.extrapolation import require_measured
 
 if TYPE_CHECKING:
-    import xarray as xr
-    from rich.console import Console
-
     from gripscale.case import Case
-    from gripscale.chain.prediction import ChainResult
-    from gripscale.charts.figure_folder import Figures
 
 REPORT_WIDTH = 110  # characters of the lines of the report
 
 
-def solve_run(
-    work: terminal.CaseCommand, target: Path, figures: Figures, *, show_chain: bool
-) -> None:
-    """Prepare, solve, print and write a case."""
+def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> None:
+    """Solve, print and write a case: its answer, and the chain of waves beside it."""
     case, console = work.case, work.console
-    chain, measured = ChainRun(case), case.surface.measured is not None
+    measured = case.surface.measured is not None
+    if case.chain.extrapolate == "refuse":
+        require_measured(case.rubber_before, case.surface.sines.wavelength, case.load.speed)
     header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
     work.open_results(target, "", header)
-    if measured:
-        terminal.show_step(console, "solving the direct contact ...")
-        chain.answer = answer(case, folder=target)
-        _print_answer(console, case, chain.answer)
-    replaced = folder.earlier_run(target)
-    if replaced:
-        terminal.print_wrapped(console, replaced)
+    solving = "the direct contact" if measured else "the chain of waves"
+    terminal.show_step(console, f"solving {solving} ...")
+    result = answer(case, folder=target)
+    inputs = _inputs(case)
+    terminal.end_steps()
+    findings = warning_lines(result.findings, terminal.RUN_REPORT, result.half_widths)
+    terminal.print_parts(console, ["", *result.lines, *findings, "", *inputs])
     folder.prepare(target, work.file)
-    draw_inputs(chain, figures)
-    terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
-    chain.solve(target, lambda so_far: _print_wave(console, case, so_far))
-    if chain.answer is None:
-        waves = chain.dataset(next(iter(chain.predictions)))
-        chain.answer = answer_with_inputs(case, waves_answer(case, waves))
-        _print_answer(console, case, chain.answer)
-    chain.answer.save(target / ANSWER_FILE)
-    if chain.answer.curve is not None:
-        cut_off_result(chain.answer.curve, case).save(target / "cut_off.nc")
-    of_chain, heat = _chain_parts(chain)
-    parts, files = _parts(chain, chain.answer, target), {}
+    if measured:
+        terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
+        result.chain = solved_chain(case, bench_of(target))
+        terminal.end_steps()
+    assert result.chain is not None
+    _save(result, case, target)
+    waves: list[str | Table] = [*chain_tables(result.chain), LEGEND]
+    parts = _parts(result, case, target)
+    opening: list[str | Table] = [f"{header}: {case.title}", "", *inputs]
     if not measured:
-        parts = [*of_chain, *parts]
+        parts = [*waves, *parts]
     else:
-        files = {CHAIN_REPORT: as_text(*of_chain, width=REPORT_WIDTH)}
+        opening += ["", *waves]
         if show_chain:
-            terminal.print_parts(console, ["", *of_chain])
+            terminal.print_parts(console, ["", *waves])
 
     def draw() -> None:
-        draw_contact(chain, figures)
-        if heat is not None:
-            figures.save(heat_sheet(heat), "heat")
+        figures = FigureFolder(target / "figures", work.file.case.output.figures)
+        surface_figures(case.surface, figures)
+        rubber_figures(case.measured_rubber, excited(case.load.speed, case.surface.sines), figures)
+        for name, figure in result.figures():
+            figures.save(figure, name)
 
     work.conclude(
-        chain.answer,
+        result,
         parts,
         answer_printed=True,
         text=terminal.RUN_REPORT,
         closing=terminal.RUN_CLOSING,
         page=lambda page: write_report(target, page),
-        opening=[f"{header}: {case.title}", "", *_inputs(case)],
+        opening=opening,
         width=REPORT_WIDTH,
-        files=files,
         draw=draw,
     )
-    terminal.print_wrapped(console, chain.answer.lines[0])
-    failures = list(chain.failures.values())
-    for failure in failures[:-1]:
-        terminal.print_error(explained(failure))
-    if failures:
-        raise failures[-1]
+    terminal.print_wrapped(console, result.lines[0])
 
 
-def _print_answer(console: Console, case: Case, answer: Answer) -> None:
-    """Print an answer with its first findings, above the inputs of its case."""
-    terminal.end_steps()
-    findings = warning_lines(answer.findings, terminal.RUN_REPORT, answer.half_widths)
-    terminal.print_parts(console, ["", *answer.lines, *findings, "", *_inputs(case)])
-
-
-def _inputs(case: Case) -> list[str]:
+def _inputs(case: Case) -> list[str | Table]:
+    """Return what was read and fitted, as lines."""
     rubber = as_text(*rubber_parts(case.measured_rubber), width=10**6).splitlines()
-    lines = [
+    lines: list[str | Table] = [
         "Surface",
         *(f"  {line}" for line in surface_lines(case.surface)),
         "",
@@ -120,38 +101,23 @@ def _inputs(case: Case) -> list[str]:
     return lines
 
 
-def _print_wave(console: Console, case: Case, so_far: ChainResult) -> None:
-    """Show how far a prediction is."""
-    wave = so_far.scales[-1]
-    terminal.show_step(
-        console,
-        f"{title(wave.speed, case.display_unit('speed'))}, "
-        f"wave {len(so_far.scales)} of {so_far.planned}: {wave.wavelength * 1e3:.3g} mm, "
-        f"contact {wave.contact_fraction:.3f}",
-    )
+def _save(result: Answer, case: Case, target: Path) -> None:
+    """Write the answer, its chain, and the contact against the cut-off where it is solved."""
+    result.save(target / ANSWER_FILE)
+    assert result.chain is not None
+    netcdf.save(result.chain, target / CHAIN_FILE)
+    if result.curve is not None:
+        cut_off_result(result.curve, case).save(target / CURVE_FILE)
 
 
-def _chain_parts(chain: ChainRun) -> tuple[list[str | Table], xr.Dataset | None]:
-    """Return tables of the chain, and the prediction that has heat to be drawn."""
-    views = [PredictionView(chain.dataset(name), name) for name in chain.predictions]
-    parts: list[str | Table] = [prediction_table(view.data, view.title) for view in views]
-    parts += [LEGEND] if views else []
-    moving, heat = chain.dynamic, None
-    if moving is not None and moving.conditions is not None and moving.conditions.heat is not None:
-        heat = chain.dataset(DYNAMIC)
-        parts.append(heat_table(heat))
-    return parts, heat
-
-
-def _parts(chain: ChainRun, answer: Answer, target: Path) -> list[str | Table]:
+def _parts(result: Answer, case: Case, target: Path) -> list[str | Table]:
     """Return tables and sentences that stand below an answer."""
-    case = chain.case
-    parts: list[str | Table] = list(slopes_table(answer.data))
+    parts: list[str | Table] = list(slopes_table(result.data))
     sampled = stored_uncertainty(target)
     parts += uncertainty_lines(sampled, case.origin.text, case.origin.digests)
-    if answer.curve is not None:
-        curve = CutOff(answer.curve)
+    if result.curve is not None:
+        curve = CutOff(result.curve)
         parts += ["", *curve.basis, curve.rules_table()]
-    for name in list(chain.predictions)[:1]:
-        parts += ["", *judgement(PredictionView(chain.dataset(name)), answer.data)]
+    if case.surface.measured is not None and result.chain is not None:
+        parts += ["", judgement(result.chain, result.data)]
     return parts

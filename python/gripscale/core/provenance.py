@@ -49,11 +49,6 @@ def software() -> str:
     return f"gripscale {version_of('gripscale')} {digest[:16]}"
 
 
-def whole_package() -> str:
-    """Return the fingerprint of the compiled kernel and all modules, the faces included."""
-    return fingerprint(Path(__file__).parents[1], Path(str(_kernel.__file__)))
-
-
 def fingerprint(home: Path, kernel: Path, without: Collection[str] = ()) -> str:
     """Return a hash of the package at `home`, `without` some rooms, and of the `kernel`."""
     digest = hashlib.sha256(kernel.read_bytes())

@@ -264,17 +264,6 @@ def measured_variables(
     return columns
 
 
-def stored_measurement(data: xr.Dataset) -> MeasuredFriction | None:
-    """Return the measurement of `measured_variables` in a Dataset; None without one."""
-    if "measured_friction" not in data:
-        return None
-    columns = {name: data[f"measured_{name}"].values for name in MEASURED}
-    attrs = data["measured_friction"].attrs
-    return MeasuredFriction(
-        **columns, source=attrs.get("source", ""), assumed=attrs.get("assumed", "")
-    )
-
-
 class MeasuredSeries(NamedTuple):
     """Measured friction at one temperature and pressure over rising speed [m/s]."""
 

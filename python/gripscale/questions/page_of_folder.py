@@ -5,18 +5,58 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import xarray as xr
+
 from gripscale.core.errors import FileError
+from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.io import netcdf
-from gripscale.questions.chain.run_page import RunSource, read_run, run_of, run_page
+from gripscale.questions.answer.answer import ANSWER_FILE, Answer
 from gripscale.questions.compare.page import Compared, comparison_page, stored_comparisons
+from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import Result
-from gripscale.questions.stored import KINDS_OF_REPORTS, require_totals, result_of
-from gripscale.questions.uncertainty.propagation import stored_uncertainty
+from gripscale.questions.stored import KINDS_OF_REPORTS, predicted_tree, result_of
+from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
+from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_uncertainty
 from gripscale.report import write_page
 from gripscale.report.elements import Page
 
-# A run with its inputs, comparisons, or the result of a question.
-ReportSource = RunSource | Compared | Result
+CHAIN_FILE, CURVE_FILE = "chain.nc", "cut_off.nc"  # beside the answer of a run
+
+
+class RunAnswer(Answer):
+    """The answer of a run with what its folder holds beside it."""
+
+    sampled: xr.Dataset | None = None
+    """The uncertainty that was sampled of this case, or of another."""
+
+    def page_content(self) -> Page:
+        """Return the page of the answer with the interval that was sampled."""
+        page, case = super().page_content(), str(self.data.attrs.get("case", ""))
+        if self.sampled is None:
+            return page
+        if not of_same_inputs(self.sampled, case, InputRecord(self.inputs).digests):
+            other = Finding(Severity.WARNING, OF_ANOTHER, topic=Topic.SOURCE)
+            return replace(page, notices=ranked([*page.notices, other]))
+        return replace(page, cards=[*page.cards, *uncertainty_cards(self.sampled)])
+
+
+def read_run(folder: Path) -> RunAnswer:
+    """Return what a run left in a folder: its answer, with what is of the same case beside it.
+
+    Raises `FileError` if a file is damaged.
+    """
+    stored: Answer = result_of(netcdf.load_tree(folder / ANSWER_FILE))
+    result = RunAnswer(stored.data, stored.inputs)
+    result.sampled = stored_uncertainty(folder)
+
+    def of_this_case(name: str) -> xr.Dataset | None:
+        path = folder / name
+        data = predicted_tree(path).to_dataset() if path.is_file() else None
+        same = data is not None and data.attrs.get("case") == result.data.attrs.get("case")
+        return data if same else None
+
+    result.chain, result.curve = of_this_case(CHAIN_FILE), of_this_case(CURVE_FILE)
+    return result
 
 
 def write_report(result: str | Path, output: str | Path | None = None) -> Path:
@@ -38,14 +78,12 @@ def write_report(result: str | Path, output: str | Path | None = None) -> Path:
     return write_page(lambda: page_of(read_result(path)), output or folder / "report.html")
 
 
-def page_of(source: ReportSource) -> Page:
+def page_of(source: Compared | Result) -> Page:
     """Return the page of a result."""
-    if isinstance(source, RunSource):
-        return run_page(source)
     return comparison_page(source) if isinstance(source, Compared) else source.page_content()
 
 
-def read_result(path: Path) -> ReportSource:
+def read_result(path: Path) -> Compared | Result:
     """Read the results folder or netCDF file at `path`.
 
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
@@ -53,15 +91,15 @@ def read_result(path: Path) -> ReportSource:
     if not path.is_dir():
         if not path.exists():
             raise FileError(f"result {path} does not exist")
-        tree = netcdf.load_tree(path)
-        result: Result | None = result_of(tree)
-        if result is not None:
-            return result
-        require_totals(tree, path)
-        return run_of({path.stem: tree})
-    run = read_run(path)
-    if run is not None:
-        return run
+        result: Result | None = result_of(netcdf.load_tree(path))
+        if result is None:
+            raise FileError(
+                f"{path} has no report: it is no result of a {KINDS_OF_REPORTS}; a results folder "
+                "has one"
+            )
+        return result
+    if (path / ANSWER_FILE).is_file():
+        return read_run(path)
     compared = replace(stored_comparisons(path), uncertainty=stored_uncertainty(path.parent))
     if compared.parts:
         return compared

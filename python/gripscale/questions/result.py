@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from gripscale.charts.draw import Drawing
+    from gripscale.charts.draw import Sheet
     from gripscale.core.finding import Finding
     from gripscale.report.elements import Page
 
@@ -91,7 +91,7 @@ class Result(Described, ABC):
     def table(self) -> Table:
         """Return the numbers of the result as one table."""
 
-    def figures(self) -> Iterator[tuple[str, Drawing | Figure]]:
+    def figures(self) -> Iterator[tuple[str, Sheet | Figure]]:
         """Yield the figures that show the result, with their names, the most telling first."""
         yield from ()
 
@@ -100,14 +100,14 @@ class Result(Described, ABC):
 
         Raises `InputError` if there is nothing to draw.
         """
-        from gripscale.charts.draw import Drawing
+        from gripscale.charts.draw import Sheet
 
         _, figure = next(self.figures(), ("", None))
         if figure is None:
             raise InputError(
                 f"the {self.kind} has no figure: {next(iter(self.lines), 'no result')}"
             )
-        return figure.on_paper() if isinstance(figure, Drawing) else figure
+        return figure.on_paper() if isinstance(figure, Sheet) else figure
 
     def page(self, path: str | Path) -> Path:
         """Write the result as one HTML page that needs no network, and return its path.

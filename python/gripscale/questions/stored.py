@@ -54,12 +54,6 @@ KINDS_OF_REPORTS = (
 def predicted_tree(path: Path) -> xr.DataTree:
     """Return the file of a prediction; raise `FileError` for one that no model answered."""
     tree = netcdf.load_tree(path)
-    require_totals(tree, path)
-    return tree
-
-
-def require_totals(tree: xr.DataTree, path: Path) -> None:
-    """Raise `FileError` if a file holds no answer of a model."""
     names = set(tree.variables)
     if not ({"total_contact_fraction", "total_friction"} <= names) or not (
         {"prediction_status", "status"} & names
@@ -67,3 +61,4 @@ def require_totals(tree: xr.DataTree, path: Path) -> None:
         raise FileError(
             f"{path} has no report: it holds no totals or quantiles of a {KINDS_OF_REPORTS}"
         )
+    return tree

@@ -413,7 +413,7 @@ def require_load_bearing(rubber: Rubber, pressure: float, load_time: float) -> N
         name = "the modulus at the highest frequencies"
     if math.isinf(load_time):
         name, what = "equilibrium_modulus", "the rubber, a melt at rest,"
-        instead = "; leave out the static contact, in a case by a speed and static = false"
+        instead = "; leave out the static contact, in a case by a speed above zero"
     raise InputError(
         f"the pressure squeezes {what} flat: {name} [Pa] must be at least "
         f"1/{MOST_PRESSURE:g} of the pressure, {pressure / MOST_PRESSURE:.3g}; "

@@ -34,7 +34,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A case on 0.1 m of road with points every 0.1 mm."""
     folder = tmp_path_factory.mktemp("cut_off")
     write_short_road(folder)
-    text = case_text(SURFACE, RUBBER, HALF_PLANE, static=False)
+    text = case_text(SURFACE, RUBBER, HALF_PLANE)
     (folder / "case.toml").write_text(text)
     (folder / "below.toml").write_text(text + BELOW)
     return folder

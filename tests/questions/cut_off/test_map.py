@@ -16,7 +16,7 @@ SURFACE = (
 
 def test_a_map_is_refused(tmp_path):
     np.savetxt(tmp_path / "map.txt", 1e3 * isotropic_heights(128, length=0.0256, rms=2e-4).T)
-    text = case_text(SURFACE, 'name = "styrene_butadiene"', HALF_PLANE, static=False)
+    text = case_text(SURFACE, 'name = "styrene_butadiene"', HALF_PLANE)
     path = tmp_path / "case.toml"
     path.write_text(text)
     with pytest.raises(InputError, match="from measured profiles; got a map"):

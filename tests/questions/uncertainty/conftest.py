@@ -17,7 +17,6 @@ CASE = case_text(
     'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "1 mm"\ns_amplitude = 2.1',
     'file = "dma.txt"\nterms = 8',
     HALF_PLANE,
-    static=False,
 )
 """With a factor stated, as each sample fits its waves anew."""
 

@@ -36,7 +36,7 @@ def test_the_same_inputs_whatever_is_done_with_them(case: Path) -> None:
     results = case.parent / "results"
     data, text = stored_uncertainty(results), case.read_text()
     assert data is not None
-    digests = netcdf.load_tree(results / "dynamic.nc")["inputs"]["file_sha256"].values.tolist()
+    digests = netcdf.load_tree(results / "answer.nc")["inputs"]["file_sha256"].values.tolist()
     assert of_same_inputs(data, text, digests)
     assert of_same_inputs(data, f"# said\n{text}[uncertainty]\nsamples = 50\n", digests)
     assert not of_same_inputs(data, text.replace("0.3 m/s", "0.4 m/s"), digests)

@@ -159,7 +159,7 @@ def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
     for name in ("road.txt", "dma.txt"):
         (tmp_path / name).write_bytes((folder / name).read_bytes())
     text = (folder / "case.toml").read_text()
-    case.write_text(text.replace("static = false", 'static = false\nload_time = "infinite"'))
+    case.write_text(text.replace("footprint =", 'load_time = "infinite"\nfootprint ='))
     choice = Uncertainty(without=["waves", "modulus"], ranges={"equilibrium_modulus": "1 Pa,6 MPa"})
     data = propagate(read_case(case), choice, samples=10, models=["chain"])
     assert int(data.failed.sum()) == 5

@@ -40,7 +40,6 @@ shift = { kind = "wlf", c1 = 8.0, c2 = "120 K", valid_range = ["0 C", "50 C"] }
 pressure = "3 bar"
 speed = "0.1 m/s"
 footprint = "50 mm"
-static = false
 [solver]
 model = "half_plane"
 points = 256

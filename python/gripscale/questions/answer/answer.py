@@ -22,6 +22,8 @@ from gripscale.case import Case
 from gripscale.charts.draw import Sheet
 from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.measured_friction import friction_doubts
+from gripscale.experiment.solve import Bench
+from gripscale.experiment.task import PREDICTIONS, Store, Task
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
 from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
@@ -30,16 +32,23 @@ from gripscale.questions.answer.findings import FINDINGS, case_notices, measured
 from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import (
     answer_number,
+    has_answer,
     headline,
     headline_name,
     is_measured,
+    is_moving,
     no_answer,
 )
 from gripscale.questions.answer.waves import waves_answer
+from gripscale.questions.chain.charts import contact_sheet, heat_sheet
+from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import NO_WIDTHS, Result
+from gripscale.questions.words import JUDGE, OF_THE_PAPER
 from gripscale.report.elements import Page
+from gripscale.report.failures import explained, failures_in
 
 ANSWER_FILE = "answer.nc"  # name of the saved answer in a results folder
 
@@ -102,6 +111,15 @@ class Answer(NumbersWithIntervals):
     kind = "answer"
     curve: xr.Dataset | None = None
     """Contact against the cut-off, where the case continues its roughness below the measurement."""
+    chain: xr.Dataset | None = None
+    """Chain of waves of the case: the answer of sine waves, else for comparison if it is solved."""
+
+    @property
+    def failure(self) -> str:
+        """Why waves stated by hand have no answer."""
+        if has_answer(self.data) or is_measured(self.data):
+            return ""
+        return next(map(explained, failures_in(self.data)), "")
 
     @property
     def reliable(self) -> bool:
@@ -149,9 +167,20 @@ class Answer(NumbersWithIntervals):
             if "series_omega" in self.inputs:
                 cards, words = list(answer_cards(self.data)), next(iter(self.basis), "")
                 yield "summary", summary_sheet(trace, self.inputs, cards, words)
+        if self.chain is not None:
+            title = PredictionView(self.chain).title.lower()
+            judge = {}
+            if is_measured(self.data):
+                title, judge = f"{OF_THE_PAPER}, {title}", {JUDGE: self.data}
+            yield "contact_and_friction", contact_sheet({title: self.chain} | judge)
+            if "contact_temperature" in self.chain and is_moving(self.chain):
+                yield "heat", heat_sheet(self.chain)
+        if self.curve is not None:
+            yield "cut_off", cut_off_sheet(self.curve)
 
     def page_content(self) -> Page:
-        return answer_page(self.data, InputRecord(self.inputs), self.findings)
+        record = InputRecord(self.inputs)
+        return answer_page(self.data, record, self.findings, self.curve, self.chain)
 
 
 def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
@@ -169,17 +198,20 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
         Its surface must be measured for an answer with an interval; of sine waves it is that of
         their chain, and `Answer.reliable` is False.
     folder : path, optional
-        Keeps the solution of a roughness that is continued below the measurement.
+        Keeps each prediction as soon as it is there: what was interrupted resumes.
     """
-    samples = direct_contact.solve_direct_contact(case)
+    bench = bench_of(folder)
+    samples = direct_contact.solve_direct_contact(case, bench)
     if samples is None:
-        predicted = case.chain.predict(case.rubber, case.surface, case.load)
-        return answer_with_inputs(case, waves_answer(case, predicted))
+        chain = solved_chain(case, bench)
+        result = answer_with_inputs(case, waves_answer(case, chain))
+        result.chain = chain
+        return result
     curve = direct_contact.continued_curve(case, case.load, folder)
     data = direct_contact.direct_contact_totals(samples, case, case.load, curve)
     if case.softening_doubts:
         filled = case.replace(filled=True)
-        of_filled = direct_contact.solve_direct_contact(filled)
+        of_filled = direct_contact.solve_direct_contact(filled, bench)
         assert of_filled is not None  # of the same surface
         continued = direct_contact.continued_curve(filled, case.load, folder)
         totals = direct_contact.direct_contact_totals(of_filled, filled, case.load, continued)
@@ -188,6 +220,22 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     result = answer_with_inputs(case, data)
     result.curve = curve
     return result
+
+
+def bench_of(folder: str | Path | None) -> Bench:
+    """Return a bench that keeps its predictions in the folder of a result, if there is one."""
+    return Bench(None if folder is None else Store(Path(folder) / PREDICTIONS))
+
+
+def solved_chain(case: Case, bench: Bench) -> xr.Dataset:
+    """Return the chain of waves of a case as its model predicts it, with the deformed blocks.
+
+    A wave that does not converge ends it: `prediction_status` says so.
+    """
+    task = Task(case.rubber, case.surface, case.load, case.chain)
+    (predicted,) = bench.solve({OF_THE_PAPER: task}).values()
+    sources = {"surface_source": case.surface.source, "rubber_source": case.measured_rubber.source}
+    return predicted.assign_attrs(case.attributes | sources)
 
 
 def answer_with_inputs(case: Case, data: xr.Dataset) -> Answer:

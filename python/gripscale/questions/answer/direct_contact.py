@@ -79,10 +79,11 @@ def direct_contact_design(
     return Design({"sample": len(points)}, points, subjects)
 
 
-def solve_direct_contact(case: Case) -> xr.Dataset | None:
+def solve_direct_contact(case: Case, bench: Bench | None = None) -> xr.Dataset | None:
     """Return the direct contact of each profile of a case over `sample`, with its trace.
 
-    None if no profile was measured; `InputError` for a rubber or profile that cannot be used.
+    None if no profile was measured; `InputError` for a rubber or profile that cannot be used. A
+    `bench` with a store keeps each contact.
     """
     design = direct_contact_design(case, case.load, traces=True)
     if design is None:
@@ -92,7 +93,7 @@ def solve_direct_contact(case: Case) -> xr.Dataset | None:
         traces = trace_variables(predicted).isel(profile=0)
         return reduce.sample_numbers(predicted, task).assign(traces)
 
-    return solve_design(design, Bench(None), numbers)
+    return solve_design(design, bench or Bench(None), numbers)
 
 
 # Attribute of an answer: that profiles across each other showed no ridges.

@@ -31,15 +31,18 @@ from gripscale.questions.answer.findings import (
 )
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.reliance import AnswerNumber, headline
+from gripscale.questions.chain.page import chain_section
 from gripscale.questions.cut_off.curve import CONTINUED_TO
+from gripscale.questions.cut_off.question import CutOff
 from gripscale.questions.inputs.findings import signed_percent
-from gripscale.questions.inputs.page import rubber_section, surface_section
+from gripscale.questions.inputs.page import files_table, rubber_section, surface_section
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
 from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Element, Page, Section, Text, percent_text
+from gripscale.report.elements import Card, Element, Facts, Page, Section, Text, percent_text
 from gripscale.report.equations import method_section
+from gripscale.surface import SineStack
 from gripscale.surface.direction import ERROR_OF_RIDGES
 from gripscale.testers import TESTER, tester_reading
 
@@ -234,8 +237,25 @@ def _in_interval(data: xr.Dataset) -> Iterator[str]:
         yield f"not in the interval: {', and '.join(unknown)}"
 
 
-def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Finding]) -> Page:
-    """Return the page of an answer: its numbers, the contact, and the inputs with their origin."""
+def answer_page(
+    data: xr.Dataset,
+    record: InputRecord,
+    findings: Sequence[Finding],
+    curve: xr.Dataset | None = None,
+    chain: xr.Dataset | None = None,
+) -> Page:
+    """Return the page of an answer: its numbers, the contact, and the inputs with their origin.
+
+    With the contact against the cut-off and the chain of waves of the same case, where they are
+    known.
+    """
+    waves = None
+    if chain is not None and "sines_wavelength" in chain:
+        waves = SineStack(chain["sines_wavelength"].values, chain["sines_amplitude"].values)
+    curves = [] if curve is None else CutOff(curve).elements()
+    chapters = [Section("cut-off", "Against the cut-off", curves)]
+    chapters += [] if chain is None else [chain_section(chain, data)]
+    moving = chain if reliance.is_moving(data) else None
     return Page.of(
         f"Contact and friction: {case_title(data.attrs)}",
         next(iter(basis_lines(data)), ""),
@@ -243,9 +263,11 @@ def answer_page(data: xr.Dataset, record: InputRecord, findings: Sequence[Findin
         answer_cards(data),
         [
             Section("contact", "Rubber on the surface", contact_elements(data, record)),
-            Section("surface", "Surface", surface_section(record)),
-            Section("rubber", "Rubber", rubber_section(record)),
-            method_section(method_of_answer(data)),
+            Section("inputs", "Inputs and their origin", _origin(data, record)),
+            Section("surface", "Surface", surface_section(record, waves)),
+            Section("rubber", "Rubber", rubber_section(record, moving)),
+            *chapters,
+            method_section(method_of_answer(data), () if chain is None else Chain.method),
             rerun_section(data.attrs),
         ],
         basis_lines(data),
@@ -259,6 +281,21 @@ def method_of_answer(data: xr.Dataset) -> list[str]:
     steps = {"surface": LINES_TO_SURFACE in data.factor_label.values}
     steps["interface"] = bool(friction_parts(data))
     return [*DirectContact.method, *(name for name, taken in steps.items() if taken)]
+
+
+def _origin(data: xr.Dataset, record: InputRecord) -> list[Element]:
+    """Return the load, and the measured files with their checksums."""
+    load = [
+        (title, display_unit_of(data.attrs, key).text(float(data[name])))
+        for key, name, title in (
+            ("pressure", "nominal_pressure", "Nominal pressure"),
+            ("speed", "nominal_speed", "Sliding speed"),
+            ("footprint", "footprint", "Footprint"),
+            ("thickness", "thickness", "Thickness of the rubber"),
+        )
+        if name in data
+    ]
+    return [Facts("Load", load), *([files_table(record)] if record.has("file_name") else [])]
 
 
 def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:

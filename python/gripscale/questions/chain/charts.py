@@ -29,12 +29,9 @@ from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
 from gripscale.core import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS
-from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.half_space.result import RoughContact
-from gripscale.model import ADHESIVE_FRICTION
 from gripscale.questions.answer.reliance import headline
 from gripscale.questions.chain.view import PredictionView
-from gripscale.questions.compare.charts_of_ladder import measured_points
 from gripscale.questions.words import ANSWER, AXIS_TITLES, HEADINGS, JUDGE, OF_THE_PAPER
 
 if TYPE_CHECKING:
@@ -63,19 +60,15 @@ def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
     return Sheet([_total_panel(views, name) for name in AXIS_TITLES], legend_title=title)
 
 
-def contact_charts(predictions: Views, direct: xr.Dataset | None = None) -> list[Chart]:
+def contact_charts(view: PredictionView, direct: xr.Dataset | None = None) -> list[Chart]:
     """Return area and friction of the waves.
 
-    The totals of `direct`, what judges the predictions, are level lines. Waves that did not
-    converge are red crosses.
+    The totals of `direct`, what judges the waves, are level lines. Waves that did not converge are
+    red crosses.
     """
-    judged = [*predictions, *([] if direct is None else [PredictionView(direct, JUDGE)])]
-    moving = [view for view in predictions if view.moving]
-    panels = [
-        _total_panel(judged, name).with_marks(_failed(views, name))
-        for name, views in (("contact_fraction", predictions), ("friction", moving))
-        if views
-    ]
+    views = [view, *([] if direct is None else [PredictionView(direct, JUDGE)])]
+    names = ["contact_fraction", *(["friction"] if view.moving else [])]
+    panels = [_total_panel(views, name).with_marks(_failed(view, name)) for name in names]
     return draw.panels_on_page(panels)
 
 
@@ -135,39 +128,11 @@ def _total_marks(view: PredictionView, name: str, colour: str, along: PlotAxis) 
             yield ShadedBand(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
 
 
-def _failed(views: Views, quantity: str) -> Iterator[Series]:
-    for view in views:
-        x, y = view.column("wavelength") / MILLI, view.column(quantity)
-        bad = ~view.converged & np.isfinite(x) & np.isfinite(y)
-        if bad.any():
-            yield Series(x[bad], y[bad], RED, "not converged", "", 2.3, marker="x", size=8.0)
-
-
-def measured_chart(friction: MeasuredFriction, predictions: Views) -> Chart:
-    """Return measured friction with the totals of `predictions`, each at its speed."""
-    speed_unit = predictions[0].display_unit("speed")
-    marks: list[Mark] = [*measured_points(xr.Dataset(measured_variables(friction)), speed_unit)]
-    for view, colour in zip(predictions, COLOURS, strict=False):
-        hysteresis = float(view.data.total_friction)
-        both = hysteresis + float(view.data.get(ADHESIVE_FRICTION, math.nan))
-        totals = (("hysteresis", hysteresis, True), ("with the area term", both, False))
-        marks += [
-            Series(speed_unit.of([view.speed]), [total], colour, f"{view.name}, {words}", "",
-                   marker="*", size=11.0, filled=filled)
-            for words, total, filled in totals
-            if np.isfinite(total)
-        ]  # fmt: skip
-    panel = Panel(
-        PlotAxis(f"speed [{speed_unit.unit}]", log=True),
-        PlotAxis("friction coefficient [-]", low=0.0),
-        marks,
-        name="measured-friction",
-        caption="Measured friction over speed, with what is predicted at the speed of the case. "
-        "Bars are the standard deviation of the measurement.",
-        alt="Measured friction against speed, and predicted friction at one speed.",
-        height=400,
-    )
-    return draw.panels_on_page([panel])[0]
+def _failed(view: PredictionView, quantity: str) -> Iterator[Series]:
+    x, y = view.column("wavelength") / MILLI, view.column(quantity)
+    bad = ~view.converged & np.isfinite(x) & np.isfinite(y)
+    if bad.any():
+        yield Series(x[bad], y[bad], RED, "not converged", "", 2.3, marker="x", size=8.0)
 
 
 # What warms a wave where it loses energy: name in results, in legends, and colour.

@@ -13,10 +13,7 @@ from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.cut_off_exponents import NOT_CONVERGED, NOT_TOLD, OCTAVE
 from gripscale.questions.answer.reliance import friction_sentence
 from gripscale.questions.chain.view import PredictionView
-from gripscale.report.elements import number_text, percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
-from gripscale.rubber.material import LEAST_POISSON_RATIO, poisson_ratio
-from gripscale.wave.result import LARGE_MISMATCH
 
 LARGE_MISFIT = 0.05  # of a series from the moduli it stands for: friction errs by about as much
 # What a wave may be flagged for, and in words.
@@ -26,52 +23,20 @@ FLAGS = {
 }
 
 
-def conditions_notices(view: PredictionView) -> Iterator[Finding]:
-    """Yield a warning for each flag of the rubber of the waves."""
+def conditions_notes(view: PredictionView) -> Iterator[str]:
+    """Yield which waves are flagged for their rubber, as sentences."""
     for name, words in FLAGS.items():
         if view.has(name):
-            yield from _of_waves(view, np.nan_to_num(view.usable(name)) > 0.0, words)
+            yield from _of_waves(np.nan_to_num(view.usable(name)) > 0.0, words)
     if view.has("series_misfit"):
         misfit = np.nan_to_num(np.abs(view.usable("series_misfit")))
         words = f"the series misses the softened moduli by up to {misfit.max(initial=0.0):.0%}"
-        yield from _of_waves(view, misfit > LARGE_MISFIT, words, misfit)
+        yield from _of_waves(misfit > LARGE_MISFIT, words)
 
 
-def wave_notices(view: PredictionView, bulk_modulus: float) -> Iterator[Finding]:
-    """Yield what may be wrong with the waves of a chain: mesh, conditions, bulk modulus [Pa]."""
-    if view.moving:
-        mismatch = np.nan_to_num(view.usable("friction_mismatch"))
-        worst = percent_text(mismatch.max(initial=0.0))
-        words = f"the two frictions are up to {worst} apart; take a finer mesh"
-        yield from _of_waves(view, mismatch > LARGE_MISMATCH, words, mismatch, Topic.SOLUTION)
-    yield from conditions_notices(view)
-    if not view.has("modulus"):
-        return
-    ratio = np.nan_to_num(poisson_ratio(bulk_modulus, view.column("modulus")), nan=0.5)
-    low = ratio < LEAST_POISSON_RATIO
-    if low.any():
-        words = (
-            f"Poisson's ratio is down to {number_text(ratio[low].min())}, less than "
-            f"{LEAST_POISSON_RATIO:g}: the bulk modulus is too small for their moduli"
-        )
-        yield Finding(Severity.WARNING, f"{_named_waves(low)}: {words}.", topic=Topic.RUBBER)
-
-
-def _of_waves(
-    view: PredictionView,
-    flagged: np.ndarray,
-    words: str,
-    error: np.ndarray | float = 1.0,
-    doubt: Topic = Topic.RUBBER,
-) -> Iterator[Finding]:
-    """Yield a warning of the flagged waves; `error` is the relative one of their friction."""
-    waves = _named_waves(flagged)
-    if waves:
-        in_total = math.nan
-        if view.moving and view.complete:
-            friction = view.column("friction")
-            in_total = float(flagged * error @ friction / friction.sum())
-        yield Finding(Severity.WARNING, f"{waves}: {words}.", in_total, topic=doubt)
+def _of_waves(flagged: np.ndarray, words: str) -> Iterator[str]:
+    if waves := _named_waves(flagged):
+        yield f"{waves}: {words}."
 
 
 def _named_waves(flagged: np.ndarray) -> str:

@@ -1,4 +1,4 @@
-"""The waves of a prediction as a table: what each one receives, its contact and its heat."""
+"""The chain of waves as tables and a chapter: what each wave receives, its contact and its heat."""
 
 from __future__ import annotations
 
@@ -17,13 +17,18 @@ from gripscale.io.table import (
     whole_number,
 )
 from gripscale.model import with_adhesive
+from gripscale.questions.answer.reliance import has_answer, headline, is_measured
+from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.findings import (
-    conditions_notices,
+    conditions_notes,
     exponent_sentence,
     prediction_sentence,
 )
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.inputs.page import numbers
+from gripscale.questions.words import OF_THE_PAPER, SYMBOLS
+from gripscale.report.elements import Element, Section, Text
+from gripscale.wave.result import LARGE_MISMATCH
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -99,12 +104,15 @@ def prediction_table(data: xr.Dataset, title: str) -> Table:
     ]  # fmt: skip
     if view.moving and view.converged.all():
         apart = view.column("friction_mismatch").max()
-        notes.append(f"The two friction coefficients of a wave are at most {apart:.2%} apart.")
+        cure = "; take a finer mesh" if apart > LARGE_MISMATCH else ""
+        notes.append(
+            f"The two friction coefficients of a wave are at most {apart:.2%} apart{cure}."
+        )
     if beyond:
         notes.append(f"{_STAR} {beyond}")
         marks = ["*" if flag else "" for flag in view.column("outside_band")]
         columns = [replace(c, marks=marks) if c.name == "loss_factor" else c for c in columns]
-    notes += [notice.sentence for notice in conditions_notices(view)]
+    notes += conditions_notes(view)
     return Table("waves", columns, title, notes, keys=2, bad=~view.converged)
 
 
@@ -133,3 +141,44 @@ def heat_table(data: xr.Dataset) -> Table:
     columns = (filled(view, column) for column in (_WAVELENGTH, *_HEAT))
     caption = "Temperature of the rubber on each wave"
     return Table("heat", [numbers("wave", view.waves, "#"), *columns], caption)
+
+
+def chain_tables(chain: xr.Dataset) -> list[Table]:
+    """Return the waves of a chain and, solved with heat, how warm the rubber is on each."""
+    tables = [prediction_table(chain, PredictionView(chain).title)]
+    return tables + ([heat_table(chain)] if "contact_temperature" in chain else [])
+
+
+def judgement(chain: xr.Dataset, answer: xr.Dataset) -> str:
+    """Return how the chain of waves compares with the answer of a measured surface, or failed."""
+    view = PredictionView(chain)
+    if not view.complete:
+        return f"For comparison, {OF_THE_PAPER}: {totals(chain)}"
+    texts = []
+    for name in reversed(SYMBOLS) if view.moving else ["contact_fraction"]:
+        both = with_adhesive(chain) if name == "friction" else None
+        value = view.total(name) if both is None else float(both)
+        text = f"{SYMBOLS[name]} = {significant(value)}"
+        if has_answer(answer):
+            ratio = significant(value / headline(answer, name).value, 2)
+            text += f", {ratio} times that of the answer"
+        texts.append(text)
+    return (
+        f"For comparison, {OF_THE_PAPER}: {'; '.join(texts)}. "
+        "`gripscale compare` shows the cost of each assumption."
+    )
+
+
+def chain_section(chain: xr.Dataset, answer: xr.Dataset) -> Section:
+    """Return the chapter of the chain; beside the answer of a measured surface a comparison."""
+    view = PredictionView(chain, PredictionView(chain).title.lower())
+    title, judge = "Contact and friction, wave by wave", None
+    elements: list[Element] = []
+    if is_measured(answer):
+        title, judge = f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}, for comparison", answer
+        elements.append(Text(judgement(chain, answer)))
+    waves, *heat = chain_tables(chain)
+    elements += [replace(waves, name="chain"), *heat]
+    if view.waves:
+        elements += contact_charts(view, judge)
+    return Section("chain", title, elements)

@@ -42,7 +42,8 @@ class PredictionView:
     @property
     def title(self) -> str:
         """What tables and figures call it."""
-        return title(self.speed, self.display_unit("speed"))
+        speed = self.display_unit("speed").text(self.speed)
+        return f"Dynamic, {speed}" if self.moving else "Static"
 
     def display_unit(self, name: str) -> DisplayUnit:
         """Return how its `pressure`, `speed` or `footprint` is shown: as its case gives it."""
@@ -59,15 +60,9 @@ class PredictionView:
         return int(self.data.sizes.get("scale", 0))
 
     @property
-    def planned(self) -> int:
-        """Number of waves there should be; 0 for a model without waves."""
-        return int(self.data.attrs.get("planned_waves", 0))
-
-    @property
     def complete(self) -> bool:
         """Whether everything was solved and may be used."""
-        good = self.status == CONVERGED and bool(self.converged.all())
-        return good and self.waves >= self.planned
+        return self.status == CONVERGED and bool(self.converged.all())
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
@@ -126,8 +121,3 @@ class PredictionView:
         x, z = x[layers][:, columns] / length, z[layers][:, columns] / length
         wave = amplitude / length * np.cos(2.0 * math.pi * x[0])
         return x, z - np.min(z[0] - wave)
-
-
-def title(speed: float, speed_unit: DisplayUnit) -> str:
-    """Return what tables and figures call a prediction at `speed` [m/s], shown in `speed_unit`."""
-    return "Static" if speed == 0.0 else f"Dynamic, {speed_unit.text(speed)}"

@@ -28,7 +28,6 @@ from gripscale.questions.answer.reliance import (
     no_answer,
 )
 from gripscale.questions.chain.findings import comparison_notices
-from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.inputs.findings import signed_percent
@@ -36,7 +35,7 @@ from gripscale.questions.stored import predicted_tree
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
 from gripscale.questions.uncertainty.propagation import of_same_inputs
 from gripscale.questions.vary.axis import axis_shown
-from gripscale.questions.words import HEADINGS, OF_THE_PAPER, SYMBOLS, is_estimated
+from gripscale.questions.words import HEADINGS, SYMBOLS, is_estimated
 from gripscale.report import elements
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -69,10 +68,6 @@ class Compared:
         """What was sampled of this very case, or None."""
         data, case = self.uncertainty, str(self.parts[0].attrs.get("case", ""))
         return data if data is not None and of_same_inputs(data, case) else None
-
-    def of(self, case: object) -> Compared:
-        """Return those of just this text of a case."""
-        return Compared([data for data in self.parts if data.attrs.get("case") == case])
 
 
 def stored_comparisons(folder: Path) -> Compared:
@@ -235,23 +230,6 @@ def large_strain_lines(comparison: xr.Dataset) -> Iterator[str]:
         change = signed_percent(number.value / headline(comparison, name).value - 1.0)
         texts.append(f"{SYMBOLS[name]} = {number}, {change}")
     yield f"With large strain solved on windows: {'; '.join(texts)}."
-
-
-def judgement(chain: PredictionView, answer: xr.Dataset) -> Iterator[str]:
-    """Yield how the chain of waves compares with the answer of a measured surface."""
-    if not (chain.complete and has_answer(answer) and is_measured(answer)):
-        return
-    names = reversed(SYMBOLS) if chain.moving else ["contact_fraction"]
-    texts = []
-    for name in names:
-        both = model.with_adhesive(chain.data) if name == "friction" else None
-        value = chain.total(name) if both is None else float(both)
-        ratio = significant(value / headline(answer, name).value, 2)
-        texts.append(f"{SYMBOLS[name]} = {significant(value)}, {ratio} times that of the answer")
-    yield (
-        f"For comparison, {OF_THE_PAPER}: {'; '.join(texts)}. "
-        "`gripscale compare` shows the cost of each assumption."
-    )
 
 
 def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]:

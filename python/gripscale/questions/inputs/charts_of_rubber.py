@@ -49,7 +49,7 @@ from gripscale.rubber.superposition import temperatures_in
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gripscale.charts.figure_folder import Figures
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.rubber.measured_rubber import MeasuredRubber
 
 OMEGA = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)
@@ -455,7 +455,7 @@ def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
     return Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02).on_paper()
 
 
-def rubber_figures(prepared: MeasuredRubber, omega: ArrayLike, figures: Figures) -> None:
+def rubber_figures(prepared: MeasuredRubber, omega: ArrayLike, figures: FigureFolder) -> None:
     """Draw the master curve with the angular frequencies `omega` [rad/s] marked.
 
     Of sweeps at several temperatures also how they meet, and the shift factors.

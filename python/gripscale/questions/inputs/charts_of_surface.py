@@ -40,7 +40,7 @@ from gripscale.surface.profile import HeightMap, Profile
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gripscale.charts.figure_folder import Figures
+    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.surface import Surface
 
 DISTANCE, _HEIGHT = PlotAxis("distance $x$ [mm]"), PlotAxis("height $z$ [mm]")
@@ -307,7 +307,7 @@ def _self_affine(lag: Array, value: Array, label: str) -> Series:
     return Series(lag / MILLI, value / SQUARE_MM, ORANGE, label, "dashed")
 
 
-def surface_figures(prepared: Surface, figures: Figures) -> None:
+def surface_figures(prepared: Surface, figures: FigureFolder) -> None:
     """Draw the profiles and their correlation; waves stated by hand have neither."""
     if prepared.measured is None or prepared.correlation is None:
         return

@@ -20,7 +20,6 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.case import Case
 from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.finding import Finding, Severity, Topic, from_json, to_json
-from gripscale.experiment.measured_friction import measured_variables
 from gripscale.io.table import significant
 from gripscale.model import Load
 from gripscale.report.elements import number_text
@@ -137,8 +136,6 @@ def inputs(
     if excitation.size:
         attrs["excited_low_rad_per_s"] = float(excitation.min())
         attrs["excited_high_rad_per_s"] = float(excitation.max())
-    if case.friction is not None:
-        data |= measured_variables(case.friction, "measurement_of_case")
     if surface.measured is not None and surface.correlation is not None:
         data |= _profiles(surface.measured)
         texture = surface.measured.texture.variables
@@ -290,11 +287,6 @@ class InputRecord:
     """The record that a run keeps of its inputs, as `record` writes it."""
 
     data: xr.Dataset
-
-    @classmethod
-    def of_tree(cls, tree: xr.DataTree) -> InputRecord:
-        """Return the record in a result with its groups; an empty one where it holds none."""
-        return cls(tree.children.get("inputs", xr.DataTree()).to_dataset(inherit=False))
 
     def has(self, name: str) -> bool:
         """Return whether a variable or an attribute is there."""
