@@ -309,11 +309,11 @@ def main() -> None:
     of, every = points(), Counter(row["status"] for row in rows())
     print(f"{every['converged']} windows of {every.total()}: {dict(every)}")
     for name in QUANTITIES:
-        all_of_them = np.ones(of.area.size, dtype=bool)
-        law = Law.of(of, name, all_of_them)
+        every_window = of.area > 0.0
+        law = Law.of(of, name, every_window)
         print(
             f"{name}: mean {law.mean:.3f}, scatter {law.scatter:.3f}, "
-            f"{of.inside(name, law, all_of_them).mean():.0%} inside"
+            f"{of.inside(name, law, every_window).mean():.0%} inside"
         )
         for by in (of.rubber, of.kind):
             held = left_out(of, name, by)
@@ -334,7 +334,7 @@ def on_finer_meshes(count: int = 6) -> None:
     of, by_number = points(), {case.number: case for case in cases()}
     far = np.zeros(of.area.size)
     for name in QUANTITIES:
-        law = Law.of(of, name, far == 0.0)
+        law = Law.of(of, name, of.area > 0.0)
         far = np.maximum(far, np.abs(of.log_ratio[name] / of.size(name) - law.mean) / law.scatter)
     table = {int(row["number"]): row for row in rows()}
     for number in of.number[np.argsort(-far)][:count].astype(int):

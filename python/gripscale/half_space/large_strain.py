@@ -4,11 +4,10 @@ The finite-strain block over the half-space, on the same windows (`python -m stu
 follows the nominal pressure over the modulus, x = p_0/|E*|, and the contact fraction A of the
 half-space:
 
-    area:      ln f = 0.069 (x/A) (1 - A)^0.5,        friction:  ln g = -0.18 x / A^0.5.
+    area:      ln f = 0.069 (x/A) (1 - A)^0.5,        friction:  ln g = -0.175 x / A^0.5.
 
-x/A is the mean pressure in the contact over the modulus. E* is that of a seventh of the largest
-wave as it slides, softened and warmed. The scatter from window to window grows as the mean does.
-x was at most 1.1 and x/A 1.2; no map was solved.
+E* is that of a seventh of the largest wave as it slides, softened and warmed. The scatter from
+window to window grows as the mean does. No map was solved, and x was at most 1.1.
 """
 
 from __future__ import annotations
@@ -23,8 +22,8 @@ from gripscale.half_space.response import HalfSpace
 
 _WAVE = 1.0 / 7.0  # wave of the modulus over the largest wave: 4 mm on the shipped road
 # Mean of the logarithm and its standard deviation, over what both are proportional to.
-AREA, AREA_SCATTER = 0.069, 0.081
-FRICTION, FRICTION_SCATTER = -0.18, 0.16
+AREA, AREA_SCATTER = 0.069, 0.08
+FRICTION, FRICTION_SCATTER = -0.175, 0.16
 
 
 def pressure_over_modulus(body: HalfSpace, pressure: float, largest_wavelength: float) -> float:
@@ -43,8 +42,8 @@ def finite_over_small(
     `pressed` is that of `pressure_over_modulus`, the contact fraction [-] that at small strain.
     """
     area = np.clip(np.asarray(contact_fraction, dtype=float), 1e-12, 1.0)
+    size = pressed / np.sqrt(area)
     if quantity == "friction":
-        size = pressed / np.sqrt(area)
         return np.exp(FRICTION * size), FRICTION_SCATTER * size
-    size = pressed / area * np.sqrt(1.0 - area)
+    size = size * np.sqrt((1.0 - area) / area)
     return np.minimum(np.exp(AREA * size), 1.0 / area), AREA_SCATTER * size

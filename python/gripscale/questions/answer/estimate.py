@@ -101,8 +101,8 @@ def answer_of_samples(
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
-    known one replaces it, `solved_finite_strain` that of finite strain.
-    Typical laws among the `conditions` add their errors.
+    known one replaces it, `solved_finite_strain` that of finite strain. Typical laws among the
+    `conditions` add their errors.
 
     `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
     ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
@@ -257,11 +257,10 @@ def _certain(sigma: xr.DataArray) -> LogError:
 
 
 def _of_large_strain(direct: xr.Dataset) -> FactorNumbers:
-    """Return finite over small strain by the law; NaN where no model told its pressure."""
-    lines = reduce.mean(direct, "contact_fraction")
-    pressed = lines * math.nan
-    if "pressure_over_modulus" in direct:
-        pressed = reduce.mean(direct, "pressure_over_modulus")
+    """Return finite over small strain by the law at the contact area and modulus of the lines."""
+    lines, pressed = (
+        reduce.mean(direct, name) for name in ("contact_fraction", "pressure_over_modulus")
+    )
     numbers = {}
     for name in ESTIMATED:
         ratio, sigma = finite_over_small(name, pressed.values, lines.values)

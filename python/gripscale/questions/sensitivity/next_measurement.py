@@ -100,14 +100,12 @@ def _width(point: xr.Dataset, quantity: str, measured: str) -> float:
 
 def _factor_errors(point: xr.Dataset, quantity: str) -> dict[str, float]:
     """Return the relative standard errors of the factors of the answer, by label."""
-    area = point["total_contact_fraction"].values
-    strain = finite_over_small(quantity, point[PRESSURE_OVER_MODULUS].values, area)
-    errors = {LARGE_STRAIN_LABEL: float(strain[1])}
+    area, pressed = point["total_contact_fraction"].values, point[PRESSURE_OVER_MODULUS].values
+    errors = {LARGE_STRAIN_LABEL: float(finite_over_small(quantity, pressed, area)[1])}
     if math.isfinite(float(point[UPPER_HEIGHT])):  # lines
         line = line_to_map.LineUnderLoad(point[UPPER_HEIGHT].values, point[RELATIVE_LOAD].values)
         law = line_to_map.SURFACE_OVER_LINES[quantity]
-        surface = law(line, area)
-        errors[LINES_TO_SURFACE] = float(surface.uncertainty)
+        errors[LINES_TO_SURFACE] = float(law(line, area).uncertainty)
     return errors
 
 
