@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from tests.verification.profiles import ProfileCase, road_windows, steep_stones
+from gripscale.half_space.large_strain import finite_over_small, pressure_over_modulus
+from tests.verification.profiles import WINDOW, ProfileCase, road_windows, steep_stones
 
 
 def solved(cases: list[ProfileCase]) -> list[gs.ScaleResult]:
@@ -45,3 +46,32 @@ def test_a_hundred_profiles_with_flanks_of_slope_2():
     results = solved(steep_stones())
     assert share_within(results, 0.03) >= 0.95
     assert max(one.details["contact_slope"] for one in results) > 1.8
+
+
+def held(cases: list[ProfileCase], largest: float) -> dict[str, float]:
+    """The share of cases whose finite over small strain lies in the 90 % interval of its law."""
+    inside: dict[str, list[bool]] = {"contact_fraction": [], "friction": []}
+    for case in cases:
+        block, small = case.solve(), case.half_plane()
+        if not (block.converged and small.converged):
+            continue
+        pressed = pressure_over_modulus(small.body, case.pressure, largest)
+        for quantity, within in inside.items():
+            name = quantity.replace("friction", "friction_from_dissipation")
+            ratio, error = finite_over_small(quantity, pressed, small.contact_fraction)
+            miss = np.log(getattr(block, name) / getattr(small, name) / ratio)
+            within.append(bool(abs(miss) < 1.645 * error))
+    return {quantity: float(np.mean(within)) for quantity, within in inside.items()}
+
+
+@pytest.mark.verification
+def test_the_law_of_large_strain_holds_stones_it_was_not_fitted_to():
+    """Other stones than those of the law, to 30 bar where it was fitted to 10."""
+    assert min(held(steep_stones(), 8e-3).values()) >= 0.85
+
+
+@pytest.mark.verification
+def test_the_law_of_large_strain_holds_windows_of_223_waves():
+    """It was fitted to windows of 50 and 100; twenty, so that one in six may lie outside."""
+    windows = [case for n in (0, 1) for case in road_windows(n, 1.7e-4, 10, cleaned=True)]
+    assert min(held(windows, 0.75 * WINDOW).values()) >= 0.8

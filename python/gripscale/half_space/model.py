@@ -17,6 +17,7 @@ from gripscale.core import Array, Checked, InputError, Status, checked, checks, 
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.half_space.condition_errors import SERIES, condition_changes, log_change
 from gripscale.half_space.conditions import warming_of
+from gripscale.half_space.large_strain import pressure_over_modulus
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
@@ -97,6 +98,7 @@ def _with_basis(
             for profile, contact in zip(measured.cleaned, contacts, strict=True)
         ]
         line = LineUnderLoad(*np.average(np.array(lines), axis=0, weights=lengths))
+    strains = [pressure_over_modulus(each.body, load.pressure, longest) for each in contacts]
     errors = [sampling_error(contact, piece) for contact in contacts]
     area, friction = (
         np.multiply(lengths, [getattr(contact, name) for contact in contacts])
@@ -106,6 +108,7 @@ def _with_basis(
         _relative(area, [error.contact_fraction for error in errors]),
         _relative(friction, [error.friction for error in errors]),
         *line,
+        float(np.average(strains, weights=lengths)),
         float(sum(error.pieces - 1 for error in errors)),
         _weighted(friction, [contact.steep_share for contact in contacts]),
         _weighted(area, [contact.missing_share for contact in contacts]),

@@ -25,6 +25,7 @@ def solved() -> Make:
                 area, friction, *subject = sample
                 row = {"contact_fraction": area, "friction": friction, "subject": "".join(subject)}
             row = {"friction": math.nan, "contact_fraction": math.nan, "subject": ""} | row
+            row = {"pressure_over_modulus": math.nan} | row
             row = {"friction_from_dissipation": 1.02 * row["friction"]} | row
             errors = {"contact_fraction_error": math.nan, "friction_error": math.nan}
             good = {"prediction_status": "converged", "prediction_status_word": "converged"}

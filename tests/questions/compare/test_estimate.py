@@ -9,9 +9,11 @@ import pytest
 import xarray as xr
 from scipy import stats
 
+from gripscale.half_space.large_strain import finite_over_small
 from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.answer.estimate import (
-    ASSUMED_FINITE_STRAIN,
+    ESTIMATED,
+    LARGE_STRAIN_LABEL,
     answer_of_samples,
     large_strain_answer,
     with_large_strain,
@@ -36,23 +38,35 @@ SAMPLING = {
     "friction_sampling_error": 0.04,
     "freedom": 40.0,
 }
+PRESSED = {"pressure_over_modulus": 0.05}
+"""Nominal pressure over modulus."""
 
 
-def test_finite_strain_is_assumed_where_no_window_was_solved(solved: Make, together: Make) -> None:
-    best = answer_of_samples(together(direct=solved(DIRECT | SAMPLING)))
-    assumed = ASSUMED_FINITE_STRAIN
-    assert best.answer_contact_fraction == pytest.approx(0.04)
-    assert best.answer_friction == pytest.approx(0.2)
-    assert best.factor_label.values.tolist() == [assumed.label]
+def test_finite_strain_follows_its_law_where_no_window_was_solved(
+    solved: Make, together: Make
+) -> None:
+    best = answer_of_samples(together(direct=solved(DIRECT | SAMPLING | PRESSED)))
+    area, friction = (finite_over_small(name, 0.05, 0.04) for name in ESTIMATED)
+    assert best.answer_contact_fraction == pytest.approx(0.04 * area[0])
+    assert best.answer_friction == pytest.approx(0.2 * friction[0])
+    assert best.factor_label.values.tolist() == [LARGE_STRAIN_LABEL]
     assert best.answer_contact_fraction_uncertainty == pytest.approx(
-        math.hypot(0.03, GRID, assumed.contact_fraction.uncertainty)
+        math.hypot(0.03, GRID, area[1])
     )
-    sigma = math.hypot(0.04, GRID, assumed.friction.uncertainty)
+    sigma = math.hypot(0.04, GRID, friction[1])
     assert best.answer_friction_uncertainty == pytest.approx(sigma)
     freedom = sigma**4 / (0.04**4 / 40.0)
     assert best.answer_friction_half_width == pytest.approx(
         math.sinh(stats.t.ppf(0.95, freedom) * sigma)
     )
+
+
+def test_the_law_is_not_included_where_no_pressure_over_modulus_is_known(
+    solved: Make, together: Make
+) -> None:
+    best = answer_of_samples(together(direct=solved(DIRECT | SAMPLING)))
+    assert best.answer_friction == pytest.approx(0.2)
+    assert math.isnan(best.answer_friction_factor.item())
 
 
 def test_there_is_no_interval_without_samples_of_the_road(solved: Make, together: Make) -> None:

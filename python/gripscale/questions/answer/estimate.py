@@ -2,12 +2,12 @@
 
     A/A_0 = (direct contact) x (finite strain/small strain) x (isotropic surface/its lines)
 
-and friction likewise. The first factor is assumed to be 1 within what windows and blocks of other
-roads showed. A comparison also solves it, as a ratio of two models on the same windows, and says
-what the answer becomes with it. The second is a law measured on synthetic surfaces
-(`gripscale.half_space.line_to_map`). The interval (`intervals`) is for the mean over the road with
-the roughness down to the cut-off, from the sampling of the road and the errors of grids and
-factors.
+and friction likewise. The first factor is a law measured on windows of other roads
+(`gripscale.half_space.large_strain`). A comparison also solves it, as a ratio of two models on the
+same windows, and says what the answer becomes with it. The second is a law measured on synthetic
+surfaces (`gripscale.half_space.line_to_map`). The interval (`intervals`) is for the mean over the
+road with the roughness down to the cut-off, from the sampling of the road and the errors of grids
+and factors.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
+from gripscale.half_space.large_strain import finite_over_small
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import BASIS
@@ -67,11 +68,9 @@ class Factor(Described):
 
 # Models whose ratio is the factor of finite strain.
 FINITE_STRAIN = "windows_finite_strain", "windows_half_plane"
-# Of every answer: what windows and blocks of other roads showed.
-ASSUMED_FINITE_STRAIN = Factor(
-    "finite_strain", "large strain", LogNormalValue(1.0, 0.03), LogNormalValue(1.0, 0.05)
-)
-# Start of the names of numbers with the solved factor of finite strain in place of the assumed.
+# Name of the factor that replaces it in an answer, and the label of both.
+FACTOR_OF_STRAIN, LARGE_STRAIN_LABEL = "finite_strain", "large strain"
+# Start of the names of numbers with the solved factor of finite strain in place of the law's.
 LARGE_STRAIN = "large_strain_"
 # Label of the factor from measured lines to the isotropic surface they lie on.
 LINES_TO_SURFACE = "profile to surface"
@@ -113,9 +112,9 @@ def answer_of_samples(
 
     Samples that are lines have an `upper_height`, by which they step to their surface. `sampled`
     adds what is not known of the inputs to the interval. A `supplied` factor with the name of a
-    known one replaces it, `solved_finite_strain` the assumed factor of finite strain.
-    Typical laws among the `conditions` add their errors. Where the area term was fitted to measured
-    friction, `contacts`, one for each answer, say what of the errors is left (`calibrated`).
+    known one replaces it, `solved_finite_strain` that of finite strain. Typical laws among the
+    `conditions` add their errors. Where the area term was fitted to measured friction, `contacts`,
+    one for each answer, say what of the errors is left (`calibrated`).
 
     `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
     ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
@@ -130,8 +129,8 @@ def answer_of_samples(
     unknown = xr.full_like(status, math.nan, dtype=float)
     factors: dict[str, tuple[str, FactorNumbers]] = {}
     if direct is not None:
-        assumed, numbers = ASSUMED_FINITE_STRAIN, solved_finite_strain
-        factors[assumed.name] = assumed.label, numbers or _numbers_of(assumed, unknown)
+        strain = solved_finite_strain or _of_large_strain(direct)
+        factors[FACTOR_OF_STRAIN] = LARGE_STRAIN_LABEL, strain
         heights = direct.get("upper_height")
         if heights is not None and bool(heights.notnull().any()):  # lines of a surface, no map
             factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
@@ -206,7 +205,7 @@ def with_large_strain(
     models, or a supplied factor has its name.
     """
     solved = {DIRECT, *FINITE_STRAIN} <= set(samples["model"].values.tolist())
-    if not solved or any(factor.name == ASSUMED_FINITE_STRAIN.name for factor in supplied):
+    if not solved or any(factor.name == FACTOR_OF_STRAIN for factor in supplied):
         return answer
     factor: FactorNumbers = {}
     over, under = (samples.sel(model=member, drop=True) for member in FINITE_STRAIN)
@@ -282,6 +281,18 @@ def with_total_friction(
 def _certain(sigma: xr.DataArray) -> LogError:
     """Return an error that is itself certain."""
     return LogError(sigma, xr.full_like(sigma, math.inf))
+
+
+def _of_large_strain(direct: xr.Dataset) -> FactorNumbers:
+    """Return finite over small strain by the law at the contact area and modulus of the lines."""
+    lines, pressed = (
+        reduce.mean(direct, name) for name in ("contact_fraction", "pressure_over_modulus")
+    )
+    numbers = {}
+    for name in ESTIMATED:
+        ratio, sigma = finite_over_small(name, pressed.values, lines.values)
+        numbers[name] = lines.copy(data=ratio), _certain(lines.copy(data=sigma))
+    return numbers
 
 
 def _of_surface(direct: xr.Dataset) -> FactorNumbers:

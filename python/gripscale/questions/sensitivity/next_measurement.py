@@ -16,9 +16,10 @@ from gripscale.conditions.alternatives import TENSION_OR_SHEAR, THERMAL_CONSTANT
 from gripscale.conditions.strain_rule import LOG_AREA, LOG_FRICTION
 from gripscale.core.arrays import Array
 from gripscale.half_space import line_to_map
+from gripscale.half_space.large_strain import finite_over_small
 from gripscale.io.table import Column, Table, percent
-from gripscale.model import RELATIVE_LOAD, SAMPLING_FREEDOM, UPPER_HEIGHT
-from gripscale.questions.answer.estimate import ASSUMED_FINITE_STRAIN, LINES_TO_SURFACE
+from gripscale.model import PRESSURE_OVER_MODULUS, RELATIVE_LOAD, SAMPLING_FREEDOM, UPPER_HEIGHT
+from gripscale.questions.answer.estimate import LARGE_STRAIN_LABEL, LINES_TO_SURFACE
 from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.questions.sensitivity.friction_sensitivity import CARRIED, LOSS, STORAGE
 from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES
@@ -104,12 +105,12 @@ def _width(point: xr.Dataset, quantity: str, measured: str) -> float:
 
 def _factor_errors(point: xr.Dataset, quantity: str) -> dict[str, float]:
     """Return the relative standard errors of the factors of the answer, by label."""
-    errors = {ASSUMED_FINITE_STRAIN.label: getattr(ASSUMED_FINITE_STRAIN, quantity).uncertainty}
+    area, pressed = point["total_contact_fraction"].values, point[PRESSURE_OVER_MODULUS].values
+    errors = {LARGE_STRAIN_LABEL: float(finite_over_small(quantity, pressed, area)[1])}
     if math.isfinite(float(point[UPPER_HEIGHT])):  # lines
         line = line_to_map.LineUnderLoad(point[UPPER_HEIGHT].values, point[RELATIVE_LOAD].values)
         law = line_to_map.SURFACE_OVER_LINES[quantity]
-        surface = law(line, point["total_contact_fraction"].values)
-        errors[LINES_TO_SURFACE] = float(surface.uncertainty)
+        errors[LINES_TO_SURFACE] = float(law(line, area).uncertainty)
     if point.attrs.get("softens"):
         errors["strain rule"] = {"contact_fraction": LOG_AREA, "friction": LOG_FRICTION}[quantity]
     if f"{quantity}_condition_error" in point:
