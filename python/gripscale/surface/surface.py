@@ -23,6 +23,7 @@ from gripscale.surface.cut_off import (
 from gripscale.surface.direction import direction_of_map, direction_of_profiles
 from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
 from gripscale.surface.low_pass import followed, followed_lines
+from gripscale.surface.noise import noise_finding
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
@@ -250,7 +251,7 @@ class Surface(Described):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What may change the answer: of the measurement, and of the end of the waves."""
-        of_measurement = () if self.measured is None else self.measured.findings
+        of_measurement = () if self.measured is None else (*self.measured.findings, *self.noise)
         if self.correlation is None:
             return of_measurement
         ridges = [f for f in self.direction if f.severity != Severity.GOOD]
@@ -269,10 +270,19 @@ class Surface(Described):
         across = [cleaned for _, cleaned in self.measured.across]
         return (direction_of_profiles(self.measured.cleaned, across, lags),)
 
+    @cached_property
+    def noise(self) -> tuple[Finding, ...]:
+        """What white noise of the measured heights changes; nothing without a cut-off."""
+        if self.measured is None or (self.end is None and self.waves is None):
+            return ()
+        finding = noise_finding(self.measured.heights, self.cutoff_wavelength)
+        return () if finding is None else (finding,)
+
     @property
     def doubts(self) -> tuple[Finding, ...]:
         """Findings that make the answer unreliable."""
-        return () if self.measured is None else self.measured.doubts
+        of_noise = (f for f in self.noise if f.severity == Severity.DOUBT)
+        return () if self.measured is None else (*self.measured.doubts, *of_noise)
 
     @property
     def extrapolated(self) -> tuple[Finding, ...]:
