@@ -20,7 +20,6 @@ import numpy as np
 from gripscale.case_file.read import validate
 from gripscale.case_file.tables import SurfaceTable
 from gripscale.core import ZERO_CELSIUS, Finding, GripscaleError, InputError, Severity, in_mm
-from gripscale.io.text_table import EXCEL
 from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import FileLayout
@@ -29,7 +28,7 @@ from gripscale.rubber.prony import largest_modulus
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, read_map, read_profile
 from gripscale.surface.plausibility import has_likely_units
-from gripscale.surface.read import TEXT_SUFFIXES
+from gripscale.surface.read import POINT_SUFFIXES, is_text_surface
 from gripscale.surface.supports import road_between, support_plates
 
 _Measurement = TypeVar("_Measurement")
@@ -167,8 +166,8 @@ def open_surface(
     """
     options = _step_option(step) | units
     # an instrument's map has profiles, too; a text with a distance and a height is no map
-    is_text = path.suffix.lower() in (*TEXT_SUFFIXES, *EXCEL)
-    readers = (read_profile, read_map) if is_text else (read_map, read_profile)
+    lines = is_text_surface(path) and path.suffix.lower() not in POINT_SUFFIXES
+    readers = (read_profile, read_map) if lines else (read_map, read_profile)
     refusals = []
     for read in readers:
         try:
