@@ -63,9 +63,7 @@ def test_a_profile_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
 def test_a_case_may_state_the_size_of_a_count(tmp_path: Path) -> None:
     path = tmp_path / "road.csv"
     path.write_text("x [mm],z [counts]\n" + rows(1e-3, 5e-7))
-    with pytest.raises(
-        FileError, match=r"column 2 is in 'counts', which is no known unit"
-    ):
+    with pytest.raises(FileError, match=r"column 2 is in 'counts', which is no known unit"):
         gs.read_profile(path)
     np.testing.assert_allclose(gs.read_profile(path, z_unit="0.5 um").z, HEIGHTS, atol=2e-9)
 
