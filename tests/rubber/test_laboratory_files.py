@@ -498,8 +498,8 @@ def test_the_kind_of_modulus_is_asked_for(tmp_path: Path, read: Callable[..., An
     assert read(path, modulus="G").storage == pytest.approx([6e6, 9e6])
 
 
-def test_compliances_are_named(tmp_path: Path) -> None:
+def test_compliances_of_creep_are_named(tmp_path: Path) -> None:
     path = tmp_path / "creep.csv"
-    path.write_text("T [°C],f [Hz],J' [1/MPa],J'' [1/MPa]\n20,1,2,3\n", encoding="utf-8")
-    with pytest.raises(InputError, match="compliances are not read, moduli are"):
+    path.write_text("T [°C],f [Hz],J [1/MPa],compliance [1/MPa]\n20,1,2,3\n", encoding="utf-8")
+    with pytest.raises(InputError, match="of compliances J' and J''"):
         gs.read_sweeps(path)

@@ -115,7 +115,7 @@ ROWS = "1,2,0.2\n10,3,0.3\n"
         (ROWS, {}, "frequency_unit must be given .* no unit"),
         (ROWS, {"frequency_unit": "Hz"}, "modulus_unit must be given"),
         (ROWS, {"frequency_unit": "Hz", "modulus_unit": "MPa"}, "modulus must be given"),
-        (ROWS, {"frequency_unit": "rpm"}, "frequency_unit must be one of Hz.* got 'rpm'"),
+        (ROWS, {"frequency_unit": "ell"}, "frequency_unit must be one of Hz.* got 'ell'"),
         ("f [Hz],E' [MPa],E''\n" + ROWS, {}, "modulus_unit .* states no unit of E''"),
         ("f [Hz],E' [ell],E'' [ell]\n" + ROWS, {}, "modulus_unit must be given .* 'ell'"),
         ("f [Hz],storage [MPa],loss [MPa]\n" + ROWS, {}, "modulus must be given"),

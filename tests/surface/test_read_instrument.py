@@ -80,7 +80,7 @@ def test_text_of_bare_points_needs_units_and_equal_steps(tmp_path):
     profile = read_profile(path, x_unit="um", z_unit="nm")
     assert profile.step == pytest.approx(0.5e-6)
     assert profile.z == pytest.approx(1e-9 * heights)
-    np.savetxt(path, np.c_[np.arange(30) ** 1.1, heights])
+    np.savetxt(path, np.c_[1.5 ** np.arange(30), heights])
     with pytest.raises(FileError, match=r"line\.xyz, line 2: expected distances in column 1"):
         read_profile(path, x_unit="um", z_unit="nm")
 

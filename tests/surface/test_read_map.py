@@ -187,7 +187,7 @@ FLAT = points()
         ("m.txt", HEIGHTS, {"step": 0.0}, InputError, "step must be greater than zero"),
         ("m.txt", HEIGHTS, {"step": "wide"}, InputError, "step must be a finite number"),
         ("m.txt", HEIGHTS, {"step": 1.0, "x_unit": "mm"}, InputError, "x_unit must be left out"),
-        ("m.txt", HEIGHTS, {"z_unit": "ft"}, InputError, "z_unit must be one of"),
+        ("m.txt", HEIGHTS, {"z_unit": "furlong"}, InputError, "z_unit must be one of"),
         ("m.txt", HEIGHTS, {"reader": "magic"}, InputError, "reader must be one of"),
         ("m.al3d", FLAT, {"reader": "instrument"}, FileError, "names no unit of length"),
     ],

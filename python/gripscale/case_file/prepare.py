@@ -47,6 +47,7 @@ from gripscale.rubber import (
 )
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
+from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
@@ -199,7 +200,7 @@ def prepare_rubber(
         return MeasuredRubber(_shifted(rubber, source, resolve), rubber.source)
     paths, layout = [resolve(name) for name in source.measured_files], source.layout()
     path = paths[0]
-    if path.suffix.lower() == ".json":
+    if path.suffix.lower() == ".json" or (len(paths) == 1 and holds_prony_table(path)):
         return _stored_rubber(path, source, resolve)
     if path.is_dir():
         raise FileError(
@@ -222,6 +223,7 @@ def prepare_rubber(
     with about_file(path, InputError):
         rubber, fit = fit_prony_report(master, **options)
     rubber = replace(rubber, strain_energy=source.strain_energy)
+    fit = replace(fit, findings=(*(master if sweeps is None else sweeps).notes, *fit.findings))
     if sweeps is not None and sweeps.is_ramp:
         fit = replace(fit, findings=(*fit.findings, OF_A_RAMP))
         sweeps, report = None, None
@@ -237,15 +239,20 @@ _DEFAULTS = {item.name: item.default for item in fields(Rubber) if item.default 
 
 
 def _stored_rubber(path: Path, source: RubberSource, resolve: Resolve) -> MeasuredRubber:
-    """Return a Prony series from a file of `Rubber.to_dict`, in which defaults may be left out."""
+    """Return a Prony series from a table, or a file of `Rubber.to_dict` without its defaults."""
+    of_table: set[str] = set() if path.suffix.lower() == ".json" else {"modulus", "modulus_unit"}
     try:
-        values = json.loads(read_bytes(path))
-    except ValueError as error:
+        if of_table:
+            stated = {"modulus": source.modulus, "modulus_unit": source.modulus_unit}
+            values: Any = read_prony_table(path, **stated)
+        else:
+            values = json.loads(read_bytes(path))
+    except json.JSONDecodeError as error:
         raise FileError(f"{path} cannot be read as a rubber: {error}") from error
     if not isinstance(values, dict):
         raise FileError(f"{path} cannot be read as a rubber: it is no JSON object")
     keys = source.model_fields_set
-    foreign = keys - OF_ANY_RUBBER - {"reference_temperature", "source"}
+    foreign = keys - OF_ANY_RUBBER - of_table - {"reference_temperature", "source"}
     if foreign:
         raise InputError(f"{path}: {min(foreign)} is for measured moduli; got a Prony series")
     with about_file(path, InputError):

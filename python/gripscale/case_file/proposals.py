@@ -19,17 +19,26 @@ import numpy as np
 
 from gripscale.case_file.read import validate
 from gripscale.case_file.tables import SurfaceTable
-from gripscale.core import ZERO_CELSIUS, Finding, GripscaleError, InputError, Severity, in_mm
-from gripscale.io.text_table import EXCEL
+from gripscale.core import (
+    ZERO_CELSIUS,
+    CaseKey,
+    Finding,
+    GripscaleError,
+    InputError,
+    Severity,
+    Words,
+    in_mm,
+)
 from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
 from gripscale.rubber.prony import largest_modulus
+from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, read_map, read_profile
 from gripscale.surface.plausibility import has_likely_units
-from gripscale.surface.read import TEXT_SUFFIXES
+from gripscale.surface.read import POINT_SUFFIXES, is_text_surface
 from gripscale.surface.supports import road_between, support_plates
 
 _Measurement = TypeVar("_Measurement")
@@ -167,8 +176,8 @@ def open_surface(
     """
     options = _step_option(step) | units
     # an instrument's map has profiles, too; a text with a distance and a height is no map
-    is_text = path.suffix.lower() in (*TEXT_SUFFIXES, *EXCEL)
-    readers = (read_profile, read_map) if is_text else (read_map, read_profile)
+    lines = is_text_surface(path) and path.suffix.lower() not in POINT_SUFFIXES
+    readers = (read_profile, read_map) if lines else (read_map, read_profile)
     refusals = []
     for read in readers:
         try:
@@ -196,6 +205,12 @@ def rubber_proposal(
     proposal.add("file", names[0] if len(names) == 1 else names)
     for key, value in settings.items():
         proposal.add(key, value, "as stated")
+    if len(paths) == 1 and holds_prony_table(paths[0]):
+        read_prony_table(paths[0], **settings)
+        _add_room(proposal, temperature)
+        if shift is not None:
+            proposal.add("shift", dict(shift), "as stated")
+        return proposal
     measured, asked = open_rubber(paths, settings)
     for key in asked:
         settings[key], words = _likely(key, paths, settings | asked)
@@ -215,6 +230,12 @@ def rubber_proposal(
     if shift is not None:
         proposal.add("shift", dict(shift), "as stated")
     stiffest = float(measured.storage.max())
+    if stiffest > _NO_SOLID:
+        words = (
+            f": the largest E' is {stiffest / 1e9:.3g} GPa, which no solid has; the numbers look "
+            "like Pa: state it"
+        )
+        raise InputError(Words(f"{paths[0]}: ", CaseKey("modulus_unit"), words))
     try:
         largest_modulus(stiffest, BULK_MODULUS)
     except InputError:
@@ -240,6 +261,7 @@ def open_rubber(
     return _read_with(read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
 
 
+_NO_SOLID = 1.2e12  # Young's modulus of diamond [Pa]
 _SOFTEST, _STIFFEST = 2e4, 1e8  # between these lies the smallest modulus of a measured rubber [Pa]
 _HOTTEST = ZERO_CELSIUS + 180.0  # mean temperature that no sweeps have [K]
 
@@ -269,12 +291,7 @@ def _add_reference(
     target = ROOM if temperature is None else temperature
     if isinstance(measured, MasterCurve):
         if measured.reference_temperature is None:
-            words = (
-                "the file states no temperature; the moduli are assumed to be measured at this one"
-            )
-            if temperature is None:
-                words += ", as is the contact; --temperature states another"
-            proposal.add("reference_temperature", celsius_text(target), words, OF_ANOTHER_CASE)
+            _add_room(proposal, temperature)
         return
     kelvin = measured.temperature
     if np.ptp(kelvin) <= _ONE_SWEEP:
@@ -287,6 +304,14 @@ def _add_reference(
     if temperature is None:
         text = f"no temperature of the contact stated: {reference - ZERO_CELSIUS:.4g} °C assumed"
         proposal.findings.append(assumption(BY_A_FACTOR, f"{text}; --temperature states another"))
+
+
+def _add_room(proposal: Proposal, temperature: float | None) -> None:
+    words = "the file states no temperature; the moduli are assumed to be measured at this one"
+    if temperature is None:
+        words += ", as is the contact; --temperature states another"
+    kelvin = celsius_text(ROOM if temperature is None else temperature)
+    proposal.add("reference_temperature", kelvin, words, OF_ANOTHER_CASE)
 
 
 NOMINAL_STEP = "5 K"  # step of nominal temperatures of ramps at several frequencies
@@ -320,6 +345,8 @@ def holds_moduli(path: Path, layout: FileLayout) -> bool:
     curve are moduli.
     """
     try:
+        if holds_prony_table(path):
+            return True
         blocks = read_blocks(path, layout, temperature_unit="C", most=ENOUGH_LINES)
     except GripscaleError:
         return False

@@ -28,7 +28,7 @@ from pydantic_core import ErrorDetails, core_schema
 
 from gripscale.core import checks
 from gripscale.core.checks import short_repr
-from gripscale.core.units import UNITS, listed, parse_quantity, spelled, such_as
+from gripscale.core.units import UNITS, listed, parse_quantity, size_of_count, spelled, such_as
 from gripscale.rubber.columns import FileLayout
 
 # Plain types in words, and in JSON Schema.
@@ -242,7 +242,7 @@ def unit_of_file(kind: str) -> Reading:
     words = f"one of {listed(kind)}"
 
     def read(value: Any) -> Any:
-        if isinstance(value, str) and spelled(value, kind) is None:
+        if isinstance(value, str) and not (spelled(value, kind) or size_of_count(value, kind)):
             raise ValueError(f"expected {words}")
         return value
 

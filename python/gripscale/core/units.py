@@ -25,8 +25,33 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 
 # A pound-force per square inch [Pa]: pound, standard gravity and inch are exact.
 _PSI = 0.45359237 * 9.80665 / 0.0254**2
-_METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12, "in": 0.0254}
-_PASCALS = {"Pa": 1.0, "kPa": 1e3, "psi": _PSI, "bar": 1e5, "MPa": 1e6, "N/mm^2": 1e6, "GPa": 1e9}
+_METRES = {
+    "m": 1.0,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "um": 1e-6,
+    "nm": 1e-9,
+    "pm": 1e-12,
+    "km": 1e3,
+    "Å": 1e-10,
+    "in": 0.0254,
+    "mil": 2.54e-5,
+    "uin": 2.54e-8,
+    "ft": 0.3048,
+    "ftUS": 1200.0 / 3937.0,
+}
+_PASCALS = {
+    "Pa": 1.0,
+    "kPa": 1e3,
+    "psi": _PSI,
+    "bar": 1e5,
+    "MPa": 1e6,
+    "N/mm^2": 1e6,
+    "GPa": 1e9,
+    "ksi": 1e3 * _PSI,
+    "mbar": 100.0,
+    "kgf/cm^2": 98066.5,
+}
 
 # Elementary charge times Avogadro's number: both exact in the SI.
 _JOULES_PER_MOLE_IN_EV = 1.602176634e-19 * 6.02214076e23
@@ -36,10 +61,20 @@ _JOULES_PER_MOLE_IN_EV = 1.602176634e-19 * 6.02214076e23
 UNITS: dict[str, dict[str, float]] = {
     "length": _METRES,
     "pressure": _PASCALS,
-    "modulus": {unit: size for unit, size in _PASCALS.items() if unit != "bar"} | {"dyn/cm^2": 0.1},
+    "modulus": _PASCALS | {"dyn/cm^2": 0.1},
+    "compliance": {"1/Pa": 1.0, "1/kPa": 1e-3, "1/MPa": 1e-6, "1/GPa": 1e-9, "cm^2/dyn": 10.0},
     "speed": {"m/s": 1.0, "mm/s": 1e-3, "km/h": 1.0 / 3.6},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
-    "frequency": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "rad/s": 0.5 / math.pi},
+    "frequency": {
+        "Hz": 1.0,
+        "kHz": 1e3,
+        "MHz": 1e6,
+        "GHz": 1e9,
+        "mHz": 1e-3,
+        "rad/s": 0.5 / math.pi,
+        "krad/s": 500.0 / math.pi,
+        "rpm": 1.0 / 60.0,
+    },
     "temperature": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
     "temperature difference": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
     "conductivity": {"W/(m K)": 1.0, "mW/(m K)": 1e-3},
@@ -61,10 +96,17 @@ _ZERO = {"C": ZERO_CELSIUS, "F": 459.67 * 5.0 / 9.0}
 _UNIT_NEEDED = ("temperature",)  # kinds whose plain numbers are ambiguous
 
 _OTHER_SPELLINGS = {
-    "um": ("micron", "microns", "micrometer", "micrometre"),
+    "um": ("micron", "microns", "micrometer", "micrometre", "micrometers", "micrometres"),
     "m": ("meter", "metre", "meters", "metres"),
-    "mm": ("millimeter", "millimetre"),
-    "in": ("inch",),
+    "mm": ("millimeter", "millimetre", "millimeters", "millimetres"),
+    "nm": ("nanometer", "nanometre", "nanometers", "nanometres"),
+    "km": ("kilometer", "kilometre", "kilometers", "kilometres"),
+    "Å": ("å", "angstrom", "angstroms", "ångström", "ångstrom"),
+    "in": ("inch", "inches"),
+    "mil": ("mils", "thou"),
+    "uin": ("µin", "μin", "microinch", "microinches"),
+    "ft": ("foot", "feet"),
+    "ftUS": ("ftus", "us-ft", "usft", "ft-us", "us survey foot", "us survey feet"),
     "W/(m K)": ("w/mk", "w/(mk)", "w/(m*k)", "w/m/k"),
     "J/(kg K)": ("j/kgk", "j/(kgk)", "j/(kg*k)", "j/kg/k"),
     "kJ/(kg K)": ("kj/(kgk)",),
@@ -74,7 +116,13 @@ _OTHER_SPELLINGS = {
     "Pa": ("n/m2", "n/m^2"),
     "dyn/cm^2": ("dyn/cm2", "dyn/cm²", "dyne/cm2", "dyne/cm^2"),
     "psi": ("lbf/in2", "lbf/in^2"),
-    "Hz": ("hz",),
+    "ksi": ("kpsi",),
+    "kgf/cm^2": ("kgf/cm2", "kgf/cm²", "kg/cm2", "kg/cm^2", "kg/cm²", "kp/cm2", "kp/cm²"),
+    "Hz": ("hz", "cps"),
+    "rad/s": ("rad/sec", "rad s-1", "rad s^-1", "rad·s-1", "rads-1", "rad.s-1", "rad/s."),
+    "rpm": ("1/min", "min-1", "min^-1", "u/min", "r/min"),
+    "1/Pa": ("pa-1", "pa^-1", "pa⁻¹", "m2/n", "m^2/n", "m²/n"),
+    "cm^2/dyn": ("cm2/dyn", "cm²/dyn", "cm2/dyne", "cm^2/dyne"),
     "C": ("°c", "degc", "deg c", "celsius"),
     "F": ("°f", "degf", "deg f", "fahrenheit"),
     "K": ("kelvin",),
@@ -112,8 +160,8 @@ def spelled(unit: object, kind: str) -> str | None:
         return None
     word = unit.strip()
     word = _SPELLINGS.get(word.lower(), _SPELLINGS.get(word.lower().replace(" ", ""), word))
-    # Two characters look like this: the micro sign and the Greek letter.
-    word = re.sub("^[µμ]", "u", word)
+    # Two characters look like this: the micro sign and the Greek letter; so do those of angstrom.
+    word = re.sub("^[µμ]", "u", word).replace("\u212b", "Å")
     return word if word in UNITS[kind] else None
 
 
@@ -127,9 +175,19 @@ def si_unit(unit: str, size: float) -> str:
     return unit if size == 1.0 and unit and not is_formula else "1"
 
 
+def size_of_count(unit: object, kind: str) -> float | None:
+    """Return the size of a unit of counts, such as "0.5 um", in the SI unit; None of any other."""
+    match = _QUANTITY.fullmatch(unit) if isinstance(unit, str) and kind == "length" else None
+    spelling = None if match is None else spelled(match[2], kind)
+    size = float(match[1]) * UNITS[kind][spelling] if match and spelling else 0.0
+    return size if 0.0 < size <= MOST else None
+
+
 def quantity_in_si(value: Value, unit: str, kind: str, name: str = "unit") -> Value:
-    """Return a number or array given in a `unit` of `kind` in the SI unit."""
-    spelling = spelled(unit, kind)
+    """Return a number or array given in a `unit` of `kind`, or in counts, in the SI unit."""
+    spelling, size = spelled(unit, kind), size_of_count(unit, kind)
+    if size is not None:
+        return value * size
     if spelling is None:
         raise InputError(f"{name} must be one of {listed(kind)}; got {short_repr(unit)}")
     zero = _ZERO.get(spelling, 0.0) if kind == "temperature" else 0.0

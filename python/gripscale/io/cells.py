@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections import Counter
+from contextlib import suppress
 
 # A line with its number in the file, from 1.
 Line = tuple[int, str]
 
 # What marks a missing value, in small letters; Excel has words for errors in each language.
 MISSING = {
+    *("inf", "-inf", "+inf", "infinity", "-infinity", "nodata", "no_data", "missing", "void"),
+    *("invalid", "masked", "overflow", "***", "****", "*****"),
     *("", "nan", "na", "n/a", "n.a.", "n. a.", "n.v.", "n.b.", "k.a.", "k. a.", "null", "none"),
     *("-", "--", "---", "–", "—", "bad", "#nv", "#n/v", "#na", "#n/a"),
     *("#num!", "#zahl!", "#value!", "#wert!", "#div/0!", "#ref!", "#bezug!", "#name?", "#null!"),
@@ -31,6 +35,10 @@ _NO_COMMENT = re.compile(
 # A comment behind the cells of a row.
 _REMARK = re.compile(r"(?<=[\d\s;,])#\s.*")
 _MINUS = str.maketrans("\u2212", "-")
+# Thousands parted by a blank of a fixed width or, between tabs or semicolons, by any blank.
+_THIN = re.compile(r"(?<=\d)[\u00a0\u2009\u202f'’](?=\d{3}(?!\d))")
+_BLANK = re.compile(r"(?<![\d.,])([+-]?\d{1,3})((?: \d{3})+)(?=[.,]\d|\s*[\t;\"]|\s*$)")
+_NO_DATA = re.compile(r"\bno data\b", re.IGNORECASE)
 
 
 def parse_number(cell: str) -> float | None:
@@ -71,11 +79,20 @@ def fits(cell: str) -> bool:
 def cells_of(line: str, separator: str | None) -> list[str]:
     """Return the cells of a line, without quotation marks and parted thousands."""
     if not line.isascii():
-        line = line.translate(_MINUS)
+        line = _THIN.sub("", line.translate(_MINUS))
+    if "'" in line:
+        line = _THIN.sub("", line)
+    if separator in ("\t", ";") and " " in line:
+        line = _BLANK.sub(lambda match: match[1] + match[2].replace(" ", ""), line)
     if separator in ("\t", ";") and "," in line and "." in line:
         line = _THOUSANDS.sub(lambda match: re.sub("[.,]", "", match[0]), line)
     if "# " in line and not is_comment(line):
         line = _REMARK.sub("", line).rstrip("\t;, ")
+    if "data" in line or "Data" in line or "DATA" in line:
+        line = _NO_DATA.sub("nodata", line)
+    if separator == "," and '"' in line:  # a comma between quotation marks parts no cells
+        with suppress(csv.Error, StopIteration):
+            return list(map(str.strip, next(csv.reader([line.strip(" \r\n")]))))
     cells = list(map(str.strip, line.strip(" \r\n").split(separator)))
     return [cell.strip('"').strip() for cell in cells] if '"' in line else cells
 

@@ -55,13 +55,20 @@ from gripscale.io.cells import (
 
 EXCEL = (".xlsx", ".xlsm")
 
+_ZIP, _WORKBOOK = b"PK\x03\x04", b"xl/workbook"  # the second is a name in an Excel file's zip
 _Rows = list[tuple[object, ...]]
 T = TypeVar("T")
 
 
 def is_excel(path: Path) -> bool:
-    """Return whether a file is an Excel file, by its suffix."""
-    return path.suffix.lower() in EXCEL
+    """Return whether a file is an Excel file, by its content, or by its suffix if it is no text."""
+    try:
+        content = path.read_bytes()
+    except (OSError, ValueError):  # said by whoever reads it
+        return path.suffix.lower() in EXCEL
+    if content.startswith(_ZIP) and _WORKBOOK in content:
+        return True
+    return path.suffix.lower() in EXCEL and not (content.strip() and is_text(content))
 
 
 def read_sheets(path: Path) -> dict[str, _Rows]:
@@ -102,9 +109,10 @@ def sheets_as_lines(path: Path, *, header: int | None = None) -> dict[str, list[
 
 
 # Binary files that are mistaken for text, by their first bytes.
+OLD_OFFICE = b"\xd0\xcf\x11\xe0"
 _BINARY = {
-    b"\xd0\xcf\x11\xe0": "an old Office file (.xls), to be saved as .xlsx",
-    b"PK\x03\x04": "a zip file; an Excel file must end in .xlsx",
+    OLD_OFFICE: "an old Office file (.xls), to be saved as .xlsx",
+    _ZIP: "a zip file that is no Excel file",
 }
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
@@ -186,6 +194,8 @@ class TextTable:
     rows: Sequence[list[str]]
     line_numbers: list[int]
     decimal: str
+    left: int = 0
+    """Columns of the file without numbers before the first one: they count, too."""
 
     @property
     def names(self) -> list[str]:
@@ -367,18 +377,21 @@ def table_in(
     decimal = _decimal_sign(path, rows, numbers)
     above = [line for _, line in lines[:first]]
     # separators at the ends of all lines make empty columns
-    full = slice(not any(row[0] for row in rows), count - (not any(row[-1] for row in rows)))
+    used = [at for at in range(count) if any(row[at] for row in rows)]
+    full = slice(used[0], used[-1] + 1)
     columns = _columns(above, count, kinds, named)
-    for at in {0, count - 1} - set(range(count)[full]):
+    for at in sorted(set(range(count)) - set(range(count)[full])):
         if named(columns[at].name):
             raise FileError(
                 f"{path}: expected numbers in column {at + 1}, {short_repr(columns[at].name)}; "
                 f"got none in {len(rows)} rows"
             )
     columns, rows = columns[full], [row[full] for row in rows]
-    if not any(columns) and len(columns) < count:  # titles without those empty cells
+    if not any(columns) and len(columns) < count:  # titles without those empty cells, or with one
+        columns = _columns(above, len(columns) + 1, kinds, named)[:-1]
+    if not any(columns) and len(columns) < count:
         columns = _columns(above, len(columns), kinds, named)
-    return TextTable(path, columns, rows, numbers, decimal)
+    return TextTable(path, columns, rows, numbers, decimal, full.start)
 
 
 def file_path(path: object) -> Path:
@@ -427,15 +440,48 @@ def read_text(path: Path) -> str:
     raw = read_bytes(path)
     if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
         return raw.decode("utf-16", errors="replace")
+    if code := _wide(raw):
+        return raw.decode(code, errors="replace")
     if raw.startswith(tuple(_BINARY)) or any(
         raw[:4096].count(code) for code in (*range(9), *range(14, 32))
     ):
         kind = next((k for start, k in _BINARY.items() if raw.startswith(start)), "binary data")
         raise FileError(f"{path}: expected a text file; got {kind}")
-    for code in ("utf-8-sig", "cp1252"):
+    for code in ("utf-8-sig", *(["gb18030"] if _is_chinese(raw) else []), "cp1252"):
         with suppress(UnicodeDecodeError):
             return raw.decode(code)
     return raw.decode("latin-1")
+
+
+def _wide(raw: bytes) -> str:
+    """Return the code of UTF-16 without a byte order mark, by its empty bytes, or nothing."""
+    start = raw[:4096]
+    for first, code in ((1, "utf-16-le"), (0, "utf-16-be")):
+        half = start[first::2]
+        if len(half) > 8 and half.count(0) > 0.9 * len(half) and not start[1 - first :: 2].count(0):
+            return code
+    return ""
+
+
+_BEYOND_ASCII = re.compile(rb"[\x80-\xff]+")
+
+
+def is_text(raw: bytes) -> bool:
+    """Return whether the content of a file is text: no empty bytes but those of UTF-16."""
+    marked = raw.startswith((b"\xff\xfe", b"\xfe\xff"))
+    return marked or bool(_wide(raw)) or not (b"\0" in raw or raw.startswith(tuple(_BINARY)))
+
+
+def _is_chinese(raw: bytes) -> bool:
+    """Return whether letters beyond ASCII are those of GB 2312, pairs of high bytes."""
+    runs = _BEYOND_ASCII.findall(raw[:65536])
+    pairs = [run[at : at + 2] for run in runs for at in range(0, len(run), 2)]
+    ideographs = sum(b"\xb0" <= pair[:1] <= b"\xf7" for pair in pairs)
+    return (
+        bool(runs)
+        and all(len(run) % 2 == 0 and min(run) >= 0xA1 for run in runs)
+        and 2 * ideographs > len(pairs) > 1
+    )
 
 
 def _first_row(path: Path, lines: list[Line], expected: str) -> tuple[int, str | None]:
@@ -487,7 +533,10 @@ def _columns(
     columns, units = [ColumnTitle()] * count, [""] * count
     for cells in filter(None, (_titles(line, count) for line in above)):
         bare = [cell.strip("()[] ") for cell in cells]
-        if any(_is_unit(cell, kinds) for cell in bare) and not any(c.endswith(":") for c in bare):
+        # F is a unit and the title of a force: a line with the name of a quantity holds titles
+        words = [cell for cell in bare if not _is_unit(cell, kinds)]
+        other = any(named(word) or word.endswith(":") or is_number(word) for word in words)
+        if len(words) < count and not other:
             units = bare
             continue
         titles = [_column_title(cell, kinds) for cell in cells]

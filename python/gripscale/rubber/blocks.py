@@ -28,7 +28,7 @@ from gripscale.rubber.shift import WLF
 from gripscale.rubber.side_by_side import split_blocks
 
 _ROWS = "rows of frequency, storage and loss"
-KINDS = ("temperature", "frequency", "modulus", "strain", "angle")
+KINDS = ("temperature", "frequency", "modulus", "compliance", "strain", "angle")
 _PARAMETERS = re.compile(r"(?:\s*\w+=[^;=]*;)+\s*")
 _STEP = re.compile(r"\[\w+\]")  # begins a step of a file of TRIOS: [step]
 _REPTATE = (ColumnTitle("frequency", "rad/s"), ColumnTitle("G'", "Pa"), ColumnTitle("G''", "Pa"))
@@ -85,7 +85,7 @@ def _blocks_in(
     expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
     lines = [(at, columns.with_logarithms(columns.with_primes(line))) for at, line in lines]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
-        return [_reptate(path, lines, expected)]
+        return [_reptate(path, lines, expected, temperature_unit or layout.temperature_unit)]
     blocks: list[Block] = []
     titles: list[Line] = []
     sections = [lines] if layout.columns else split_blocks(lines)
@@ -207,11 +207,17 @@ def _table(path: Path, lines: list[Line], expected: list[str]) -> TextTable:
         kinds=KINDS,
         named=lambda name: quantity(name) is not None or name in expected,
     )
-    return columns.raised(table)
+    return columns.with_moduli(columns.raised(table))
 
 
-def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
-    """Return the table of a file of RepTate: the temperature is that of its parameters."""
+_HOTTEST = 180.0  # temperature that no rubber is measured at [°C]
+
+
+def _reptate(path: Path, lines: list[Line], expected: list[str], unit: str | None) -> Block:
+    """Return the table of a file of RepTate: the temperature is that of its parameters.
+
+    Its unit is C unless another is stated, which must be where no rubber is that hot.
+    """
     pairs = (pair.partition("=") for pair in lines[0][1].split(";"))
     parameters = {key.strip(): value.strip() for key, _, value in pairs}
     celsius = parse_number(parameters.get("T", ""))
@@ -220,6 +226,12 @@ def _reptate(path: Path, lines: list[Line], expected: list[str]) -> Block:
             f"{path}, line {lines[0][0]}: expected T=... in degrees Celsius among the parameters; "
             f"got {parameters.get('T', 'none')}"
         )
+    if unit is None and celsius > _HOTTEST:
+        words = f" must be given (C or K), because T={parameters['T']} in C is too hot for a rubber"
+        raise unstated(f"{path}, line {lines[0][0]}: ", "temperature_unit", words)
+    if unit is not None:
+        kelvin = quantity_in_si(celsius, unit, "temperature", "temperature_unit")
+        celsius = float(kelvin) - ZERO_CELSIUS
     table = _table(path, lines[1:], expected)
     titles = [*table.columns]
     if not table.names:

@@ -1,11 +1,11 @@
 """Tables of moduli as instruments print them: what their titles mean, and Young's moduli of rows.
 
-Titles are read in English and German:
+Titles are read in English and German, those of frequency and moduli in French and Chinese, too:
 
 | quantity | titles |
 |---|---|
-| temperature | T, Temp., Temperature, Temperatur, Probentemperatur |
-| frequency | f, freq, Frequency, Frequenz, Angular frequency, Kreisfrequenz, omega |
+| temperature | T, Ts, Temp., Temperature, Temperatur, Probentemperatur |
+| frequency | f, freq, Frequency, Frequenz, Angular frequency, Kreisfrequenz, omega, Pulsation |
 | storage | E', G', E_stor, Storage modulus, Speichermodul |
 | loss | E'', G'', E", E_loss, Loss modulus, Verlustmodul |
 | loss_factor | tan delta, tan(d), Loss factor, Verlustfaktor, Damping factor |
@@ -20,6 +20,13 @@ delta, or the angle delta, state the modulus:
     E'' = E' tan d,   E' = E''/tan d,   E' = |E*|/sqrt(1 + tan^2 d)
 
 Each modulus has the unit of its own title. A loss factor may be in %, an angle states its unit.
+An angular frequency without a unit, or in 1/s, is in rad/s. Compliances J', J'' of shear or D', D''
+of tension become moduli,
+
+    G' = J'/(J'^2 + J''^2),   G'' = J''/(J'^2 + J''^2)
+
+Rows whose frequency or modulus is zero or less, up to a tenth of them, count as missing: faults of
+a measurement. More of them are a fault of the columns.
 
 A shear modulus becomes the Young's modulus of the incompressible solid by E = 3 G.
 """
@@ -36,19 +43,24 @@ import numpy as np
 
 from gripscale.core import Array, CaseKey, FileError, InputError, Mask, Words, checks, unstated
 from gripscale.core.checks import Checked, checked, shortened
-from gripscale.core.units import listed, quantity_in_si, spelled
-from gripscale.io.text_table import TextTable
+from gripscale.core.units import UNITS, listed, quantity_in_si, spelled
+from gripscale.io.text_table import ColumnTitle, TextTable
 
 _TITLES = {
     meaning: re.compile(pattern)
     for meaning, pattern in {
-        "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor",
-        "temperature": r"temp|(sample|proben)\s*-?temp",
-        "frequency": r"omega|.*freq",
-        "magnitude": r"\|?[eg]\*|.*complex .*modulus|.*komplexer .*modul",
-        "storage": r"[eg]'(?!')|[eg][_ ]?stor|.*\bstor|.*speichermodul",
-        "loss": r"[eg]''|[eg][_ ]?loss|.*\bloss|.*verlustmodul",
-        "strain": r".*strain\b|.*dehnung|.*verformung|.*deformation|gamma\b|.*scherung",
+        "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor"
+        r"|facteur de (perte|dissipation|amort)|损耗因子|損失正接",
+        "temperature": r"t[eé]mp(?!s\b)|(sample|proben)\s*-?temp|ts$|温度|試料温度",
+        "frequency": r"omega|.*(freq|fr[eé]qu|frecu)|pulsation|角?频率|角?周波数",
+        "magnitude": r"\|?[eg]\*|.*complex .*modulus|.*komplexer .*modul|复数?模量"
+        r"|.*module? complex",
+        "storage": r"[eg]'(?!')|[eg][_ ]?stor|.*\bstor|.*speichermodul|.*elastic component"
+        r"|m[oó]dul[eo] (de |d['’]|di )?(stockage|conserva|almacena|accumul|[eé]lasti)"
+        r"|储能模量|貯蔵.*率",
+        "loss": r"[eg]''|[eg][_ ]?loss|.*\bloss|.*verlustmodul|.*viscous component"
+        r"|m[oó]dul[eo] .*(perte|p[eé]rdi|visqueux|viscos)|损耗模量|損失.*率",
+        "strain": r".*strain\b|.*dehnung|.*verformung|.*d[eé]formation|gamma\b|.*scherung|应变",
     }.items()
 }
 _KINDS = {
@@ -64,9 +76,13 @@ _SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
 # A symbol before what it stands for: f = storage over its small-strain value.
 _SYMBOL = re.compile(r"^\w{1,2}'*\s*=\s*(?=[A-Za-z])")
 _OTHER = re.compile(
-    r"log|ln\b|lg\b|eta\b|η|visco|visko|complian|torque|phase|rate\b|static|statisch"
+    r"log|ln\b|lg\b|eta\b|η|visco(?!us comp)|visko|complian|torque|phase|rate\b|static|statisch"
 )
 _COMPLIANCE = re.compile(r"[JD]['’′″\"]|.*(complian|nachgieb)", re.IGNORECASE)
+_STORED, _LOST = re.compile(r"([JD])'(?!')"), re.compile(r"([JD])''")
+_ANGULAR = re.compile(r"omega|ω|angular|kreis|pulsation|角|ang\.? ?freq", re.IGNORECASE)
+# A frequency in words that mean either kind: 1/s of an angular one is rad/s.
+_PER_SECOND = re.compile(r"(1/s(ec)?|s\^?-1|s⁻¹)", re.IGNORECASE)
 _PHASE = re.compile(r"delta|δ|(phase|loss)[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE)
 # Letters that are a title by themselves: t is a time and F a force.
 _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
@@ -154,6 +170,50 @@ def stated_in(line: str, kind: str = "temperature") -> tuple[str, str | None] | 
     """Return number and unit, if any, of what a line states, such as T = 20 °C or f = 10 Hz."""
     match = _STATED[kind].search(line.strip())
     return None if match is None else (match["number"], match["before"] or match["after"])
+
+
+def with_moduli(table: TextTable) -> TextTable:
+    """Return a table with the moduli in place of compliances J', J'' or D', D''."""
+    names = [name.translate(_PRIMES) for name in table.names]
+    hits = [[at for at, name in enumerate(names) if p.match(name)] for p in (_STORED, _LOST)]
+    if any(len(columns) != 1 for columns in hits):
+        return table
+    stored, lost = (
+        quantity_in_si(
+            table.numbers(at, "a compliance", missing=True),
+            str(_compliance_unit(table, at)),
+            "compliance",
+        )
+        for (at,) in hits
+    )
+    letter = "G" if names[hits[0][0]][0].upper() == "J" else "E"
+    rows, columns = [[*row] for row in table.rows], [*table.columns]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        moduli = [part / (stored**2 + lost**2) for part in (stored, lost)]
+    for (at,), values, primes in zip(hits, moduli, ("'", "''"), strict=True):
+        columns[at] = ColumnTitle(f"{letter}{primes}", "Pa")
+        for row, value in zip(rows, values, strict=True):
+            row[at] = repr(float(value)).replace(".", table.decimal)
+    return replace(table, columns=columns, rows=rows)
+
+
+def _compliance_unit(table: TextTable, column: int) -> str:
+    title = table.columns[column]
+    unit = spelled(title.unit, "compliance")
+    if unit is None:
+        raise FileError(
+            f"{table.path}: the title of the compliance {title.name} must state one of "
+            f"{listed('compliance')}; got {title.unit or 'none'}"
+        )
+    return unit
+
+
+def unit_in(title: ColumnTitle, kind: str) -> str | None:
+    """Return the unit of a kind that a title states or means, in its usual spelling, or None."""
+    if kind != "frequency" or not (title.unit is None or _PER_SECOND.fullmatch(title.unit)):
+        return spelled(title.unit, kind)
+    angular = _ANGULAR.search(title.name) or title.name in ("w", "W")
+    return "rad/s" if angular else title.unit and "Hz"
 
 
 MODULI = ("storage", "loss", "loss_factor", "magnitude", "phase")
@@ -250,6 +310,10 @@ class FileLayout(Checked):
         taken = {position_of(table, column) for column in columns.values()}
         titled = [at for at, title in enumerate(table.columns) if quantity(title.name) == wanted]
         hits = [at for at in titled if at not in taken]
+        kind = "modulus" if wanted in MODULI and wanted not in RATIOS else wanted
+        if kind in UNITS:  # a force F and a frequency f are told apart by their units
+            named = [at for at in hits if unit_in(table.columns[at], kind)]
+            hits = [at for at in hits if at in named or not table.columns[at].unit] or hits
         if not all(_agree(table, hits[0], at) for at in hits[1:]):
             titles = shortened(", ".join(table.columns[at].name for at in hits))
             why = f"because {len(hits)} titles mean it ({titles})"
@@ -273,14 +337,16 @@ class FileLayout(Checked):
         """Return the unit of a column; raise `InputError` if nothing states it."""
         chosen_unit: str | None = getattr(self, f"{kind}_unit")
         header = table.columns[column].unit
-        unit = spelled(header, kind)
+        unit = unit_in(table.columns[column], kind)
         if chosen_unit is not None and not (self.titles_first and unit):
             return chosen_unit
         if unit is None:
-            what = "no unit" if header is None else checks.short_repr(header)
+            what = "no unit" if header is None else f"the unknown unit {checks.short_repr(header)}"
             title = shortened(table.columns[column].name) or f"column {column + 1}"
-            why = f"({listed(kind)}), because the header states {what} of {title}"
-            raise unstated(f"{table.path}: ", f"{kind}_unit", f" must be given {why}")
+            why = f" must be given ({listed(kind)}), because the header states {what} of {title}"
+            words = Words(f"{table.path}: ", CaseKey(f"{kind}_unit"), why)
+            # not `missing` where a unit is stated: it is never proposed over
+            raise InputError(words, missing="" if header else f"{kind}_unit")
         return unit
 
     def modulus_of(self, table: TextTable, chosen: Sequence[int]) -> str:
@@ -299,7 +365,7 @@ def _agree(table: TextTable, first: int, second: int) -> bool:
     """Return whether two columns hold the same, frequencies perhaps in Hz and in rad/s."""
     if all(row[first] == row[second] for row in table.rows):
         return True
-    units = [spelled(table.columns[at].unit, "frequency") for at in (first, second)]
+    units = [unit_in(table.columns[at], "frequency") for at in (first, second)]
     if None in units:
         return False
     one_way, other = (
@@ -312,7 +378,12 @@ def _agree(table: TextTable, first: int, second: int) -> bool:
 def position_of(table: TextTable, column: str | int) -> int:
     """Return the position, from 0, of a column given by its number from 1 or by its title."""
     if not isinstance(column, str):
-        return checks.counted(f"{table.path}: a column", column, len(table.columns))
+        # columns of words before the first one with numbers count, too
+        last = table.left + len(table.columns)
+        position = checks.counted(f"{table.path}: a column", column, last) - table.left
+        if position < 0:
+            raise InputError(f"{table.path}: column {column} holds no numbers")
+        return position
     if table.names.count(column) != 1:
         raise InputError(
             Words(
@@ -330,12 +401,22 @@ def missing(table: TextTable, what: str) -> InputError:
     names = shortened(", ".join(filter(None, table.names)))
     header = f"the header has {names}" if names else "no header"
     if any(_COMPLIANCE.match(name) for name in table.names):
-        header += "; compliances are not read, moduli are"
+        header += "; of compliances J' and J'' or D' and D'' by frequency are read"
     words = Words(f"{table.path}: ", CaseKey("columns"), f" must give the {what}; {header}")
     if what != "frequency" or all(quantity(name) != "temperature" for name in table.names):
         return InputError(words, missing="columns")
     key, where = CaseKey("frequency"), "; where all rows are at the same frequency, "
     return InputError(Words(words, where, key, ' states it, such as "10 Hz"'), missing="frequency")
+
+
+def other_content(table: TextTable) -> str:
+    """Return what a table with too few columns for moduli holds, in words."""
+    columns = str(len(table.columns))
+    if any(_COMPLIANCE.match(name) for name in table.names):
+        return f"{columns}, a compliance ({table.titles}): creep is not read, sweeps are"
+    if any(quantity(name) == "loss_factor" for name in table.names):
+        return f"{columns}, the loss factor alone ({table.titles}): a modulus is needed, too"
+    return columns + (f" ({table.titles})" if table.names else "")
 
 
 _ROUNDING = 0.05  # relative error of a loss factor by the digits it is printed with
@@ -434,9 +515,30 @@ def above_zero(table: TextTable, column: int, wanted: str) -> Array:
     what = f"a {wanted.replace('_', ' ')}"
     within = f"{what} between {checks.LEAST:g} and {checks.MOST:g}"
     values = table.numbers(column, within, missing=True)
-    check_rows(table, column, ~(values <= 0.0), values, f"{what} above zero")
+    faults = values <= 0.0
+    if faults.sum() > FEW * len(values):
+        check_rows(table, column, ~faults, values, f"{what} above zero")
+    values = np.where(faults, np.nan, values)
     check_rows(table, column, values >= checks.LEAST, values, within)
     return values
+
+
+FEW = 0.1  # share of rows with a value of zero or less that are left out as faults
+
+
+def left_out(table: TextTable, layout: FileLayout) -> list[str]:
+    """Return a note of the rows that are left out because a value is zero or less."""
+    names = ("frequency", *(name for name in MODULI if name not in RATIOS))
+    columns = {layout.column(table, name) for name in names} - {None}
+    faults = np.zeros(len(table.rows), dtype=bool)
+    for column in columns:
+        if column is not None:
+            faults |= table.numbers(column, "a number", missing=True) <= 0.0
+    lines = [str(table.line_numbers[at]) for at in np.flatnonzero(faults)]
+    if not lines:
+        return []
+    where = f"line{'s' * (len(lines) > 1)} {', '.join(lines[:4])}{', ...' * (len(lines) > 4)}"
+    return [f"{len(lines)} of {len(faults)} rows left out, a value is zero or less ({where})"]
 
 
 def check_rows(table: TextTable, column: int, good: Mask, values: Array, expected: str) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 import gripscale
 from gripscale.core import Checked, FileError, Pictured, checked, checks, shown_value
 from gripscale.core.arrays import Array, Quantity, Vector
+from gripscale.core.units import quantity_in_si
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns
@@ -45,6 +46,8 @@ class MasterCurve(Checked, Pictured, eq=False):
     """What was measured, and where the numbers come from."""
     shift: Shift | None = field(default=None, repr=False)
     """What the curve becomes at other temperatures; a law may take its temperature."""
+    notes: tuple[str, ...] = field(default=(), repr=False)
+    """What was done to the rows of its file, such as rows left out."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -136,7 +139,7 @@ def read_master_curve(
         Whether the file holds Young's or shear moduli; needed unless its titles say so.
     reference_temperature : float, optional
         Temperature the curve holds for [K]; by default what a line above the rows states, such as
-        T = 20 °C.
+        T = 20 °C, or a column that holds one temperature.
     name, source : str, optional
         Carried along; the file's stem by default, and nothing.
     **options
@@ -158,7 +161,7 @@ def read_master_curve(
     if len(table.columns) < len(THREE):
         raise FileError(
             f"{file}, line {table.line_numbers[0]}: expected at least 3 columns "
-            f"(frequency, storage, loss); got {len(table.columns)}"
+            f"(frequency, storage, loss); got {columns.other_content(table)}"
         )
     if len(table.rows) < 2:
         raise FileError(f"{file}: {_TWO_ROWS}; got {len(table.rows)}")
@@ -179,10 +182,25 @@ def read_master_curve(
             "with the temperature of each row, or write one file for each temperature, with the "
             "temperature in its name, such as sweep_-20C.csv"
         )
+    above = _temperature_of_rows(table, layout) if above is None else above
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
-    return MasterCurve(hertz, storage, loss, reference_temperature, name, source)
+    notes = tuple(columns.left_out(table, layout))
+    return MasterCurve(hertz, storage, loss, reference_temperature, name, source, None, notes)
+
+
+def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:
+    """Return the temperature of a column in which all rows have the same [K], or None."""
+    column = layout.column(table, "temperature")
+    unit = None if column is None else columns.unit_in(table.columns[column], "temperature")
+    unit = layout.temperature_unit or unit
+    if column is None or unit is None:
+        return None
+    kelvin = quantity_in_si(table.numbers(column, "a number", missing=True), unit, "temperature")
+    kelvin = kelvin[np.isfinite(kelvin)]
+    same = kelvin.size > 0 and np.ptp(kelvin) <= _ONE_TEMPERATURE and kelvin.min() > 0.0
+    return float(kelvin.mean()) if same else None
 
 
 def _refuse_sweeps(table: TextTable, frequency: int, *, with_columns: bool) -> None:

@@ -19,7 +19,8 @@ from gripscale.rubber.columns import MODULI, quantity
 
 _MARK = re.compile(
     r"[\s_,@]*(?:\b(?:at|bei)\b)?\s*[(\[]?\s*(?:\b[Tf]\s*=)?\s*(?P<number>[-+]?\d+(?:[.,]\d+)?)\s*"
-    r"(?P<unit>(?:°|deg\.?)?\s?[CF]|K|[kM]?Hz)\s*[)\]]?(?![A-Za-z/])"
+    r"(?P<unit>(?:°|deg\.?)?\s?[CF]|K|[kM]?Hz)\s*"
+    r"(?:[)\]](?![A-Za-z])|(?![A-Za-z/]))"
 )
 _UNIT = re.compile(r"[\[(/]\s*(°?[CFK])\b")
 # Separators of cells that may be empty, as those of a line with one mark for each block are.
@@ -64,10 +65,12 @@ def split_blocks(lines: list[Line]) -> list[list[Line]]:
         return [lines]
     first, separator = start
     count = len(cells_of(lines[first][1], separator))
+    above = [(number, text.lstrip("#%! ")) for number, text in lines[:first][-_MOST_TITLES:]]
+    below = [(number, text) for number, text in lines[first:] if not is_comment(text)]
     table = [
         (number, [*cells_of(text, separator), *[""] * count][:count])
-        for number, text in lines[max(0, first - _MOST_TITLES) :]
-        if separator in text and not is_comment(text)
+        for number, text in [*above, *below]
+        if separator in text
     ]
     titles = [row for row in table if row[0] < lines[first][0]]
     columns = [_Column.of([cells for _, cells in titles], at) for at in range(count)]

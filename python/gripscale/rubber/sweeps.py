@@ -8,7 +8,7 @@ multiples of a step.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -22,7 +22,14 @@ from gripscale.core.errors import FileError, GripscaleError, InputError, about_f
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si, si_value
 from gripscale.io.text_table import file_path, file_paths, is_excel
 from gripscale.rubber.blocks import Block, read_blocks, with_named_temperature
-from gripscale.rubber.columns import APART, FileLayout, check_rows, spread_of_repeats, young_moduli
+from gripscale.rubber.columns import (
+    APART,
+    FileLayout,
+    check_rows,
+    left_out,
+    spread_of_repeats,
+    young_moduli,
+)
 from gripscale.rubber.shift import WLF
 
 # Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1.
@@ -73,6 +80,8 @@ class Sweeps(Checked, eq=False):
     name: str = checked(checks.text, default="")
     source: str = checked(checks.text, default="")
     """What was measured, and where the numbers come from."""
+    notes: tuple[str, ...] = field(default=(), repr=False)
+    """What was done to the rows of its files, such as rows left out."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -313,12 +322,14 @@ def read_sweeps(
     layout = FileLayout(modulus=modulus, frequency=frequency, **options)
     if temperature is not None:
         temperature = checks.positive("temperature", temperature, unit="K")
-    parts = []
+    parts, notes = [], []
     for file in paths:
         blocks = read_blocks(file, layout, temperature_unit=layout.temperature_unit)
         if temperature is None and len(paths) > 1:
             blocks = [with_named_temperature(block, file.stem, layout) for block in blocks]
-        parts += [_rows(block, layout.for_table(block.table), temperature) for block in blocks]
+        for table_layout, block in ((layout.for_table(block.table), block) for block in blocks):
+            parts.append(_rows(block, table_layout, temperature))
+            notes += left_out(block.table, table_layout)
     rows = np.concatenate(parts, axis=1)
     if not rows.size:
         raise FileError(f"{paths[0]}: expected rows without missing values; got none")
@@ -334,7 +345,7 @@ def read_sweeps(
     if temperature_step is not None:
         return sweeps_from_ramps(*rows, step=temperature_step, name=name, source=source)
     with about_file(paths[0], InputError):
-        return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source)
+        return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source, tuple(notes))
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:

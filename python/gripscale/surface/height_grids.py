@@ -8,7 +8,7 @@ aISO-1.0            version
     Xscale      = 1e-6  distance of points [m], Yscale that of profiles
     Zscale      = 1e-9  height of one count [m]
     *                   the heights follow
-    *                   end
+    *                   end; what follows is no part of the map
 
 A grid of ESRI (.asc) lists heights row by row from north to south, in units that it does not state:
 
@@ -33,7 +33,7 @@ from gripscale.core.wording import shortened
 _LONGEST_HEADER = 2**16
 _PAIR = re.compile(r"^\s*([A-Za-z_]\w*)\s*[=:\s]\s*(.*?)\s*$")
 _ESRI = re.compile(rb"\s*ncols[\s=:]", re.IGNORECASE)
-_BINARY = (b"bISO", b"bBCR")
+_BINARY, _TEXT = (b"bISO", b"bBCR"), (b"aISO", b"aBCR")
 _MOST_POINTS = 10**9  # points along an axis beyond which a header is taken as damaged
 
 
@@ -43,8 +43,10 @@ def is_esri_grid(raw: bytes) -> bool:
 
 
 def is_sdf_text(path: Path, raw: bytes) -> bool:
-    """Return whether a file is in the surface data format as text: by its suffix."""
-    return path.suffix.lower() == ".sdf" and not raw.startswith(_BINARY)
+    """Return whether a file is in the surface data format as text: by its first word or suffix."""
+    return raw.lstrip().startswith(_TEXT) or (
+        path.suffix.lower() == ".sdf" and not raw.startswith(_BINARY)
+    )
 
 
 def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
@@ -76,7 +78,8 @@ def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
     points, profiles = int(number(along)), int(number(across))
     by_axis = ("dx", "dy") if "dx" in header else ("cellsize", "cellsize")
     dx, dy = map(number, by_axis if esri else ("Xscale", "Yscale"))
-    cells = raw[start:].replace(b"*", b" ").replace(b"BAD", b"nan").replace(b",", b".").split()
+    heights = raw[start:] if esri else raw[start:].partition(b"*")[0]  # a trailer may follow
+    cells = heights.replace(b"BAD", b"nan").replace(b",", b".").split()
     if len(cells) != points * profiles:
         raise FileError(
             f"{path}: expected {points} x {profiles} heights by its header; got {len(cells)}"

@@ -10,8 +10,8 @@ import io
 import math
 import os
 import warnings
-from collections.abc import Collection
-from contextlib import closing
+from collections.abc import Callable
+from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -21,11 +21,20 @@ import numpy as np
 from gripscale.core import Array, FileError, InputError, about_file, checks, unstated, using_extra
 from gripscale.core.units import quantity_in_si
 from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
-from gripscale.io.text_table import EXCEL, file_path, read_bytes, read_lines, read_sheets, read_text
+from gripscale.io.text_table import (
+    OLD_OFFICE,
+    file_path,
+    is_excel,
+    is_text,
+    read_bytes,
+    read_lines,
+    read_sheets,
+    read_text,
+)
 from gripscale.surface.height_grids import is_esri_grid, is_sdf_text, read_height_grid
 from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import length_unit, read_text_map, read_text_profile
-from gripscale.surface.triangles import read_stl
+from gripscale.surface.triangles import is_stl, read_stl
 
 # Deflate, the densest packing of all formats, packs at most 1032 bytes into one.
 _MOST_POINTS_PER_BYTE = 1032
@@ -68,7 +77,7 @@ def read_instrument_file(
     raw = read_bytes(path)
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
-    stl, sdf = path.suffix.lower() == ".stl", is_sdf_text(path, raw)
+    stl, sdf = is_stl(path, raw), is_sdf_text(path, raw)
     if stl or sdf or is_esri_grid(raw):
         if step is not None:
             raise InputError(f"step must be left out; {path} states the size of its surface")
@@ -81,9 +90,12 @@ def read_instrument_file(
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
     with warnings.catch_warnings(action="ignore"):
         with using_extra("formats", f"{path}: its format", "SurfaceTopography", kind=FileError):
-            from SurfaceTopography import open_topography
+            from SurfaceTopography.IO import open_topography, readers
+        # some formats have no first bytes of their own, so that others take their files
+        suffix = path.suffix.lower().removeprefix(".")
+        formats = [r.format() for r in readers if suffix in (r.file_extensions() or ())]
         try:
-            with closing(open_topography(io.BytesIO(raw))) as reader:
+            with closing(_opened(open_topography, raw, formats)) as reader:
                 topography = _topography(path, reader.channels, channel, step)
                 points = topography.nb_grid_pts
                 if math.prod(points) > _MOST_POINTS_PER_BYTE * len(raw):
@@ -117,6 +129,14 @@ def read_instrument_file(
         return HeightField(heights[:, None], x, None, reliable)
     x, y = (quantity_in_si(np.asarray(axis, dtype=float), x_unit, "length") for axis in positions)
     return HeightField(heights, x[:, 0], y[0, :], reliable)
+
+
+def _opened(open_topography: Callable[..., Any], raw: bytes, formats: list[str]) -> Any:
+    """Return the reader of one of the formats, or else the one that takes the content."""
+    for name in formats:
+        with suppress(Exception):
+            return open_topography(io.BytesIO(raw), format=name)
+    return open_topography(io.BytesIO(raw))
 
 
 def _topography(
@@ -155,10 +175,8 @@ def _topography(
     return channel.topography(physical_sizes=sizes)
 
 
-TEXT_SUFFIXES = ("", ".dat", ".txt", ".csv", ".tsv", ".prn")
 # Points or a table of heights as text; some instruments write .asc, too.
-_POINT_SUFFIXES = (".xyz", ".asc")
-_ANY_TEXT = (*TEXT_SUFFIXES, *_POINT_SUFFIXES, *EXCEL)
+POINT_SUFFIXES = (".xyz", ".asc")
 # Sheets of a Mitutoyo roughness tester's Excel file.
 _SHEETS_OF_AN_INSTRUMENT = {"Certificate", "DATA"}
 
@@ -191,7 +209,7 @@ def read_profile(
         A text or Excel file with a distance and a height column (CAPTIF .dat, .txt, .csv, .tsv,
         .prn, .xlsx), or any line scan or map SurfaceTopography reads (needs `gripscale[formats]`).
     x_unit, z_unit : str, optional
-        Units of distance and height ("m", "cm", "mm", "um", "nm", "pm", "in") where the file does
+        Units of distance and height ("m", "mm", "um", "in", "ft", ...) where the file does
         not name them. Units are never guessed, and must not contradict the file.
     direction : {"x", "y"}, optional
         Direction of the profile in a map.
@@ -199,13 +217,13 @@ def read_profile(
         Which line of a map, counted from 0 across `direction`; the middle one by default.
     channel : str or int, optional
         Name of the channel, or its number from 1, of an instrument file that has several of
-        heights.
+        heights; of a text with several columns of heights, title or number of the column.
     sheet : str or int, optional
         Name of the Excel sheet or its number from 1, where several hold numbers.
     step : float, optional
         Distance between points [m], of a file with one column of heights or an array.
     reader : {"auto", "text", "instrument"}, optional
-        How to read the file; "auto" goes by the suffix.
+        How to read the file; "auto" goes by its content.
     z_axis : {"up", "down"}, optional
         Which way the numbers of the height column count; "down" turns depths over. By default up,
         with a doubt where the title says depth.
@@ -213,12 +231,15 @@ def read_profile(
     checks.one_of("direction", direction, ("x", "y"))
     file = _checked_path(path, x_unit, z_unit, reader)
     steps = _steps(step, x_unit)
-    if _is_text(file, "auto", _POINT_SUFFIXES) and _holds_three_columns(file):
-        points = read_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
-        field = HeightField(points.z, points.x, points.y)
-    elif _is_text(file, reader, _ANY_TEXT):
+    as_text = is_text_surface(file, reader)
+    points = file.suffix.lower() in POINT_SUFFIXES and is_text_surface(file)
+    if points and _holds_three_columns(file):
+        surface = read_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
+        field = HeightField(surface.z, surface.x, surface.y)
+    elif as_text:
         spacing = None if steps is None else steps[0]
-        profile = read_text_profile(file, x_unit=x_unit, z_unit=z_unit, sheet=sheet, step=spacing)
+        units = {"x_unit": x_unit, "z_unit": z_unit}
+        profile = read_text_profile(file, **units, sheet=sheet, step=spacing, channel=channel)
         checks.whole(f"line of {file}", line or 0, least=0, most=0)
         return upwards(profile, z_axis)
     else:
@@ -275,13 +296,15 @@ def _steps(
     return x_step, y_step
 
 
-def _is_text(path: Path, reader: str, suffixes: Collection[str]) -> bool:
-    """Return whether a file is read as text: of .asc those that begin with a row of numbers."""
-    suffix = path.suffix.lower()
-    if reader != "auto" or suffix not in suffixes:
+def is_text_surface(path: Path, reader: str = "auto") -> bool:
+    """Return whether gripscale reads a file as text: by its content, of .asc by its first line."""
+    if reader != "auto":
         return reader == "text"
-    if suffix in EXCEL:
+    if is_excel(path):
         return not set(read_sheets(path)) >= _SHEETS_OF_AN_INSTRUMENT
+    raw, suffix = read_bytes(path), path.suffix.lower()
+    if not is_text(raw) or is_stl(path, raw) or is_sdf_text(path, raw) or is_esri_grid(raw):
+        return raw.startswith(OLD_OFFICE)  # which the reader of text names
     return suffix != ".asc" or is_row(read_text(path).lstrip().partition("\n")[0])
 
 
@@ -329,7 +352,7 @@ def read_map(
     """
     file = _checked_path(path, x_unit, z_unit, reader)
     steps = _steps(step, x_unit)
-    if _is_text(file, reader, _ANY_TEXT):
+    if is_text_surface(file, reader):
         text_map = read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
         return upwards(text_map, z_axis)
     field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)

@@ -21,19 +21,27 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from gripscale.core import Array, CaseKey, Finding, Topic, Words, checks, doubt
 from gripscale.core.errors import FileError, InputError, about_file, unstated
-from gripscale.core.units import in_mm, quantity_in_si, spelled
+from gripscale.core.units import in_mm, listed, quantity_in_si, size_of_count, spelled
 from gripscale.io.cells import Line
 from gripscale.io.text_table import TextTable, column_in, read_lines, table_in
-from gripscale.surface.header import Header, read_header
-from gripscale.surface.profile import FEWEST_POINTS, TURNED_ROUND, HeightMap, Profile, even_grid
-from gripscale.surface.resampling import printed_grid
+from gripscale.surface.header import Header, erd_as_table, read_header
+from gripscale.surface.profile import (
+    FEWEST_POINTS,
+    TURNED_ROUND,
+    EvenGrid,
+    HeightMap,
+    Profile,
+    even_grid,
+)
+from gripscale.surface.resampling import printed_grid, resample
 
 _NINES = [10.0**digits - 1.0 for digits in range(3, 10)]
 _WORDS = [2.0**bits - less for bits in (15, 16, 31, 32) for less in (0.0, 1.0)]
@@ -65,7 +73,7 @@ def length_unit(
     to do about a missing unit. Raises `FileError` if neither names a unit of length, `InputError`
     if the caller's unit is unknown or contradicts the file.
     """
-    unit = spelled(named, "length")
+    unit = str(named) if size_of_count(named, "length") else spelled(named, "length")
     if argument is not None:
         if unit is not None and quantity_in_si(1.0, unit, "length") != quantity_in_si(
             1.0, argument, "length", name
@@ -74,39 +82,51 @@ def length_unit(
         return argument
     if unit is not None:
         return unit
-    problem = f"names no unit of length; {remedy} "
-    if named:
-        problem = f"is in {checks.short_repr(named)}, which is no known unit of length; give "
-    raise unstated(f"{path}: {part} {problem}", name, kind=FileError)
+    if not named:
+        raise unstated(f"{path}: {part} names no unit of length; {remedy} ", name, kind=FileError)
+    # not `missing`: what the file states is never proposed over
+    problem = f"{path}: {part} is in {checks.short_repr(named)}, which is no known unit of length ("
+    cure = ', a unit or the size of a count, such as "0.5 um"'
+    raise FileError(Words(problem, f"{listed('length')}); give ", CaseKey(name), cure))
 
 
 def _column_unit(
     table: TextTable, column: int, name: str, unit: str | None, header: str | None
 ) -> str:
     """Return the unit of a column: of its title, of the header, or stated as argument `name`."""
-    part, named = f"column {column + 1}", table.columns[column].unit or header
+    part, titled = f"column {column + 1}", table.columns[column].unit
+    # a factor of the header is that of counts, radians or volts in the title
+    counted = bool(titled) and not spelled(titled, "length") and size_of_count(header, "length")
+    named = header if counted else titled or header
     remedy = f"write it in the title, such as '{name[0]} [mm]', or give"
     return length_unit(table.path, part, named, name, unit, remedy=remedy)
 
 
 _DISTANCE_TITLE = re.compile(
-    r"^\W*(x\b|x_|dist|pos|length|lateral|weg\b|abstand|l(ä|ae)nge|strecke|station)", re.IGNORECASE
+    r"^\W*(x\b|x_|dist|pos|length|lateral|weg\b|abstand|l(ä|ae)nge|strecke|station|chainage|travel"
+    r"|longueur|abscisse|距离|位置)",
+    re.IGNORECASE,
 )
 _ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
 _HEIGHT_TITLE = re.compile(
-    r"^\W*(z\b|z_|height|depth|h(ö|oe)he|tiefe|profondeur|elev|relative.height|profile)",
+    r"^\W*(z\b|z_|height|depth|h(ö|oe)he|tiefe|profondeur|elev|relative.height|profile"
+    r"|(raw|total|primary|waviness|roughness) profile|hauteur|altitude|altezza|altura|高度)",
     re.IGNORECASE,
 )
-
+_TIME_TITLE = re.compile(r"^\W*(time|zeit|temps|tiempo|tempo|t|时间)(\b|_)", re.IGNORECASE)
+_INDEX_TITLE = re.compile(
+    r"^\W*((index|idx|no|nr|n°|id|points?|pts?|punkt|count|row|sample)[ _.]*(no|nr|number)?)?\W*$",
+    re.IGNORECASE,
+)
+_WAVENUMBER = re.compile(r"^\W*(q|k|wave ?(number|vector)|wellenzahl)\b", re.IGNORECASE)
+_SPECTRUM = re.compile(r"^\W*(c\b|c_|c\(|psd|power|spectr|leistungsdichte)", re.IGNORECASE)
 
 # Most points of a grid, in points of the file: with fewer on it, the file is not on a grid.
 _MOST_TIMES = 100
 
 
-def _read_table(
-    path: Path, lines: list[Line], expected: str, titles: tuple[re.Pattern[str], ...]
-) -> tuple[TextTable, list[int] | None]:
-    """Return the table of a file and its columns by their titles, or None if not all are named."""
+def _read_table(path: Path, lines: list[Line], expected: str) -> TextTable:
+    titles = (_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE, _TIME_TITLE, _WAVENUMBER)
     table = table_in(
         path,
         lines,
@@ -114,10 +134,79 @@ def _read_table(
         kinds=("length",),
         named=lambda name: any(title.match(name) for title in titles),
     )
-    matches = [[i for i, name in enumerate(table.names) if t.match(name)] for t in titles]
-    if any(len(columns) != 1 for columns in matches):
-        return table, None
-    return table, [column for (column,) in matches]
+    if _titled(table, _WAVENUMBER) and _titled(table, _SPECTRUM):
+        raise FileError(
+            f"{path}: expected heights; got the power spectrum of a surface, titled "
+            f"{table.titles}, which is not read: the profiles or the map it was computed of are"
+        )
+    return table
+
+
+def _titled(table: TextTable, title: re.Pattern[str]) -> list[int]:
+    return [at for at, column in enumerate(table.columns) if title.match(column.name)]
+
+
+def _profile_columns(
+    table: TextTable, channel: str | int | None, step: float | None
+) -> tuple[int | None, int]:
+    """Return the columns of distances and heights; None for distances that the `step` states."""
+    count = len(table.columns)
+    x, z = _titled(table, _DISTANCE_TITLE), _titled(table, _HEIGHT_TITLE)
+    times = [
+        at
+        for at, column in enumerate(table.columns)
+        if at not in x and (_TIME_TITLE.match(column.name) or spelled(column.unit, "time"))
+    ]
+    numbered = [at for at in _titled(table, _INDEX_TITLE) if count > 2 and _counts(table, at)]
+    rest = [at for at in range(count) if at not in (*x, *times, *numbered)]
+    if not x and not times and step is None and len(rest) > 1:
+        if len(rest) == 2 or (len(z) == 1 and len(rest) == 2):
+            x, rest = rest[:1], rest[1:]
+        elif channel is None:
+            raise FileError(
+                f"{table.path}, line {table.line_numbers[0]}: expected two columns, distance and "
+                f"height, or titles that name them; got {count} columns "
+                f"{f'titled {table.titles}' if table.titles else 'without such titles'}"
+            )
+    z = [at for at in z if at in rest] or rest
+    if channel is not None:
+        numbers = {name: at for at, name in enumerate(table.names) if name}
+        z = [numbers[channel] if channel in numbers else _column_number(table, channel)]
+        x = [at for at in x if at not in z] or [at for at in rest if at not in z and not times][:1]
+    if len(z) != 1 or len(x) > 1:
+        listed_columns = ", ".join(f"{at + 1} {table.columns[at].name!r}" for at in z)
+        words = f"{table.path}: expected one column of heights; got {listed_columns}; give "
+        raise unstated(words, "channel", ", its title or number", kind=FileError)
+    if not x and step is None:
+        seconds = float(np.median(np.diff(table.numbers(times[0], "a time")[:100])))
+        unit = table.columns[times[0]].unit or ""
+        words = (
+            f"{table.path}: column {times[0] + 1}, {table.label(times[0])}, holds times, no "
+            "distances: give "
+        )
+        after = f", the distance between points: the speed times {seconds:.4g} {unit}".rstrip()
+        raise unstated(words, "step", after, kind=FileError)
+    return (x[0] if x else None), z[0]
+
+
+def _counts(table: TextTable, column: int) -> bool:
+    """Return whether a column holds the numbers of the rows."""
+    if column + 1 == len(table.columns):
+        return False
+    with suppress(FileError):
+        return bool((np.diff(table.numbers(column, "a number")) == 1.0).all())
+    return False
+
+
+def _column_number(table: TextTable, channel: str | int) -> int:
+    if isinstance(channel, str):
+        words = f" must be a title of a column ({table.titles or 'there are none'}); got "
+        raise InputError(
+            Words(f"{table.path}: ", CaseKey("channel"), words, checks.short_repr(channel))
+        )
+    return checks.counted(f"{table.path}: channel", channel, table.left + len(table.columns)) - (
+        table.left
+    )
 
 
 def read_text_profile(
@@ -127,18 +216,21 @@ def read_text_profile(
     z_unit: str | None,
     sheet: str | int | None = None,
     step: float | None = None,
+    channel: str | int | None = None,
 ) -> Profile:
     """Read a profile from a text or Excel file with a distance and a height column.
 
-    A `step` [m] stands for the distances of a file with one column. Units are needed where the
-    column titles do not name them. `notes` of the profile tell of rows that were reversed or left
-    out. Raises `FileError`, which names the line, if the file cannot be read or understood,
-    `InputError` if a unit is unknown or contradicts the file.
+    A `step` [m] stands for the distances of a file with one column, or with times; `channel` is the
+    column of heights where there are several. Units are needed where the column titles do not name
+    them. `notes` of the profile tell of rows that were reversed or left out, and of uneven
+    distances put on equal ones. Raises `FileError`, which names the line, if the file cannot be
+    read or understood, `InputError` if a unit is unknown or contradicts the file.
     """
-    lines = read_lines(path, sheet=sheet)
+    lines = erd_as_table(read_lines(path, sheet=sheet))
     column, header = column_in(path, lines, kinds=("length",)), read_header(lines)
+    stated = None if step is None else (step, step)
     if column is not None:
-        steps = _stated_steps(path, None if step is None else (step, step), header)
+        steps = _stated_steps(path, stated, header.steps(max(2, len(column.rows))))
         if steps is None:
             before = "expected two columns, distance and height; got one column of numbers: give "
             after = ', the distance between its points, such as "0.1 mm"'
@@ -147,28 +239,31 @@ def read_text_profile(
         printed, notes = _heights(column, 0, unit)
         x, z = steps[0] * np.arange(printed.size), quantity_in_si(printed, unit, "length")
         return _profile(path, np.asarray(x, float), z, notes, depth_doubts(column, 0))
-    if step is not None:
-        raise InputError(f"step must be left out; {path} states where its points are")
-    table, columns = _read_table(
-        path, lines, "rows with two columns of numbers", (_DISTANCE_TITLE, _HEIGHT_TITLE)
-    )
-    if columns is None and len(table.columns) != 2:
-        raise FileError(
-            f"{table.path}, line {table.line_numbers[0]}: expected two columns, distance and "
-            f"height, or titles that name them; got {len(table.columns)} columns "
-            f"{f'titled {table.titles}' if table.titles else 'without such titles'}"
-        )
-    x_column, z_column = columns or (0, 1)
-    x_unit = _column_unit(table, x_column, "x_unit", x_unit, header.x_unit)
+    table = _read_table(path, lines, "rows with two columns of numbers")
+    steps = _stated_steps(path, stated, header.steps(max(2, len(table.rows))))
+    x_column, z_column = _profile_columns(table, channel, None if steps is None else steps[0])
+    if x_column is not None:
+        x_unit = _column_unit(table, x_column, "x_unit", x_unit, header.x_unit)
     z_unit = _column_unit(table, z_column, "z_unit", z_unit, header.z_unit)
-    x = table.numbers(x_column, f"a distance in column {x_column + 1}")
     z, notes = _heights(table, z_column, z_unit)
+    # the "Depth" of CAPTIF counts upwards: the steel plates on which its profilometer stands are
+    # above the road in its files (https://github.com/captif-nz/captif-slp)
+    captif = any("*****DATA*****" in text for _, text in lines[:20])
+    doubts = () if captif else depth_doubts(table, z_column)
+    if x_column is None and steps is not None:
+        x, z = steps[0] * np.arange(z.size), quantity_in_si(z, z_unit, "length")
+        return _profile(path, np.asarray(x, float), z, notes, doubts)
+    if x_column is None or x_unit is None or step is not None:
+        raise InputError(f"step must be left out; {path} states where its points are")
+    x = table.numbers(x_column, f"a distance in column {x_column + 1}")
     numbers = table.line_numbers
     if x[0] > x[-1]:
         x, z, numbers = x[::-1], z[::-1], numbers[::-1]
         notes.append(TURNED_ROUND)
-    with _unless_exchanged(table, x_column, z_column):
-        grid = printed_grid(table, x_column, x, numbers)
+    grid = _even_grid(table, x_column, z_column, x, numbers)
+    if grid is None:
+        metres = quantity_in_si(x, x_unit, "length")
+        return _resampled(path, metres, quantity_in_si(z, z_unit, "length"), notes, doubts)
     if grid.left_out:
         rows = "1 row" if grid.left_out == 1 else f"{grid.left_out} rows"
         notes.append(
@@ -176,10 +271,40 @@ def read_text_profile(
         )
     x = quantity_in_si(grid.points(x), x_unit, "length")
     z = quantity_in_si(grid.spread(z), z_unit, "length")
-    # the "Depth" of CAPTIF counts upwards: the steel plates on which its profilometer stands are
-    # above the road in its files (https://github.com/captif-nz/captif-slp)
-    captif = any("*****DATA*****" in text for _, text in lines[:20])
-    return _profile(path, x, z, notes, () if captif else depth_doubts(table, z_column))
+    return _profile(path, x, z, notes, doubts)
+
+
+# Of uneven steps the mean over the median: 1.4 of points at random, more of a scan with a long gap
+# and of frequencies.
+_MOST_UNEVEN = 2.0
+_BRIDGE = 4.0  # mean steps over which a straight line is drawn: of points at random nearly all
+
+
+def _even_grid(
+    table: TextTable, x_column: int, z_column: int, x: Array, numbers: list[int]
+) -> EvenGrid | None:
+    """Return the grid of the distances, or None for uneven ones that rise throughout."""
+    try:
+        with _unless_exchanged(table, x_column, z_column):
+            return printed_grid(table, x_column, x, numbers)
+    except FileError as error:
+        steps = np.diff(x)
+        uneven = steps.min() > 0.0 and steps.mean() <= _MOST_UNEVEN * np.median(steps)
+        if error.missing or not uneven:
+            raise
+        return None
+
+
+def _resampled(
+    path: Path, x: Array, z: Array, notes: list[str], doubts: tuple[Finding, ...]
+) -> Profile:
+    """Return a profile of uneven distances on steps of their mean."""
+    steps = np.diff(x)
+    mean = float(steps.mean())
+    with about_file(path):
+        even = resample(x, z, mean, bridge=_BRIDGE * mean, name=path.stem, source=str(path))
+    text = f"uneven steps of {in_mm(steps.min(), 3)} to {in_mm(steps.max(), 3)}"
+    return replace(even, notes=(*notes, text, *even.notes), doubts=doubts)
 
 
 def _profile(
@@ -218,7 +343,8 @@ def _unless_exchanged(table: TextTable, x_column: int, z_column: int) -> Iterato
         raise FileError(
             f"{table.path}: columns {x_column + 1} and {z_column + 1} look exchanged: expected "
             f"distances in column {x_column + 1}, but column {z_column + 1} goes in equal steps; "
-            f"{titles}, such as 'x [mm]' for distances and 'z [mm]' for heights"
+            f"{titles}, such as 'x [mm]' for distances and 'z [mm]' for heights",
+            missing="titles",
         ) from error
 
 
@@ -235,13 +361,13 @@ def _heights(table: TextTable, column: int, unit: str) -> tuple[Array, list[str]
 
 
 def _stated_steps(
-    path: Path, steps: tuple[float, float] | None, header: Header
+    path: Path, steps: tuple[float, float] | None, stated: tuple[float, float] | None
 ) -> tuple[float, float] | None:
-    """Return the caller's steps [m], or those of the header, which must be the same."""
-    if steps is None or header.step is None or np.allclose(steps, header.step, rtol=1e-6, atol=0.0):
-        return steps or header.step
+    """Return the caller's steps [m], or those that the file states, which must be the same."""
+    if steps is None or stated is None or np.allclose(steps, stated, rtol=1e-6, atol=0.0):
+        return steps or stated
     by_caller, by_file = (
-        " and ".join(in_mm(s) for s in dict.fromkeys(pair)) for pair in (steps, header.step)
+        " and ".join(in_mm(s) for s in dict.fromkeys(pair)) for pair in (steps, stated)
     )
     raise InputError(f"step is {by_caller}, but {path} says {by_file}; give one of them")
 
@@ -254,16 +380,16 @@ def read_text_map(
     Raises `FileError`, which names the line if possible, if the file cannot be read or understood,
     `InputError` if an argument is unknown or contradicts the file.
     """
-    titles = (_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE)
-    expected = "rows of heights, or of x, y and z"
-    lines = read_lines(path)
+    lines = erd_as_table(read_lines(path))
     header = read_header(lines)
-    table, columns = _read_table(path, lines, expected, titles)
+    table = _read_table(path, lines, "rows of heights, or of x, y and z")
     count = len(table.columns)
+    titled = [_titled(table, t) for t in (_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE)]
+    columns = [at for (at,) in titled] if all(len(hits) == 1 for hits in titled) else None
     if columns is None and count == 3:
         columns = [0, 1, 2]
     if columns is None:
-        step = _stated_steps(path, step, header)
+        step = _stated_steps(path, step, header.steps(count, len(table.rows)))
     elif step is not None:
         raise InputError(f"step must be left out; {path} states where its points are")
     doubts: tuple[Finding, ...] = ()

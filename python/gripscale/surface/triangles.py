@@ -29,6 +29,13 @@ _OVERLAP = 1.01  # area of the triangles over that of their rectangle beyond whi
 _MOST_POINTS = 10**8
 
 
+def is_stl(path: Path, raw: bytes) -> bool:
+    """Return whether a file holds triangles: by its suffix, as text by its first words, too."""
+    return path.suffix.lower() == ".stl" or (
+        raw[:512].lstrip().startswith(b"solid") and b"facet" in raw[:1024]
+    )
+
+
 def read_stl(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
     """Return x, y and heights of shape (nx, ny) in the unit of the file, NaN in holes.
 

@@ -1,0 +1,189 @@
+"""Moduli in files as laboratories have them: read right at first try, or refused by name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
+
+HERTZ = np.geomspace(0.1, 100.0, 16)
+STORAGE, LOSS = 5e6 * HERTZ**0.1, 8e5 * HERTZ**0.12
+PSI = 6894.757293168
+
+
+def rows(*columns: np.ndarray, separator: str = ",", before: str = "") -> str:
+    lines = zip(*columns, strict=True)
+    return "\n".join(before + separator.join(f"{value:.8g}" for value in line) for line in lines)
+
+
+def two(size: float, frequency: np.ndarray = HERTZ) -> str:
+    return rows(frequency, STORAGE / size, LOSS / size)
+
+
+OMEGA = 2.0 * np.pi * HERTZ
+SQUARE = STORAGE**2 + LOSS**2
+WORDS = rows(HERTZ, STORAGE, LOSS, separator=";", before="sweep;")
+CURVES: dict[str, tuple[str, dict[str, object]]] = {
+    "bar": ("Frequency (Hz),E' (bar),E'' (bar)\n" + two(1e5), {}),
+    "kgf/cm2": ("Frequency (Hz),E' (kgf/cm2),E'' (kgf/cm2)\n" + two(98066.5), {}),
+    "ksi": ("Frequency (Hz),E' (ksi),E'' (ksi)\n" + two(1e3 * PSI), {}),
+    "N/mm2": ("Frequency (Hz),E' (N/mm2),E'' (N/mm2)\n" + two(1e6), {}),
+    "angular in 1/s": ("Angular Frequency (1/s),E' (MPa),E'' (MPa)\n" + two(1e6, OMEGA), {}),
+    "rotations": ("Frequency (rpm),E' (MPa),E'' (MPa)\n" + two(1e6, 60.0 * HERTZ), {}),
+    "frequency in 1/s": ("Frequency (1/s),E' (MPa),E'' (MPa)\n" + two(1e6), {}),
+    "angular without a unit": ("Angular Frequency,E' (MPa),E'' (MPa)\n" + two(1e6, OMEGA), {}),
+    "French": (
+        "Fréquence (Hz),Module de conservation (MPa),Module de perte (MPa)\n" + two(1e6),
+        {"modulus": "E"},
+    ),
+    "Chinese": ("频率/Hz,储能模量/MPa,损耗模量/MPa\n" + two(1e6), {"modulus": "E"}),
+    "components": (
+        "Step;Time (s);Frequency(Hz);Shear modulus (elastic component)(Pa);"
+        "Shear modulus (viscous component)(Pa)\n"
+        + rows(HERTZ, STORAGE / 3, LOSS / 3, separator=";", before="sweep;1;"),
+        {},
+    ),
+    "force F beside frequency f": (
+        "f\tF\tE'\tE''\n[Hz]\t[N]\t[MPa]\t[MPa]\n"
+        + rows(HERTZ, 0.0 * HERTZ + 1.5, STORAGE / 1e6, LOSS / 1e6, separator="\t"),
+        {},
+    ),
+    "columns counted with words": (
+        "what;x1;x2;x3\n" + WORDS,
+        {"columns": (2, 3, 4), "modulus": "E", "modulus_unit": "Pa", "frequency_unit": "Hz"},
+    ),
+    "tensile compliance": (
+        "f (Hz),D' (1/MPa),D'' (1/MPa)\n"
+        + rows(HERTZ, 1e6 * STORAGE / SQUARE, 1e6 * LOSS / SQUARE),
+        {},
+    ),
+    "shear compliance": (
+        "f (Hz),J' (1/Pa),J'' (1/Pa)\n" + rows(HERTZ, 3 * STORAGE / SQUARE, 3 * LOSS / SQUARE),
+        {},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", CURVES)
+def test_a_master_curve_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
+    text, options = CURVES[kind]
+    path = tmp_path / "dma.csv"
+    path.write_bytes(text.encode("gb18030" if kind == "Chinese" else "utf-8"))
+    master = gs.read_master_curve(path, **options)
+    np.testing.assert_allclose(master.frequency, HERTZ, rtol=1e-6)
+    np.testing.assert_allclose(master.storage, STORAGE, rtol=1e-6)
+    np.testing.assert_allclose(master.loss, LOSS, rtol=1e-6)
+    assert master.notes == ()
+
+
+def test_a_unit_that_is_not_known_is_never_proposed_over(tmp_path: Path) -> None:
+    path = tmp_path / "dma.csv"
+    path.write_text("Frequency (Hz),E' (furlong),E'' (furlong)\n" + two(1e6))
+    with pytest.raises(InputError, match=r"modulus_unit .* the unknown unit 'furlong'") as refused:
+        gs.read_master_curve(path)
+    assert refused.value.missing == ""
+
+
+def test_german_letters_are_no_chinese(tmp_path: Path) -> None:
+    path = tmp_path / "dma.csv"
+    text = "Prüfkörper für Öl, Maß °C\nFrequenz [Hz],Speichermodul [MPa],Verlustmodul [MPa]\n"
+    path.write_bytes((text + two(1e6)).encode("cp1252"))
+    assert len(gs.read_master_curve(path, modulus="E")) == len(HERTZ)
+
+
+@pytest.mark.parametrize(("column", "value"), [(0, 0.0), (2, 0.0), (2, -2e5)])
+def test_one_bad_row_is_left_out_and_said(tmp_path: Path, column: int, value: float) -> None:
+    data = np.c_[HERTZ, STORAGE, LOSS]
+    data[3, column] = value
+    path = tmp_path / "dma.csv"
+    path.write_text("f (Hz),E' (Pa),E'' (Pa)\n" + rows(*data.T))
+    master = gs.read_master_curve(path)
+    assert len(master) == len(HERTZ) - 1
+    assert master.notes == ("1 of 16 rows left out, a value is zero or less (line 5)",)
+    data[:, column] = value  # all rows: no fault of a row
+    path.write_text("f (Hz),E' (Pa),E'' (Pa)\n" + rows(*data.T))
+    with pytest.raises(FileError, match="above zero"):
+        gs.read_master_curve(path)
+
+
+def test_a_frequency_in_the_title(tmp_path: Path) -> None:
+    celsius = np.arange(-30.0, 61.0, 5.0)
+    moduli = 1e2 * np.exp(-celsius / 40.0)
+    body = rows(celsius, moduli, 0.1 * moduli, 1.3 * moduli, 0.2 * moduli, separator=";")
+    title = "##Temp./°C;E'(1,000Hz)/MPa;E''(1,000Hz)/MPa;E'(10,000Hz)/MPa;E''(10,000Hz)/MPa\n"
+    path = tmp_path / "ramp.txt"
+    path.write_bytes((title + body.replace(".", ",")).encode("cp1252"))
+    sweeps = gs.read_sweeps(path)
+    assert np.unique(sweeps.frequency).tolist() == [1.0, 10.0]
+    np.testing.assert_allclose(sweeps.storage[sweeps.frequency == 10.0], 1.3e6 * moduli, rtol=1e-6)
+
+
+def test_times_and_temperatures_are_told_apart_by_their_units(tmp_path: Path) -> None:
+    path = tmp_path / "sweep.txt"
+    tables = "".join(
+        f"Intervalle:\t{celsius}\nDonnées:\tTemps\tPulsation\tModule de Stockage\tModule de Perte\t"
+        "Température\n\t[s]\t[rad/s]\t[Pa]\t[Pa]\t[°C]\n"
+        + rows(HERTZ, OMEGA, STORAGE, LOSS, celsius + 0.0 * HERTZ, separator="\t", before="\t")
+        + "\n"
+        for celsius in (10, 20)
+    )  # fmt: skip
+    path.write_text(tables, encoding="utf-16")
+    sweeps = gs.read_sweeps(path, modulus="E", tolerance=0.5)
+    np.testing.assert_allclose(sweeps.temperatures, [283.15, 293.15])
+
+
+@pytest.mark.parametrize(("unit", "kelvin"), [("K", 298.0), ("C", 571.15), (None, None)])
+def test_a_temperature_too_hot_for_its_unit(
+    tmp_path: Path, unit: str | None, kelvin: float | None
+) -> None:
+    path = tmp_path / "sweep.tts"
+    path.write_text("T=298;Mw=1;\n" + rows(OMEGA, STORAGE / 3, LOSS / 3, separator=" "))
+    if kelvin is None:
+        with pytest.raises(InputError, match="too hot for a rubber") as refused:
+            gs.read_sweeps(path)
+        assert refused.value.missing == "temperature_unit"
+    else:
+        sweeps = gs.read_sweeps(path, temperature_unit=unit)
+        assert sweeps.temperatures == pytest.approx([kelvin])
+
+
+def test_a_column_of_one_temperature_is_that_of_the_curve(tmp_path: Path) -> None:
+    path = tmp_path / "dma.csv"
+    path.write_text(
+        "f (Hz),E' (Pa),E'' (Pa),T (°C)\n" + rows(HERTZ, STORAGE, LOSS, 20.9 + 0.0 * HERTZ)
+    )
+    assert gs.read_master_curve(path).reference_temperature == pytest.approx(294.05)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("Time (s),Creep compliance (1/Pa)\n" + rows(HERTZ, 1 / STORAGE), "creep is not read"),
+        ("Frequency (Hz),tan delta\n" + rows(HERTZ, LOSS / STORAGE), "the loss factor alone"),
+    ],
+)
+def test_other_quantities_are_named(tmp_path: Path, text: str, says: str) -> None:
+    path = tmp_path / "dma.csv"
+    path.write_text(text)
+    with pytest.raises(GripscaleError, match=says):
+        gs.read_master_curve(path)
+
+
+@pytest.mark.parametrize(("title", "size"), [("E_i (MPa)", 1.0), ("G_i (MPa)", 3.0)])
+def test_a_prony_series_in_a_table(tmp_path: Path, title: str, size: float) -> None:
+    path = tmp_path / "relax.csv"
+    path.write_text(f"tau (s),{title}\n0.001,5\n1,3\n100,1.5\ninf,2\n")
+    assert holds_prony_table(path)
+    assert read_prony_table(path) == {
+        "equilibrium_modulus": 2e6 * size,
+        "moduli": [5e6 * size, 3e6 * size, 1.5e6 * size],
+        "relaxation_times": [0.001, 1.0, 100.0],
+    }
+    path.write_text(f"tau (s),{title}\n0.001,5\n1,3\n")
+    with pytest.raises(FileError, match="one row with inf as relaxation time"):
+        read_prony_table(path)

@@ -1,0 +1,202 @@
+"""Surfaces in files as laboratories have them: read right at first try, or refused by name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gripscale as gs
+from gripscale.core.errors import FileError, GripscaleError, InputError
+
+HEIGHTS = 1e-3 * np.sin(np.arange(120) / 7.0)
+"""Heights of a profile [m] in steps of 0.1 mm, from 0 to 1 mm with six digits."""
+STEP = 1e-4
+
+
+def rows(x: float = 1e-3, z: float = 1e-3, separator: str = ",", form: str = "{:.8g}") -> str:
+    """Return distance and height in units of these sizes [m], line by line."""
+    lines = zip(STEP * np.arange(120) / x, HEIGHTS / z, strict=True)
+    return "\n".join(separator.join(form.format(value) for value in line) for line in lines)
+
+
+def heights(z: float = 1e-3) -> str:
+    return "\n".join(f"{value / z:.8g}" for value in HEIGHTS)
+
+
+US_FOOT = 1200.0 / 3937.0
+MINUS_DECIMALS = rows(separator=";", form="{:.6f}").replace(".", ",")
+INDEXED = "\n".join(f"{i},{row}" for i, row in enumerate(rows().splitlines()))
+TRAILING = "\n".join(f"{row},," for row in rows(1e-6, 1e-6).splitlines())
+PROFILES = {
+    "feet and mils": "Distance (ft),Height (mils)\n" + rows(0.3048, 2.54e-5),
+    "survey feet": "Distance [ftUS],Height [in]\n" + rows(US_FOOT, 0.0254),
+    "angstrom": "x (um),Profile (Å)\n" + rows(1e-6, 1e-10),
+    "microinch": "x (in),z (uin)\n" + rows(0.0254, 2.54e-8),
+    "kilometre": "Station (km);Elevation (mm)\n" + rows(1e3, 1e-3, ";", "{:.9f}"),
+    "counts": "distance [mm],height [counts]\n# 1 count = 0.5 um\n" + rows(1e-3, 5e-7),
+    "step distance": "Pen: 1000 µ\nX step distance = 0.100 mm\nHeight in mm\n" + heights(),
+    "length": "X distance = +11.9 mm\nHeight in mm\n" + heights(),
+    "pitch": "Profile height\nunit: um\npitch: 100 um\n" + heights(1e-6),
+    "ragged preamble": "Scan Type,Standard\nLocation,0.0 um, 0.0 um\nLength,1 um\n\nScan Data\n"
+    "Lateral um,Raw Micrometer,\n" + TRAILING,
+    "index": "index, x in µm, y in µm\n"
+    + "\n".join(f"{i}, {row}" for i, row in enumerate(rows(1e-6, 1e-6).splitlines())),
+    "point numbers": "Point No.,Distance (mm),Height (mm)\n" + INDEXED,
+    "quoted decimals": '"x [mm]","z [mm]"\n'
+    + "\n".join('"' + row.replace(";", '","') + '"' for row in MINUS_DECIMALS.splitlines()),
+    "road profile": "ERDFILEV2.00\n  1, 120, -1, 1, 5, 1.0E-04, -1\nTITLE road\n"
+    "LONGNAMEElevation\nUNITSNAMmm\nXUNITS  m\nEND\n" + heights(),
+}
+
+
+@pytest.mark.parametrize("kind", PROFILES)
+def test_a_profile_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / ("road.erd" if kind == "road profile" else "road.txt")
+    path.write_text(PROFILES[kind], encoding="utf-8")
+    profile = gs.read_profile(path)
+    assert profile.step == pytest.approx(STEP, rel=1e-4)
+    np.testing.assert_allclose(profile.z, HEIGHTS, atol=2e-9)
+
+
+def test_a_case_may_state_the_size_of_a_count(tmp_path: Path) -> None:
+    path = tmp_path / "road.csv"
+    path.write_text("x [mm],z [counts]\n" + rows(1e-3, 5e-7))
+    with pytest.raises(FileError, match=r"column 2 is in 'counts', which is no known unit"):
+        gs.read_profile(path)
+    np.testing.assert_allclose(gs.read_profile(path, z_unit="0.5 um").z, HEIGHTS, atol=2e-9)
+
+
+def test_a_unit_that_is_not_known_is_never_proposed_over(tmp_path: Path) -> None:
+    from gripscale.case_file.proposals import UNITS_OF_SURFACE, open_surface
+
+    path = tmp_path / "road.csv"
+    path.write_text("x [furlong],z [mm]\n" + rows())
+    with pytest.raises(FileError, match="'furlong', which is no known unit of length"):
+        open_surface(path, None, UNITS_OF_SURFACE)
+
+
+@pytest.mark.parametrize("word", ["No Data", "nodata", "inf", "-inf", "***", "void", ""])
+@pytest.mark.parametrize("separator", [",", "\t"])
+def test_words_for_missing_heights(tmp_path: Path, word: str, separator: str) -> None:
+    lines = rows(separator=separator).splitlines()
+    lines[7] = lines[7].partition(separator)[0] + separator + word
+    path = tmp_path / "road.csv"
+    path.write_text(f"x [mm]{separator}z [mm]\n" + "\n".join(lines))
+    assert np.flatnonzero(np.isnan(gs.read_profile(path).z)).tolist() == [7]
+
+
+@pytest.mark.parametrize("blank", ["\u202f", "\u00a0", " "])
+def test_thousands_parted_by_blanks(tmp_path: Path, blank: str) -> None:
+    lines = rows(z=1e-7, separator=";", form="{:.1f}").replace(".", ",").splitlines()
+    parted = [
+        line if len(line.partition(";")[2].lstrip("-")) < 6 else f"{line[:-5]}{blank}{line[-5:]}"
+        for line in lines
+    ]
+    path = tmp_path / "road.csv"
+    path.write_text("Distance (mm);Hauteur (nm)\n" + "\n".join(parted), encoding="utf-8")
+    assert any(blank in line for line in parted)
+    np.testing.assert_allclose(gs.read_profile(path).z, 1e-2 * HEIGHTS, atol=1e-10)
+
+
+@pytest.mark.parametrize("code", ["utf-16-le", "utf-16-be", "utf-16"])
+def test_wide_letters_with_and_without_a_mark(tmp_path: Path, code: str) -> None:
+    path = tmp_path / "road.txt"
+    path.write_bytes(("x [mm]\tz [mm]\n" + rows(separator="\t")).encode(code))
+    np.testing.assert_allclose(gs.read_profile(path).z, HEIGHTS, atol=2e-9)
+
+
+@pytest.mark.parametrize("suffix", ["", ".prf", ".xlsx", ".dat"])
+def test_a_text_is_one_whatever_its_name(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"road{suffix}"
+    path.write_text("x [mm],z [mm]\n" + rows())
+    np.testing.assert_allclose(gs.read_profile(path).z, HEIGHTS, atol=2e-9)
+
+
+TRACKS = "Chainage (m),Left (mm),Right (mm)\n" + "\n".join(
+    f"{row},{2.0 * float(row.split(',')[1]):.8g}" for row in rows(1.0).splitlines()
+)
+
+
+@pytest.mark.parametrize(("channel", "size"), [("Left", 1.0), (2, 1.0), ("Right", 2.0), (3, 2.0)])
+def test_one_of_several_columns_of_heights(tmp_path: Path, channel: str | int, size: float) -> None:
+    path = tmp_path / "road.csv"
+    path.write_text(TRACKS)
+    with pytest.raises(FileError, match=r"got 2 'Left', 3 'Right'; give channel") as refused:
+        gs.read_profile(path)
+    assert refused.value.missing == "channel"
+    np.testing.assert_allclose(gs.read_profile(path, channel=channel).z, size * HEIGHTS, atol=2e-9)
+    with pytest.raises(InputError, match="channel"):
+        gs.read_profile(path, channel="Middle")
+
+
+@pytest.mark.parametrize("title", ["Time (s),Height (mm)", "time,z_mm"])
+def test_times_are_no_distances(tmp_path: Path, title: str) -> None:
+    path = tmp_path / "road.csv"
+    path.write_text(f"{title}\n" + rows(1.0))
+    with pytest.raises(FileError, match=r"holds times, no distances: give step.*speed") as refused:
+        gs.read_profile(path)
+    assert refused.value.missing == "step"
+    profile = gs.read_profile(path, step=STEP)
+    np.testing.assert_allclose(profile.z, HEIGHTS, atol=2e-9)
+    assert profile.step == pytest.approx(STEP)
+
+
+def test_uneven_distances_are_put_on_equal_steps_and_said(tmp_path: Path) -> None:
+    x = np.sort(np.random.default_rng(3).uniform(0.0, 100.0, 2000))
+    path = tmp_path / "road.csv"
+    np.savetxt(path, np.c_[x, np.sin(x)], delimiter=",", header="x [mm],z [mm]")
+    profile = gs.read_profile(path)
+    assert profile.step == pytest.approx(np.diff(x).mean() * 1e-3)
+    # a line over distances up to h misses a sine of 1 rad/mm by h^2/8, and gaps are missing
+    measured = np.isfinite(profile.z)
+    assert measured.mean() > 0.85  # a share of 5 exp(-4) lies in longer gaps
+    error = np.abs(1e3 * profile.z - np.sin(1e3 * profile.x))[measured]
+    assert error.max() < (4.0 * np.diff(x).mean()) ** 2 / 8.0 + 1e-6
+    assert "uneven steps of" in profile.notes[0]
+    assert "straight lines" in profile.notes[1]
+
+
+MAP = 1e-5 * np.random.default_rng(1).standard_normal((20, 24))
+"""Heights of a map [m], rows along y."""
+
+
+def table(size: float, form: str = "{:.8g}", separator: str = "\t") -> str:
+    return "\n".join(separator.join(form.format(z / size) for z in row) for row in MAP)
+
+
+MAPS = {
+    "sides": "# Width: 2.400 mm\n# Height: 2.000 mm\n# Value units: m\n" + table(1.0),
+    "scan size": "Scan size: 2.4 mm x 2.0 mm\nData unit: nm\n" + table(1e-9),
+    "calibration": '"XY calibration","100.0","um"\n"Horizontal","24"\n"Unit","um"\n\n"Height"\n'
+    + table(1e-6, '"{:.6f}"', ","),
+    "factor": "h=20 w=24\npixel size=1.0e-004 m\ndata unit=rad\n"
+    "height conversion factor (-> m)=6.3e-008\n" + table(6.3e-8),
+}
+
+
+@pytest.mark.parametrize("kind", MAPS)
+def test_a_map_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
+    path = tmp_path / "map.txt"
+    path.write_text(MAPS[kind])
+    surface = gs.read_map(path)
+    assert surface.x[1] - surface.x[0] == pytest.approx(1e-4)
+    assert surface.y[1] - surface.y[0] == pytest.approx(1e-4)
+    np.testing.assert_allclose(surface.z, MAP.T, atol=2e-12)
+
+
+@pytest.mark.parametrize("name", ["map.sdf", "map.txt"])
+def test_a_map_with_a_trailer(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    head = "aISO-1.0\nNumPoints = 24\nNumProfiles = 20\nXscale = 1e-4\nYscale = 1e-4\nZscale = 1e-6"
+    path.write_text(f"{head}\n*\n{table(1e-6)}\n*\n< PartName > plate 2 < /PartName >\n*\n")
+    np.testing.assert_allclose(gs.read_map(path).z, MAP.T, atol=2e-12)
+
+
+def test_a_spectrum_is_named_as_one(tmp_path: Path) -> None:
+    path = tmp_path / "spectrum.csv"
+    q = np.geomspace(50.0, 1e5, 80)
+    np.savetxt(path, np.c_[q, q**-3.6], delimiter=",", header="q (1/m),C (m^4)")
+    with pytest.raises(GripscaleError, match="power spectrum of a surface"):
+        gs.read_profile(path)
