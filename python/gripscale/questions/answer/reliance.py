@@ -15,7 +15,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.io.table import significant
-from gripscale.questions.answer.estimate import DIRECT, TOTAL
+from gripscale.questions.answer.estimate import DIRECT, REACH, TOTAL
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
@@ -52,7 +52,7 @@ def no_answer(data: xr.Dataset, but: str = "") -> str:
         return " ".join(["none.", *doubts, words])
     guessed = [share.sentence for share in guesses(data) if share.effect > MOST_ON_GUESSES]
     widths = [] if f"filled_{ESTIMATED_AREA}" in data else _sampled_too_little(data)
-    reasons = [*doubts, *guessed, *widths]
+    reasons = [*doubts, *guessed, *_beyond_law(data), *widths]
     return f"none to rely on. {' '.join(reasons)}" if reasons else ""
 
 
@@ -70,6 +70,15 @@ def guesses(data: xr.Dataset) -> Iterator[Finding]:
     if missing > WORTH_NAMING:
         text = f"{percent_text(missing)} of the contact lies on filled gaps of the measurement."
         yield Finding(Severity.WARNING, text, area=missing, topic=Topic.SURFACE)
+
+
+def _beyond_law(data: xr.Dataset) -> Iterator[str]:
+    """Yield that no surface like these lines under such a load was among those of the law."""
+    if float(data.get(REACH, math.nan)) > 1.0:
+        yield (
+            "So few summits of the lines carry, or so far do they stand out, that no known surface "
+            "tells the step from profile to surface: measure a map, or raise the pressure."
+        )
 
 
 def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:

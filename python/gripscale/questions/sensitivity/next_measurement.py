@@ -15,7 +15,7 @@ import xarray as xr
 from gripscale.core.arrays import Array
 from gripscale.half_space import line_to_map
 from gripscale.io.table import Column, Table, percent
-from gripscale.model import RELATIVE_LOAD, SAMPLING_FREEDOM, UPPER_HEIGHT
+from gripscale.model import LINE_UNDER_LOAD, SAMPLING_FREEDOM
 from gripscale.questions.answer.estimate import ASSUMED_FINITE_STRAIN, LINES_TO_SURFACE
 from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.questions.sensitivity.friction_sensitivity import CARRIED, LOSS, STORAGE
@@ -100,8 +100,8 @@ def _width(point: xr.Dataset, quantity: str, measured: str) -> float:
 def _factor_errors(point: xr.Dataset, quantity: str) -> dict[str, float]:
     """Return the relative standard errors of the factors of the answer, by label."""
     errors = {ASSUMED_FINITE_STRAIN.label: getattr(ASSUMED_FINITE_STRAIN, quantity).uncertainty}
-    if math.isfinite(float(point[UPPER_HEIGHT])):  # lines
-        line = line_to_map.LineUnderLoad(point[UPPER_HEIGHT].values, point[RELATIVE_LOAD].values)
+    line = line_to_map.LineUnderLoad(*(point[name].values for name in LINE_UNDER_LOAD))
+    if math.isfinite(float(line.upper_height)):  # lines
         law = line_to_map.SURFACE_OVER_LINES[quantity]
         surface = law(line, point["total_contact_fraction"].values)
         errors[LINES_TO_SURFACE] = float(surface.uncertainty)
