@@ -230,7 +230,7 @@ class FittedLaw:
             for family in {m.family for m in maps}
         }
         held_out = [_residuals(m, quantity, without[m.family]) for m in maps]
-        law = RatioLaw(*numbers.tolist(), *_scatter(maps, held_out))
+        law = RatioLaw(*numbers.tolist(), *scatter_of(maps, held_out))
         residuals = [_residuals(m, quantity, numbers) for m in maps]
         return cls(quantity, law, maps, residuals, held_out)
 
@@ -252,7 +252,7 @@ def _residuals(solved: SolvedMap, quantity: str, numbers: Array) -> Array:
     return np.asarray(solved.small(quantity) - solved.pairs @ numbers)
 
 
-def _scatter(maps: Sequence[SolvedMap], missed: Sequence[Array]) -> tuple[float, float]:
+def scatter_of(maps: Sequence[SolvedMap], missed: Sequence[Array]) -> tuple[float, float]:
     """Return the scatter at high load, and what few summits add, from what a law misses.
 
     The most likely variances of normal residuals: squares weighted by the variance itself.

@@ -1,7 +1,8 @@
 """The law of reliance: whether a result has an answer, and whether it may be relied on.
 
 There is none to rely on where the inputs may be those of another case, where more than half of
-friction or contact comes from what was not measured, or where the measured surface is too small.
+friction or contact comes from what was not measured, where the measured surface is too small, or
+where fewer summits carry than on the surfaces that the step from profiles to a surface knows.
 """
 
 from __future__ import annotations
@@ -73,11 +74,11 @@ def guesses(data: xr.Dataset) -> Iterator[Finding]:
 
 
 def _beyond_law(data: xr.Dataset) -> Iterator[str]:
-    """Yield that no surface like these lines under such a load was among those of the law."""
+    """Yield that the law from lines to their surface knows no such lines under such a load."""
     if float(data.get(REACH, math.nan)) > 1.0:
         yield (
-            "So few summits of the lines carry, or so far do they stand out, that no known surface "
-            "tells the step from profile to surface: measure a map, or raise the pressure."
+            "So few summits of the profiles carry that the step from profile to surface is beyond "
+            "the surfaces it was measured on; a map needs no such step."
         )
 
 
