@@ -8,14 +8,14 @@ to the same tolerance, as a prediction is. On four points in the smallest wave t
 is 1 to 18 % low, that of their maps 0.5 to 14 %: the errors of the grid do not cancel in the ratio
 and would become part of the law.
 
-The law is fitted to the means of sixteen lines,
+The law is fitted to pairs of lines, since two lines is what a measurement often has:
 
-    ln(map / mean of all sixteen lines) = a_0 + a_1 t + (a_2 sqrt(T) + a_3 S) / sqrt(P),
+    ln(map / mean of the pair) = a_0 + a_1 t + a_2 (T / P)^(1/3),
 
-with upper height t, tail T, shoulder S and relative load P. Its scatter is that of pairs of lines
-of families it was not fitted to, since two lines is what a measurement often has. Each seed has a
-rubber and three pressures, every other family the lower ones. Half an hour of one core; solved maps
-are kept in the output folder, and a stopped run goes on.
+with upper height t, tail T and relative load P of the pair. A pair that meets a summit has the
+larger friction and the larger tail: a law of the mean of all lines would count it twice. Each seed
+has a rubber and three pressures, every other family the lower ones. Half an hour of one core;
+solved maps are kept in the output folder, and a stopped run goes on.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ class SolvedMap:
     area: float
     friction: float
     lines: list[list[float]]
-    """Upper height, tail, shoulder and relative load of the lines that converged."""
+    """Upper height, tail and relative load of the lines that converged."""
     line_areas: list[float]
     line_frictions: list[float]
 
@@ -111,14 +111,15 @@ class SolvedMap:
         """Mean of the lines."""
         return LineUnderLoad(*np.mean(self.lines, axis=0))
 
-    def small(self, quantity: str) -> float:
-        """Return ln(map / mean of its lines) without the part of full contact."""
-        area = float(np.mean(self.line_areas))
+    def small(self, quantity: str) -> Array:
+        """Return ln(map / mean of a pair) without the part of full contact, for all pairs."""
+        area = self._pairs(self.line_areas)
         if quantity == "area":
             shrunk = np.log(erfinv(min(self.area, 1.0 - 1e-12)) / erfinv(area))
-            return float(shrunk / (1.0 - 0.5 * area))
+            return np.asarray(shrunk / (1.0 - 0.5 * area))
         full = area**4
-        return float((self.ratio(quantity) - full * np.log(FULL_CONTACT_FRICTION)) / (1.0 - full))
+        ratio = np.log(self.friction / self._pairs(self.line_frictions))
+        return np.asarray((ratio - full * np.log(FULL_CONTACT_FRICTION)) / (1.0 - full))
 
     def ratio(self, quantity: str) -> float:
         """Return ln(map / mean of its lines) of area or friction."""
@@ -230,21 +231,15 @@ class FittedLaw:
             for family in {m.family for m in maps}
         }
         held_out = [_residuals(m, quantity, without[m.family]) for m in maps]
-        law = RatioLaw(*numbers.tolist(), *scatter_of(maps, held_out))
+        law = RatioLaw(*numbers.tolist(), *scatter_of(maps, quantity, held_out))
         residuals = [_residuals(m, quantity, numbers) for m in maps]
         return cls(quantity, law, maps, residuals, held_out)
 
-    def total_errors(self) -> list[Array]:
-        """Return ln(estimate from a pair of lines / map) of all pairs of each map."""
-        return [
-            m.pair_errors(self.quantity) - missed
-            for m, missed in zip(self.maps, self.held_out, strict=True)
-        ]
-
 
 def _coefficients(maps: Sequence[SolvedMap], quantity: str) -> Array:
-    columns = np.array([[1.0, *m.line.columns] for m in maps])
-    ratios = np.array([m.small(quantity) for m in maps])
+    """Return the numbers of the law by least squares; each map counts the same."""
+    columns = np.concatenate([m.pairs / len(m.pairs) ** 0.5 for m in maps])
+    ratios = np.concatenate([m.small(quantity) / len(m.pairs) ** 0.5 for m in maps])
     return np.asarray(np.linalg.lstsq(columns, ratios, rcond=None)[0])
 
 
@@ -252,14 +247,22 @@ def _residuals(solved: SolvedMap, quantity: str, numbers: Array) -> Array:
     return np.asarray(solved.small(quantity) - solved.pairs @ numbers)
 
 
-def scatter_of(maps: Sequence[SolvedMap], missed: Sequence[Array]) -> tuple[float, float]:
+def scatter_of(
+    maps: Sequence[SolvedMap], quantity: str, missed: Sequence[Array]
+) -> tuple[float, float]:
     """Return the scatter at high load, and what few summits add, from what a law misses.
 
+    The choice of the lines is taken off in squares: an answer has the sampling error of its own.
     The most likely variances of normal residuals: squares weighted by the variance itself.
     """
-    squares = np.array([np.mean(part**2) for part in missed])
+    squares = np.array(
+        [
+            np.mean(part**2) - np.mean(m.pair_errors(quantity) ** 2)
+            for m, part in zip(maps, missed, strict=True)
+        ]
+    )
     summits = np.array([m.line.columns[1] for m in maps])
-    columns, variance = np.column_stack([np.ones_like(summits), summits**2]), np.ones_like(summits)
+    columns, variance = np.column_stack([np.ones_like(summits), summits**3]), np.ones_like(summits)
     for _ in range(20):
         parts, _ = nnls(columns / variance[:, None], squares / variance)
         variance = np.maximum(columns @ parts, 1e-12)
@@ -319,22 +322,14 @@ def summary(fitted: FittedLaw) -> Iterator[str]:
     """Yield the law, its scatter, and the correlations of what it misses."""
     law = fitted.law
     of_maps = np.array([residual.mean() for residual in fitted.residuals])
-    yield (
-        f"ln(map/lines) = {law.constant:+.3f} {law.slope:+.3f} t "
-        f"+ ({law.tail:+.4f} sqrt(T) {law.shoulder:+.4f} S) / sqrt(P)"
-    )
+    yield (f"ln(map/lines) = {law.constant:+.3f} {law.slope:+.3f} t {law.tail:+.3f} (T/P)^(1/3)")
     ends = np.max([m.line.columns for m in fitted.maps], axis=0)
-    yield f"largest t, sqrt(T/P), S/sqrt(P): {', '.join(f'{end:.1f}' for end in ends)}"
+    yield f"largest t and (T/P)^(1/3): {', '.join(f'{end:.1f}' for end in ends)}"
     yield (
-        f"scatter, pairs of lines: {_rms(fitted.residuals):.3f} about the law, "
-        f"{_rms(fitted.held_out):.3f} about laws without the family, of which {law.scatter:.3f} at "
-        f"high load and {law.tail_scatter:.3f} sqrt(T/P); all lines of a map: "
-        f"{of_maps.std():.3f} about the law"
-    )
-    yield (
-        f"estimates from pairs of lines, law without the family: rms "
-        f"{_rms(fitted.total_errors()):.3f}, of which the choice of the lines "
-        f"{_rms([m.pair_errors(fitted.quantity) for m in fitted.maps]):.3f}"
+        f"estimates from pairs of lines: rms {_rms(fitted.residuals):.3f} about the law, "
+        f"{_rms(fitted.held_out):.3f} about laws without the family, of which the choice of lines "
+        f"{_rms([m.pair_errors(fitted.quantity) for m in fitted.maps]):.3f}; scatter "
+        f"{law.scatter:.3f} at high load and {law.tail_scatter:.3f} sqrt(T/P)"
     )
     yield f"missed of the change with the lines' area on one map: {_load_sensitivity(fitted):.3f}"
     ratios = np.array([m.ratio(fitted.quantity) for m in fitted.maps])
@@ -391,7 +386,7 @@ def draw(laws: Sequence[FittedLaw], path: Path) -> None:
             members = [m for m in fitted.maps if m.family == family]
             panel.plot(
                 [fitted.law.at(m.line) for m in members],
-                [np.exp(m.small(fitted.quantity)) for m in members],
+                [np.exp(m.small(fitted.quantity).mean()) for m in members],
                 "o",
                 ms=3.5,
                 mew=0.0,

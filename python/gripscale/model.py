@@ -274,14 +274,11 @@ SAMPLING_ERRORS = {
 }
 SAMPLING_FREEDOM = "total_freedom"
 STEEP_SHARE, MISSING_SHARE = "total_steep_share", "total_missing_share"
-LINE_UNDER_LOAD = tuple(
-    f"total_{name}" for name in ("upper_height", "tail", "shoulder", "relative_load")
-)
+LINE_UNDER_LOAD = "total_upper_height", "total_tail", "total_relative_load"
 # Names of what an answer from a measured surface rests on, where a model tells it.
 BASIS = SAMPLING_ERRORS | {
     "total_upper_height": "height that 1 % of the measured lines exceed, over the rms height",
     "total_tail": "height that 0.5 % of the lines exceed less that of 2 %, over the rms height",
-    "total_shoulder": "height that 5 % of the lines exceed less that of 20 %, over the rms height",
     "total_relative_load": "pressure times largest wave, over modulus times rms height of lines",
     SAMPLING_FREEDOM: "degrees of freedom of the sampling errors",
     STEEP_SHARE: "share of the friction from contact on slopes above 1",

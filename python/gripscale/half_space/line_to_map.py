@@ -6,8 +6,8 @@ On maps of eleven families (`python -m studies.line_to_map`) the contact of the 
 lines follows how far the heights of a line reach up and, the more so the fewer of them carry, how
 far its summits stand out of the places that carry beside them:
 
-    ln f = a_0 + a_1 t + (a_2 sqrt(T) + a_3 S) / sqrt(P),    ln g = b_0 + b_1 t + ...,
-    t = (z_1 - mean height) / rms,    T = (z_0.5 - z_2) / rms,    S = (z_5 - z_20) / rms,
+    ln f = a_0 + a_1 t + a_2 (T / P)^(1/3),    ln g = b_0 + b_1 t + b_2 (T / P)^(1/3),
+    t = (z_1 - mean height) / rms,    T = (z_0.5 - z_2) / rms,
     P = pressure * largest wave / (|M| * rms),
 
 z_u is the height that u % of a line exceeds, rms that of its heights,
@@ -38,8 +38,8 @@ from gripscale.surface.profile import profile_list
 # Length of the lines the law was measured on, in largest waves; longer waves count as a slope.
 _PIECE = 16.0
 _TINY = 1e-12
-# Shares of a line that are higher than its upper height, and than the ends of tail and shoulder.
-EXCEEDED, TAIL, SHOULDER = 0.01, (0.005, 0.02), (0.05, 0.2)
+# Shares of a line that are higher than its upper height, and than both ends of its tail.
+EXCEEDED, TAIL = 0.01, (0.005, 0.02)
 
 
 class LineUnderLoad(NamedTuple):
@@ -47,14 +47,13 @@ class LineUnderLoad(NamedTuple):
 
     upper_height: float | Array  # t: height that 1 % of the line exceeds over its rms height
     tail: float | Array  # T: from the height that 2 % exceed to that of 0.5 %, over the rms height
-    shoulder: float | Array  # S: the same of 20 % and 5 %
     relative_load: float | Array  # P: pressure times largest wave over modulus times rms height
 
     @property
     def columns(self) -> tuple[Array, ...]:
         """What the numbers of a law multiply after its constant."""
-        t, tail, shoulder, load = map(np.asarray, self)
-        return t, np.sqrt(tail / load), shoulder / np.sqrt(load)
+        t, tail, load = map(np.asarray, self)
+        return t, np.cbrt(tail / load)
 
     @property
     def reach(self) -> Array:
@@ -64,37 +63,37 @@ class LineUnderLoad(NamedTuple):
 
 
 class RatioLaw(NamedTuple):
-    """ln y = constant + slope t + (tail sqrt(T) + shoulder S) / sqrt(P) of a ratio y."""
+    """A ratio ln y = constant + slope t + tail (T / P)^(1/3), and how well it is known."""
 
     constant: float
     slope: float
     tail: float
-    shoulder: float
-    # Standard deviation of ln y about the law at high load, over maps of all families.
+    # Standard deviation of ln y about the law, over maps of all families, without the error of the
+    # lines themselves: at high load, and what few summits add in squares, over sqrt(T / P).
     scatter: float
-    tail_scatter: float  # what few summits add to it in squares, over sqrt(T / P)
+    tail_scatter: float
 
     def at(self, line: LineUnderLoad) -> Array:
         """Return the ratio of lines."""
-        terms = zip(self[1:4], line.columns, strict=True)
+        terms = zip(self[1:3], line.columns, strict=True)
         return np.asarray(np.exp(self.constant + sum(number * of for number, of in terms)))
 
     def uncertainty(self, line: LineUnderLoad) -> Array:
         """Return the standard deviation of ln y about the law."""
-        return np.hypot(self.scatter, self.tail_scatter * line.columns[1])
+        return np.hypot(self.scatter, self.tail_scatter * line.columns[1] ** 1.5)
 
 
-CONTACT_FRACTION_LAW = RatioLaw(-0.077, -0.170, -0.119, 0.045, 0.122, 0.044)
-FRICTION_LAW = RatioLaw(-0.333, 0.118, 0.153, -0.057, 0.100, 0.052)
+CONTACT_FRACTION_LAW = RatioLaw(-0.081, -0.126, -0.146, 0.131, 0.052)
+FRICTION_LAW = RatioLaw(-0.349, 0.073, 0.201, 0.108, 0.066)
 FULL_CONTACT_FRICTION = 1.11
-# Degrees of freedom of the scatter: eleven families less constant and slope. The numbers of tail
-# and shoulder are known from several loads on each surface.
+# Degrees of freedom of the scatter: eleven families less constant and slope. The number of the tail
+# is known from several loads on each surface.
 FREEDOM = 9
-# The largest t, sqrt(T / P) and S / sqrt(P) of the fit: beyond, the law is a guess.
-FITTED_TO = (4.1, 24.8, 36.7)
+# The largest t and (T / P)^(1/3) of the fit: beyond, the law is a guess.
+FITTED_TO = (4.1, 8.5)
 # What the law misses of the change of the logarithm of both ratios on one surface, over that of the
 # logarithm of the lines' area: rms over pressures a factor of ten apart.
-LOAD_SENSITIVITY = 0.09
+LOAD_SENSITIVITY = 0.10
 
 
 class SurfaceOverLines(NamedTuple):
@@ -154,7 +153,7 @@ def line_under_load(
     longest = checks.positive("largest_wavelength", largest_wavelength, unit="m")
     pressed = checks.positive("pressure", pressure, unit="Pa")
     omega = 2.0 * math.pi * checks.not_negative("speed", speed, unit="m/s") / longest
-    shares = np.array([EXCEEDED, *TAIL, *SHOULDER])
+    shares = np.array([EXCEEDED, *TAIL])
     pieces, rms = [], []
     for line in profile_list(profile):
         for piece in np.array_split(line.z, max(1, round(line.length / (_PIECE * longest)))):
@@ -164,7 +163,7 @@ def line_under_load(
                 pieces.append((np.quantile(heights, 1.0 - shares) - heights.mean()) / rms[-1])
     if not pieces:
         raise InputError("profile must have two different heights at least; got none")
-    upper, *ends = np.mean(pieces, axis=0)
+    upper, top, next_to_it = np.mean(pieces, axis=0).tolist()
     modulus = abs(complex(rubber.plane_strain_modulus(omega)))
     load = pressed * longest / (modulus * float(np.mean(rms)))
-    return LineUnderLoad(float(upper), float(ends[0] - ends[1]), float(ends[2] - ends[3]), load)
+    return LineUnderLoad(upper, top - next_to_it, load)
