@@ -1,4 +1,4 @@
-"""Eight families of synthetic isotropic surfaces, each one period, to measure laws on.
+"""Eleven families of synthetic isotropic surfaces, each one period, to measure laws on.
 
 A family is a way to make heights; a seed draws its parameters from the ranges in its function. All
 have waves from 12.8 mm, the roll-off, down to 0.2 mm. What tests judge the laws by are other
@@ -178,6 +178,51 @@ def bimodal(draw: Draw) -> Array:
     return draw.sloped(form, draw.between(0.3, 0.8)) + draw.roughness(draw.between(0.1, 0.4))
 
 
+def cascade(draw: Draw) -> Array:
+    """Return octaves of waves whose amplitude grows or falls with what longer waves are.
+
+    The amplitude follows the heights of the longer octaves in part, places of its own in part.
+    """
+    hurst, strength, share = (
+        draw.between(0.7, 0.9),
+        draw.between(0.1, 0.5),
+        draw.between(-0.5, 1.0),
+    )
+    heights, modulation, largest = np.zeros(draw.shape), np.zeros(draw.shape), LARGEST
+    while largest > 1.5 * SMALLEST:
+        octave, place = (draw.gaussian(hurst, largest, 0.5 * largest) for _ in range(2))
+        heights += largest**hurst * np.exp(strength * modulation) * octave
+        modulation += share * octave + np.sqrt(1.0 - share**2) * place
+        largest *= 0.5
+    return draw.sloped(heights, draw.between(0.5, 1.5))
+
+
+def lognormal(draw: Draw) -> Array:
+    """Return lognormal heights: the exponential of a Gaussian surface, rough where it is high."""
+    gaussian = draw.gaussian(draw.between(0.7, 0.9))
+    return draw.sloped(np.exp(draw.between(0.5, 0.9) * gaussian), draw.between(0.3, 1.0))
+
+
+def exposed(draw: Draw) -> Array:
+    """Return round stones, each of its own roughness, that stand out of a smooth binder."""
+    lengths = draw.lengths
+    x, y = (draw.step * np.arange(points) for points in draw.shape)
+    size = draw.between(2e-3, 4e-3)
+    heights, rough = np.zeros(draw.shape), np.full(draw.shape, draw.between(0.05, 0.2))
+    for _ in range(int(draw.between(0.3, 1.2) * lengths[0] * lengths[1] / (2.0 * size) ** 2)):
+        middle, radius = draw.random.random(2) * lengths, size * draw.between(0.6, 1.4)
+        amplitude, out = np.exp(draw.random.normal(0.0, 0.5)), radius * draw.between(0.1, 0.9)
+        a = (x - middle[0] + 0.5 * lengths[0]) % lengths[0] - 0.5 * lengths[0]
+        b = (y - middle[1] + 0.5 * lengths[1]) % lengths[1] - 0.5 * lengths[1]
+        near = np.ix_(np.abs(a) < radius, np.abs(b) < radius)
+        inside = radius**2 - a[near[0]] ** 2 - b[near[1]] ** 2
+        cap = out - radius + np.sqrt(np.maximum(inside, 0.0))
+        rough[near] = np.where(cap > heights[near], amplitude, rough[near])
+        heights[near] = np.maximum(heights[near], cap)
+    fine = draw.roughness(draw.between(0.1, 0.4), draw.between(0.6, 0.9))
+    return heights + rough * fine
+
+
 FAMILIES: dict[str, Callable[[Draw], Array]] = {
     "skewed": skewed,
     "peaky": peaky,
@@ -187,4 +232,7 @@ FAMILIES: dict[str, Callable[[Draw], Array]] = {
     "pits": pits,
     "cells": cells,
     "bimodal": bimodal,
+    "cascade": cascade,
+    "lognormal": lognormal,
+    "exposed": exposed,
 }

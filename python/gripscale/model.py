@@ -281,12 +281,13 @@ SAMPLING_ERRORS = {
 }
 SAMPLING_FREEDOM = "total_freedom"
 STEEP_SHARE, MISSING_SHARE = "total_steep_share", "total_missing_share"
-UPPER_HEIGHT, RELATIVE_LOAD = "total_upper_height", "total_relative_load"
+LINE_UNDER_LOAD = "total_upper_height", "total_tail", "total_relative_load"
 PRESSURE_OVER_MODULUS = "total_pressure_over_modulus"
 # Names of what an answer from a measured surface rests on, where a model tells it.
 BASIS = SAMPLING_ERRORS | {
-    UPPER_HEIGHT: "height that 1 % of the measured lines exceed, over the rms height",
-    RELATIVE_LOAD: "pressure times largest wave, over modulus times rms height of the lines",
+    "total_upper_height": "height that 1 % of the measured lines exceed, over the rms height",
+    "total_tail": "height that 0.5 % of the lines exceed less that of 2 %, over the rms height",
+    "total_relative_load": "pressure times largest wave, over modulus times rms height of lines",
     PRESSURE_OVER_MODULUS: "nominal pressure over |E*| of a seventh of the largest wave",
     SAMPLING_FREEDOM: "degrees of freedom of the sampling errors",
     STEEP_SHARE: "share of the friction from contact on slopes above 1",

@@ -140,6 +140,7 @@ def test_no_answer_says_why() -> None:
             dict.fromkeys(("answer_friction_low", "answer_contact_fraction_low"), math.nan),
             "The measured surface is too small to tell whether it stands for the whole:",
         ),
+        ({"answer_line_reach": 1.1}, "So few summits of the profiles carry that the step"),
         ({"answer_missing_share": 0.51}, "51 % of the contact lies on filled gaps"),
         (
             {"total_friction_outside_band": 0.89},

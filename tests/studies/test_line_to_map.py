@@ -11,15 +11,14 @@ import pytest
 from gripscale.surface import HeightMap
 from studies import line_to_map
 from studies.line_to_map import (
-    CUT_OFF,
-    PRESSURE,
     PRESSURES,
-    SHORTER,
+    RUBBERS,
+    SPEED,
     FittedLaw,
     SolvedMap,
     draw,
     family_table,
-    loads,
+    scatter_of,
     summary,
 )
 from studies.surface_families import FAMILIES, STEP, Draw, family_map
@@ -51,18 +50,19 @@ def test_a_gaussian_surface_has_the_waves_and_the_slope_it_should() -> None:
     assert slope.std() / (2.0 * STEP) == pytest.approx(0.7)
 
 
-def lawful(family: str, seed: int, heights: list[float]) -> SolvedMap:
+def lawful(family: str, seed: int, heights: list[float], pressure: float = 3e5) -> SolvedMap:
     """Return a map whose area is small and that of its lines by a law; likewise its friction.
 
-    ln f = -0.1 - t (0.2 + 0.03 / sqrt(P)), with the means t and P of the lines.
+    ln f = -0.1 - 0.2 t - 0.03 (T / P)^(1/3), with the means of the lines.
     """
-    pressure, speed = loads(seed, family)[-1]
-    relative = pressure / 1e6 * (1.0 + len(family) / 10.0)
-    few, t = 1.0 / np.sqrt(relative), float(np.mean(heights))
-    area = 1e-6 * np.exp(-0.1 - t * (0.2 + 0.03 * few))
-    friction = 0.2 * np.exp(-0.3 + t * (0.15 + 0.02 * few))
-    lines = [[number] * len(heights) for number in (relative, 1e-6, 0.2)]
-    return SolvedMap(family, seed, 4e-4, pressure, speed, area, friction, heights, *lines)
+    relative, t = pressure / 1e6 * (1.0 + len(family) / 10.0), float(np.mean(heights))
+    tail = 0.1 + 0.2 * (seed % 3) + 0.05 * len(family)
+    few = np.cbrt(tail / relative)
+    area = 1e-6 * np.exp(-0.1 - 0.2 * t - 0.03 * few)
+    friction = 0.2 * np.exp(-0.3 + 0.15 * t + 0.02 * few)
+    lines = [[height, tail, relative] for height in heights]
+    contacts = [[number] * len(heights) for number in (1e-6, 0.2)]
+    return SolvedMap(family, seed, "tread", pressure, 0.3, area, friction, lines, *contacts)
 
 
 def test_a_law_without_scatter_comes_back() -> None:
@@ -74,9 +74,9 @@ def test_a_law_without_scatter_comes_back() -> None:
     fitted = FittedLaw.of(maps, "area")
     assert fitted.law.constant == pytest.approx(-0.1)
     assert fitted.law.slope == pytest.approx(-0.2, rel=1e-4)
-    assert fitted.law.low_load == pytest.approx(-0.03, rel=1e-4)
+    assert fitted.law.tail == pytest.approx(-0.03, rel=1e-4)
     assert fitted.law.scatter == pytest.approx(0.0, abs=1e-4)
-    assert fitted.law.low_load_scatter == pytest.approx(0.0, abs=1e-4)
+    assert fitted.law.tail_scatter == pytest.approx(0.0, abs=1e-4)
     assert FittedLaw.of(maps, "friction").law.slope == pytest.approx(0.15)
     assert len(list(family_table(fitted))) == 2 + len(FAMILIES)
 
@@ -99,38 +99,38 @@ def test_errors_of_pairs_are_of_the_lines_and_the_law() -> None:
     assert uneven.ratio("area") == pytest.approx(np.log(uneven.area / 0.2))
 
 
+def test_scatter_comes_back_from_what_a_law_misses() -> None:
+    random = np.random.default_rng(0)
+    pressures = np.geomspace(1e3, 1e6, 2000)
+    maps = [lawful("pits", 0, [2.0, 2.0], pressure) for pressure in pressures.tolist()]
+    summits = np.array([m.line.columns[1] for m in maps])
+    missed = np.hypot(0.1, 0.05 * summits**1.5) * random.standard_normal(summits.size)
+    high, low = scatter_of(maps, "area", list(missed[:, None]))
+    assert high == pytest.approx(0.1, rel=0.1)
+    assert low == pytest.approx(0.05, rel=0.1)
+
+
 def test_a_stopped_study_goes_on_where_it_was(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     solved: list[tuple[str, int, float]] = []
 
     def solve_map(
-        rubber: object,
-        surface: HeightMap,
-        family: str,
-        seed: int,
-        pressure: float,
-        speed: float,
-        cut_offs: tuple[float, ...],
-    ) -> list[SolvedMap]:
-        assert (pressure, speed) in loads(seed, family)
+        rubber: str, surface: HeightMap, family: str, seed: int, pressure: float, speed: float
+    ) -> SolvedMap:
+        assert (rubber, speed) == (RUBBERS[seed], SPEED)
         solved.append((family, seed, pressure))
-        heights = [1.0 + len(solved) / 40.0, 2.0]
-        made = replace(lawful(family, seed, heights), pressure=pressure)
-        return [replace(made, cut_off=cut_off) for cut_off in cut_offs]
+        return lawful(family, seed, [1.0 + len(solved) / 40.0, 2.0], pressure)
 
     monkeypatch.setattr(line_to_map, "solve_map", solve_map)
     monkeypatch.setattr(line_to_map, "family_map", lambda *_: None)
     path = tmp_path / "maps.jsonl"
     first = line_to_map.solved_maps(path, 1)
-    assert solved == [(family, 0, pressure) for family in FAMILIES for pressure in PRESSURES]
+    assert [pressure for *_, pressure in solved[:6]] == [*PRESSURES[0], *PRESSURES[1]]
     maps = line_to_map.solved_maps(path, 2)
-    assert len(solved) == len(set(solved)) == (len(PRESSURES) + 1) * len(FAMILIES)
+    assert len(solved) == len(set(solved)) == 2 * len(PRESSURES[0]) * len(FAMILIES)
     assert maps[: len(first)] == first
-    shorter = [m.pressure for m in maps if m.family == "pits" and m.cut_off == SHORTER]
-    assert shorter == [PRESSURE]
-    assert sum(m.cut_off == CUT_OFF for m in maps) == len(solved)
     laws = [FittedLaw.of(maps, quantity) for quantity in line_to_map.QUANTITIES]
-    assert any("cut-off" in line for line in summary(laws[0]))
+    assert any("largest t" in line for line in summary(laws[0]))
     draw(laws, tmp_path / "law.png")
     assert (tmp_path / "law.png").stat().st_size > 10_000

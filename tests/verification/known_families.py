@@ -7,7 +7,7 @@ Vertical sides of stones and pores are `EDGE` wide, so that the heights resolve 
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from itertools import product
 
@@ -183,9 +183,13 @@ RIDGED = {
 }
 
 
-def surface(family: str, seed: int) -> HeightMap:
+def surface(
+    family: str,
+    seed: int,
+    families: Mapping[str, Callable[[np.random.Generator], Array]] = FAMILIES | RIDGED,
+) -> HeightMap:
     """Return the map of a family and seed."""
     random = np.random.default_rng([seed, zlib.crc32(family.encode())])
-    heights = (FAMILIES | RIDGED)[family](random)
+    heights = families[family](random)
     x, y = (STEP * np.arange(points, dtype=np.float64) for points in SHAPE)
     return HeightMap(x, y, heights - heights.mean(), f"{family} {seed}")

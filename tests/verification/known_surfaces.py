@@ -1,15 +1,16 @@
 """Surfaces whose contact is known, to judge the answer from files of two of their lines.
 
-    python -m tests.verification.known_surfaces [--ridges]
+    python -m tests.verification.known_surfaces [--ridges | --intermittent]
 
-Seventeen families of synthetic isotropic surfaces: the law of `gripscale.half_space.line_to_map`
-was fitted to eight of them (other seeds of studies/surface_families.py) and to nothing of the other
-nine. The truth is the contact of the whole map with the same Gaussian cut-off. Two lines are
-written to files with spikes and dropouts, as lasers leave them, and read, cleaned and answered as
-those of a user. Pressures go from 0.1 to 10 bar, speeds from 1 cm/s to 10 m/s.
+Families of synthetic isotropic surfaces: the law of `gripscale.half_space.line_to_map` was fitted
+to eleven of them (other seeds of studies/surface_families.py) and to nothing of the others. The
+truth is the contact of the whole map with the same Gaussian cut-off. Two lines are written to files
+with spikes and dropouts, as lasers leave them, and read, cleaned and answered as those of a user.
+The isotropic ones are of tread rubber at 0.1 to 10 bar, the intermittent ones of three rubbers, one
+of them also softened, at 0.03 to 10 bar; speeds go from 1 cm/s to 10 m/s.
 
 Truths are refined until their estimated error is 3 %, or they have four million points, and kept
-in results/known_surfaces: an hour of one core.
+in results/known_surfaces: an hour of one core, and twenty minutes for the intermittent ones.
 """
 
 from __future__ import annotations
@@ -30,31 +31,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gripscale as gs
+from gripscale.conditions.conditions import Conditions
 from gripscale.core.status import Status
 from gripscale.half_space import RoughContact
 from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.answer.direct_contact import solve_direct_contact
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_samples
+from gripscale.rubber import styrene_butadiene
+from gripscale.rubber.softening import softening_of_sweeps
 from gripscale.surface import HeightMap, Profile
 from studies import surface_families
+from studies.treads import compound, sweeps
 from tests.samples import MEASURED_DMA, ROOT
 from tests.verification import known_families
+from tests.verification.intermittent_families import INTERMITTENT
 from tests.verification.known_families import LARGEST, RIDGED, SHAPE, STEP, surface
 
 Array = NDArray[np.float64]
 
-SMALLEST = 0.4e-3
-"""Cut-off [m]; a line crosses shorter waves, too."""
-UNSEEN = tuple(known_families.FAMILIES)
+SMALLEST, OF_INTERMITTENT = 0.4e-3, 0.8e-3
+"""Cut-offs [m]; a line crosses shorter waves, too."""
+UNSEEN = (*known_families.FAMILIES, *INTERMITTENT)
 """Families that no law was fitted to; of the others seeds that it was not fitted to."""
 FITTED = tuple(surface_families.FAMILIES)
+MODULATED = ("cascade", "lognormal", "exposed")
+"""Families of the fit that are intermittent."""
 SEEDS = range(8)
+SIX_SEEDS = range(6)
 MORE_SEEDS = range(8, 24)
 FAMILIES_OF_MORE = ("mosaic", "peaky")
 """Families whose friction was held in 5 of the first eight; chance, as sixteen more show."""
 FIRST_FITTED = 100
 PRESSURES = np.geomspace(1e4, 1e6, len(SEEDS))
+LOWER_PRESSURES = np.geomspace(3e3, 1e6, len(SIX_SEEDS))
 SPEEDS = (1e-2, 10.0)
+RUBBERS = ("tread", "S100", "unfilled", "tread", "S100, softened", "unfilled")
+"""Of the seeds of intermittent surfaces."""
 SPIKES, DROPOUTS = 0.004, 0.01
 """Share of the points of a file."""
 TOLERANCE = 0.03
@@ -71,46 +83,76 @@ class Known(NamedTuple):
     seed: int
     pressure: float
     speed: float
+    rubber: str = "tread"
+    cut_off: float = SMALLEST
 
     @property
     def map(self) -> HeightMap:
         """The heights of the surface."""
         if self.family in FITTED:
             return surface_families.family_map(self.family, FIRST_FITTED + self.seed)
+        if self.family in INTERMITTENT:
+            return surface(self.family, self.seed, INTERMITTENT)
         return surface(self.family, self.seed)
+
+    @property
+    def conditions(self) -> Conditions | None:
+        """Softening as measured on the rubber; None without."""
+        if "softened" not in self.rubber:
+            return None
+        law = softening_of_sweeps(list(sweeps("S100").values()), measured_at=1e-3)
+        return Conditions(softening=law)
 
 
 def known(family: str, seed: int) -> Known:
-    """Return a surface with its load; each seed has a pressure, the speed is random."""
+    """Return a surface with its load; each seed has a pressure, the speed is random.
+
+    The pressures of intermittent families begin anew with each, at another one.
+    """
     random = np.random.default_rng([seed, zlib.crc32(family.encode()), 1])
     speed = math.exp(random.uniform(*np.log(SPEEDS)))
-    return Known(family, seed, float(PRESSURES[seed % len(SEEDS)]), speed)
+    if family not in (*MODULATED, *INTERMITTENT):
+        return Known(family, seed, float(PRESSURES[seed % len(SEEDS)]), speed)
+    at = (seed + zlib.crc32(family.encode())) % len(SIX_SEEDS)
+    kind, pressure = RUBBERS[seed % len(RUBBERS)], float(LOWER_PRESSURES[at])
+    return Known(family, seed, pressure, speed, kind, OF_INTERMITTENT)
 
 
-def all_known(
-    families: Iterable[str] = (*UNSEEN, *FITTED), seeds: Iterable[int] = SEEDS
-) -> list[Known]:
-    """Return surfaces of each family, eight if no seeds are stated."""
+def all_known(families: Iterable[str] | None = None, seeds: Iterable[int] = SEEDS) -> list[Known]:
+    """Return surfaces of each family, eight of each that is not intermittent if nothing is said."""
+    if families is None:
+        every = (*known_families.FAMILIES, *FITTED)
+        families = [family for family in every if family not in MODULATED]
     return [known(family, seed) for seed, family in product(seeds, families)]
 
 
+def intermittent() -> list[Known]:
+    """Return six surfaces of each intermittent family."""
+    return all_known((*INTERMITTENT, *MODULATED), SIX_SEEDS)
+
+
 @cache
-def tread() -> gs.Rubber:
-    """Return the filled tread rubber."""
+def rubber(name: str) -> gs.Rubber:
+    """Return the filled tread rubber, compound S100 or the unfilled one."""
+    if name.startswith("S100"):
+        return compound("S100")
+    if name == "unfilled":
+        return styrene_butadiene()
     return gs.fit_prony(gs.read_master_curve(MEASURED_DMA, reference_temperature=293.15))
 
 
 def contact(which: Known, whole: HeightMap) -> RoughContact:
     """Return the contact of the whole map; it must be solved."""
     solved = gs.solve_rough_contact(
-        tread(),
+        rubber(which.rubber),
         whole,
         pressure=which.pressure,
         speed=which.speed,
-        smallest_wavelength=SMALLEST,
+        smallest_wavelength=which.cut_off,
         periodic=True,
         workers=1,
         tolerance=TOLERANCE,
+        conditions=which.conditions,
     )
     assert solved.status in SOLVED, f"{whole.name}: {solved.status}"
     return solved
@@ -120,6 +162,7 @@ def truth(which: Known, kept: Path = TRUTHS) -> dict[str, float]:
     """Return area and friction of a map; what is solved is kept by heights and load."""
     whole = which.map
     load = f"{which.pressure:.4g} Pa, {which.speed:.4g} m/s"
+    load += "" if which.rubber == "tread" else f", {which.rubber}"
     key = f"{whole.name}, {load}, heights {zlib.crc32(whole.z.tobytes()):08x}"
     truths = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
     if key not in truths:
@@ -182,11 +225,12 @@ def estimate(which: Known) -> dict[str, Estimate]:
         profiles = [gs.read_profile(path) for path in written(which, which.map, Path(folder))]
     case = gs.Case(
         profiles,
-        tread(),
+        rubber(which.rubber),
         pressure=which.pressure,
         speed=which.speed,
-        smallest_wavelength=SMALLEST,
+        smallest_wavelength=which.cut_off,
         cleaning={},
+        conditions=which.conditions,
     )
     samples = solve_direct_contact(case)
     assert samples is not None
@@ -279,12 +323,15 @@ def main() -> None:
     """Print a table for area and friction."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--ridges", action="store_true", help="surfaces with ridges at 3 bar")
+    parser.add_argument("--intermittent", action="store_true", help="intermittent surfaces")
     options = parser.parse_args()
     surfaces: dict[str, Any] = {
         "ridges": [Known(family, seed, 3e5, 0.3) for family in RIDGED for seed in range(4)],
+        "intermittent": intermittent(),
         "isotropic": all_known() + all_known(FAMILIES_OF_MORE, MORE_SEEDS),
     }
-    for name, results in judged(surfaces["ridges" if options.ridges else "isotropic"]).items():
+    which = next((name for name in surfaces if getattr(options, name, False)), "isotropic")
+    for name, results in judged(surfaces[which]).items():
         print(name, *table(results), sep="\n", end="\n\n")
 
 

@@ -2,13 +2,15 @@
 
 A line is solved in plane strain, as if the surface were grooves across the sliding direction. On an
 isotropic surface rubber escapes sideways, and high places beside the line carry load in its place.
-On maps of eight families (`python -m studies.line_to_map`) the contact of the map over that of its
-lines follows how far the heights of a line reach up, and the more so the fewer of them carry:
+On maps of eleven families (`python -m studies.line_to_map`) the contact of the map over that of its
+lines follows how far the heights of a line reach up and, the more so the fewer of them carry, how
+far its summits stand out of the places that carry beside them:
 
-    ln f = a_0 + t (a_1 + a_2 / sqrt(P)),    ln g = b_0 + t (b_1 + b_2 / sqrt(P)),
-    t = (height that 1 % of a line exceeds - mean height) / rms height,
-    P = pressure * largest wave / (|M| * rms height),
+    ln f = a_0 + a_1 t + a_2 (T / P)^(1/3),    ln g = b_0 + b_1 t + b_2 (T / P)^(1/3),
+    t = (z_1 - mean height) / rms,    T = (z_0.5 - z_2) / rms,
+    P = pressure * largest wave / (|M| * rms),
 
+z_u is the height that u % of a line exceeds, rms that of its heights,
 f for small areas A of contact, g for friction, M the plane-strain modulus of the largest wave where
 it slides. Towards full contact the areas meet and the friction of the map is 1.11 times that of its
 lines, whatever the heights:
@@ -36,46 +38,62 @@ from gripscale.surface.profile import profile_list
 # Length of the lines the law was measured on, in largest waves; longer waves count as a slope.
 _PIECE = 16.0
 _TINY = 1e-12
-EXCEEDED = 0.01  # share of a line that is higher than its upper height
+# Shares of a line that are higher than its upper height, and than both ends of its tail.
+EXCEEDED, TAIL = 0.01, (0.005, 0.02)
 
 
 class LineUnderLoad(NamedTuple):
-    """What the law needs of a line, or of several, and of the load."""
+    """What the law needs of a line, or of several, and of the load [-]."""
 
-    upper_height: float | Array  # t: height that 1 % of the line exceeds over its rms height [-]
-    relative_load: float | Array  # P: pressure times largest wave over modulus times rms height [-]
+    upper_height: float | Array  # t: height that 1 % of the line exceeds over its rms height
+    tail: float | Array  # T: from the height that 2 % exceed to that of 0.5 %, over the rms height
+    relative_load: float | Array  # P: pressure times largest wave over modulus times rms height
+
+    @property
+    def columns(self) -> tuple[Array, ...]:
+        """What the numbers of a law multiply after its constant."""
+        t, tail, load = map(np.asarray, self)
+        return t, np.cbrt(tail / load)
+
+    @property
+    def reach(self) -> Array:
+        """The columns over the largest that the law was fitted to, the largest of them."""
+        pairs = zip(self.columns, FITTED_TO, strict=True)
+        return np.asarray(np.max([column / most for column, most in pairs], axis=0))
 
 
 class RatioLaw(NamedTuple):
-    """A ratio ln y = constant + t (slope + low_load / sqrt(P)), and how well it is known."""
+    """A ratio ln y = constant + slope t + tail (T / P)^(1/3), and how well it is known."""
 
     constant: float
     slope: float
-    low_load: float
-    # Standard deviation of ln y about the law at high load, over maps of all families.
+    tail: float
+    # Standard deviation of ln y about the law, over maps of all families, without the error of the
+    # lines themselves: at high load, and what few summits add in squares, over sqrt(T / P).
     scatter: float
-    low_load_scatter: float  # what few summits add to it in squares, times sqrt(P)
+    tail_scatter: float
 
     def at(self, line: LineUnderLoad) -> Array:
         """Return the ratio of lines."""
-        few = self.low_load / np.sqrt(line.relative_load)
-        return np.asarray(np.exp(self.constant + line.upper_height * (self.slope + few)))
+        terms = zip(self[1:3], line.columns, strict=True)
+        return np.asarray(np.exp(self.constant + sum(number * of for number, of in terms)))
 
     def uncertainty(self, line: LineUnderLoad) -> Array:
         """Return the standard deviation of ln y about the law."""
-        return np.hypot(self.scatter, self.low_load_scatter / np.sqrt(line.relative_load))
+        return np.hypot(self.scatter, self.tail_scatter * line.columns[1] ** 1.5)
 
 
-CONTACT_FRACTION_LAW = RatioLaw(-0.052, -0.176, -0.0189, 0.12, 0.017)
-# Scatter: between that about the law and that of families which a law of the others misses.
-FRICTION_LAW = RatioLaw(-0.392, 0.149, 0.0216, 0.095, 0.023)
+CONTACT_FRACTION_LAW = RatioLaw(-0.081, -0.126, -0.146, 0.131, 0.052)
+FRICTION_LAW = RatioLaw(-0.349, 0.073, 0.201, 0.108, 0.066)
 FULL_CONTACT_FRICTION = 1.11
-# Degrees of freedom of the scatter: eight families less constant and slope. The third number is
-# known from several loads on each surface.
-FREEDOM = 6
+# Degrees of freedom of the scatter: eleven families less constant and slope. The number of the tail
+# is known from several loads on each surface.
+FREEDOM = 9
+# The largest t and (T / P)^(1/3) of the fit: beyond, the law is a guess.
+FITTED_TO = (4.1, 8.5)
 # What the law misses of the change of the logarithm of both ratios on one surface, over that of the
-# logarithm of the lines' area: rms of 256 pairs of pressures, a factor of three apart.
-LOAD_SENSITIVITY = 0.08
+# logarithm of the lines' area: rms over pressures a factor of ten apart.
+LOAD_SENSITIVITY = 0.10
 
 
 class SurfaceOverLines(NamedTuple):
@@ -135,15 +153,17 @@ def line_under_load(
     longest = checks.positive("largest_wavelength", largest_wavelength, unit="m")
     pressed = checks.positive("pressure", pressure, unit="Pa")
     omega = 2.0 * math.pi * checks.not_negative("speed", speed, unit="m/s") / longest
-    ratios, rms = [], []
+    shares = np.array([EXCEEDED, *TAIL])
+    pieces, rms = [], []
     for line in profile_list(profile):
         for piece in np.array_split(line.z, max(1, round(line.length / (_PIECE * longest)))):
             heights = piece[np.isfinite(piece)]
             if heights.size > 1 and heights.std() > 0.0:
                 rms.append(heights.std())
-                ratios.append((np.quantile(heights, 1.0 - EXCEEDED) - heights.mean()) / rms[-1])
-    if not ratios:
+                pieces.append((np.quantile(heights, 1.0 - shares) - heights.mean()) / rms[-1])
+    if not pieces:
         raise InputError("profile must have two different heights at least; got none")
+    upper, top, next_to_it = np.mean(pieces, axis=0).tolist()
     modulus = abs(complex(rubber.plane_strain_modulus(omega)))
     load = pressed * longest / (modulus * float(np.mean(rms)))
-    return LineUnderLoad(float(np.mean(ratios)), load)
+    return LineUnderLoad(upper, top - next_to_it, load)

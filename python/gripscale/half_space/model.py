@@ -89,7 +89,7 @@ def _with_basis(
     what the step from lines to a surface needs is NaN.
     """
     longest = float(surface.sines.wavelength[0])
-    piece, line = PIECE * longest, LineUnderLoad(math.nan, math.nan)
+    piece, line = PIECE * longest, LineUnderLoad(*[math.nan] * 3)
     measured = surface.measured
     if measured is not None and measured.map is None:
         pressed = {"pressure": load.pressure, "speed": load.speed}

@@ -30,7 +30,7 @@ from gripscale.half_space import line_to_map
 from gripscale.half_space.large_strain import finite_over_small
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
-from gripscale.model import BASIS
+from gripscale.model import BASIS, LINE_UNDER_LOAD
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact, errors_left
 from gripscale.questions.answer.intervals import (
@@ -93,6 +93,8 @@ BASIS_SHARES = ("steep_share", "missing_share")
 # What is estimated, and of which number of the samples its factors are ratios: of the two frictions
 # the one that a coarse grid changes least.
 ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
+# Lines of an answer relative to the end of what the step to their surface was fitted to.
+REACH = "answer_line_reach"
 # Friction of the area term over the contact area of an answer, and with the hysteresis.
 AREA_TERM, TOTAL = "answer_adhesive_friction", "answer_total_friction"
 # Share of the variance of an answer that is left beside a fit to measured friction.
@@ -150,6 +152,8 @@ def answer_of_samples(
     if direct is not None:
         shares = (share for share in (*BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
         data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
+        if "isotropic_surface" in factors:
+            data[REACH] = unknown.copy(data=_line_of(direct).reach)
     errors_of: dict[str, LogError] = {}
     errors_of_total: dict[str, LogError] = {}
     left, fit = xr.ones_like(unknown), xr.zeros_like(unknown)
@@ -295,15 +299,20 @@ def _of_large_strain(direct: xr.Dataset) -> FactorNumbers:
     return numbers
 
 
+def _line_of(direct: xr.Dataset) -> line_to_map.LineUnderLoad:
+    """Return the mean of the lines of direct contacts under their load."""
+    names = (name.removeprefix("total_") for name in LINE_UNDER_LOAD)
+    return line_to_map.LineUnderLoad(*(reduce.mean(direct, name).values for name in names))
+
+
 def _of_surface(direct: xr.Dataset) -> FactorNumbers:
     """Return the step from lines to their surface at the contact area of the lines."""
-    lines, *line = (
-        reduce.mean(direct, name) for name in ("contact_fraction", "upper_height", "relative_load")
-    )
+    lines = reduce.mean(direct, "contact_fraction")
+    line = _line_of(direct)
     freedom = xr.full_like(lines, line_to_map.FREEDOM)
     numbers = {}
     for name, law in line_to_map.SURFACE_OVER_LINES.items():
-        surface = law(line_to_map.LineUnderLoad(*(number.values for number in line)), lines.values)
+        surface = law(line, lines.values)
         sigma = lines.copy(data=surface.uncertainty)
         numbers[name] = lines.copy(data=surface.ratio), LogError(sigma, freedom)
     return numbers
@@ -373,6 +382,7 @@ ANSWER_NUMBERS = {
 } | {
     AREA_TERM: "friction μ of the area term over the contact area of the answer",
     ERROR_LEFT: "share of the variance of the answer that a fit to measured friction leaves",
+    REACH: "how few summits of the lines carry, over the fewest that the step to a surface knows",
     **{f"answer_{share}": BASIS[f"total_{share}"] for share in BASIS_SHARES},
     **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
 }

@@ -1,7 +1,8 @@
 """The law of reliance: whether a result has an answer, and whether it may be relied on.
 
 There is none to rely on where the inputs may be those of another case, where more than half of
-friction or contact comes from what was not measured, or where the measured surface is too small.
+friction or contact comes from what was not measured, where the measured surface is too small, or
+where fewer summits carry than on the surfaces that the step from profiles to a surface knows.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.io.table import significant
-from gripscale.questions.answer.estimate import DIRECT, TOTAL
+from gripscale.questions.answer.estimate import DIRECT, REACH, TOTAL
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
@@ -52,7 +53,7 @@ def no_answer(data: xr.Dataset, but: str = "") -> str:
         return " ".join(["none.", *doubts, words])
     guessed = [share.sentence for share in guesses(data) if share.effect > MOST_ON_GUESSES]
     widths = [] if f"filled_{ESTIMATED_AREA}" in data else _sampled_too_little(data)
-    reasons = [*doubts, *guessed, *widths]
+    reasons = [*doubts, *guessed, *_beyond_law(data), *widths]
     return f"none to rely on. {' '.join(reasons)}" if reasons else ""
 
 
@@ -70,6 +71,15 @@ def guesses(data: xr.Dataset) -> Iterator[Finding]:
     if missing > WORTH_NAMING:
         text = f"{percent_text(missing)} of the contact lies on filled gaps of the measurement."
         yield Finding(Severity.WARNING, text, area=missing, topic=Topic.SURFACE)
+
+
+def _beyond_law(data: xr.Dataset) -> Iterator[str]:
+    """Yield that the law from lines to their surface knows no such lines under such a load."""
+    if float(data.get(REACH, math.nan)) > 1.0:
+        yield (
+            "So few summits of the profiles carry that the step from profile to surface is beyond "
+            "the surfaces it was measured on; a map needs no such step."
+        )
 
 
 def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:

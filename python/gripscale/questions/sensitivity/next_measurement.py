@@ -18,7 +18,7 @@ from gripscale.core.arrays import Array
 from gripscale.half_space import line_to_map
 from gripscale.half_space.large_strain import finite_over_small
 from gripscale.io.table import Column, Table, percent
-from gripscale.model import PRESSURE_OVER_MODULUS, RELATIVE_LOAD, SAMPLING_FREEDOM, UPPER_HEIGHT
+from gripscale.model import LINE_UNDER_LOAD, PRESSURE_OVER_MODULUS, SAMPLING_FREEDOM
 from gripscale.questions.answer.estimate import LARGE_STRAIN_LABEL, LINES_TO_SURFACE
 from gripscale.questions.answer.intervals import LogError, combined, half_width
 from gripscale.questions.sensitivity.friction_sensitivity import CARRIED, LOSS, STORAGE
@@ -107,8 +107,8 @@ def _factor_errors(point: xr.Dataset, quantity: str) -> dict[str, float]:
     """Return the relative standard errors of the factors of the answer, by label."""
     area, pressed = point["total_contact_fraction"].values, point[PRESSURE_OVER_MODULUS].values
     errors = {LARGE_STRAIN_LABEL: float(finite_over_small(quantity, pressed, area)[1])}
-    if math.isfinite(float(point[UPPER_HEIGHT])):  # lines
-        line = line_to_map.LineUnderLoad(point[UPPER_HEIGHT].values, point[RELATIVE_LOAD].values)
+    line = line_to_map.LineUnderLoad(*(point[name].values for name in LINE_UNDER_LOAD))
+    if math.isfinite(float(line.upper_height)):  # lines
         law = line_to_map.SURFACE_OVER_LINES[quantity]
         errors[LINES_TO_SURFACE] = float(law(line, area).uncertainty)
     if point.attrs.get("softens"):
