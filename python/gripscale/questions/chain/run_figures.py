@@ -16,9 +16,8 @@ from gripscale.questions.words import JUDGE, OF_THE_PAPER
 
 def draw_inputs(run: ChainRun, figures: Figures) -> None:
     """Draw surface and rubber, and the measured contact where it is solved."""
-    surface, load = run.case.surface, run.case.load
-    surface_figures(surface, figures)
-    rubber_figures(run.case.measured_rubber, excited(load.speed, surface.sines), figures)
+    surface_figures(run.case.surface, figures)
+    rubber_figures(run.case.measured_rubber, excited(run.case), figures)
     for name, figure in [] if run.answer is None else run.answer.figures():
         figures.save(figure, name)
 
