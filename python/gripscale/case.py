@@ -25,6 +25,7 @@ from gripscale.conditions.defaults import DRY, Interface, with_defaults
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, Words, checks
+from gripscale.core.arrays import Array
 from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import FILLED, Finding, Severity, Topic, doubt
 from gripscale.core.provenance import CASE_TITLE, COMMAND, version_attributes
@@ -483,12 +484,18 @@ def fitted_for_load(
 
     That of waves stated by hand, too; at rest, and without a measurement, nothing decides more.
     """
-    rubber, shift = measured.rubber, 1.0
-    kelvin = None if conditions is None else conditions.temperature
+    omega = excitation(measured.rubber, surface, load, conditions)
+    return measured.fitted_for(omega, surface.sines.slope)
+
+
+def excitation(
+    rubber: Rubber, surface: Surface, load: Load, conditions: Conditions | None
+) -> Array:
+    """Return the angular frequencies of waves [rad/s], shifted to the temperature of a rubber."""
+    shift, kelvin = 1.0, None if conditions is None else conditions.temperature
     if kelvin is not None and rubber.shift is not None and rubber.reference_temperature is not None:
         shift = float(rubber.shift.a(kelvin, rubber.reference_temperature))
-    waves = surface.sines
-    return measured.fitted_for(2.0 * np.pi * shift * load.speed / waves.wavelength, waves.slope)
+    return np.asarray(2.0 * np.pi * shift * load.speed / surface.sines.wavelength)
 
 
 def described_surface(

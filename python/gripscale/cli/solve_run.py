@@ -67,7 +67,7 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> 
     def draw() -> None:
         figures = FigureFolder(target / "figures", work.file.case.output.figures)
         surface_figures(case.surface, figures)
-        rubber_figures(case.measured_rubber, excited(case.load.speed, case.surface.sines), figures)
+        rubber_figures(case.measured_rubber, excited(case), figures)
         for name, figure in result.figures():
             figures.save(figure, name)
 

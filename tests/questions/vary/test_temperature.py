@@ -125,7 +125,8 @@ def test_a_vertical_shift_makes_them_several(case: Path) -> None:
         horizontal=[2.5, 2.0, 0.0],
         vertical=[np.log10(1.1), 0.0, 0.0],
     )
-    study.rubbers = [replace(study.rubbers[0], shift=table)]
+    measured = study.measured_rubbers[0]
+    study.measured_rubbers = [replace(measured, rubber=replace(measured.rubber, shift=table))]
     result = study.run(case.parent / "study")
     np.testing.assert_allclose(result.vertical_shift_factor, [1.1, 1.0], rtol=1e-9)
     assert apart(result, "total_contact_fraction") > 0.02

@@ -197,7 +197,7 @@ def calibrate(
     laws.refuse_unfit(friction, law, fixed or {})
     if hold_out is not None:
         groups_of(hold_out, friction.speed, friction.temperature)
-    rubber, surface = case.rubber, case.surface
+    rubber, surface, load = case.rubber, case.surface, case.load
     if case.chain.extrapolate == "refuse":
         for speed, kelvin in zip(friction.speed, friction.temperature, strict=True):
             warm = case.rubber_before if np.isnan(kelvin) else rubber.at(float(kelvin))
@@ -208,12 +208,7 @@ def calibrate(
         for _ in range(MOST_WARMINGS if warms else 1):
             if model == Chain.name:
                 design = measured_design(
-                    friction,
-                    case.chain,
-                    case.measured_rubber,
-                    surface,
-                    case.load,
-                    warming_stress=stress,
+                    friction, case.chain, case.measured_rubber, surface, load, warming_stress=stress
                 )
                 predicted = predicted_of(solve_design(design, bench))
             else:

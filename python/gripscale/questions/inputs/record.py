@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.case import Case
+from gripscale.case import Case, excitation
 from gripscale.core.arrays import Array, ComplexArray
 from gripscale.core.finding import Finding, Severity, Topic, from_json, to_json
 from gripscale.io.table import significant
@@ -73,10 +73,10 @@ def sine_curves(sines: SineStack, lag: ArrayLike) -> tuple[Array, Array]:
     return fitted, pure
 
 
-def excited(speed: float, sines: SineStack) -> Array:
-    """Return the angular frequencies the waves excite at `speed` [rad/s]; none at rest."""
-    omega = 2.0 * math.pi * speed / np.asarray(sines.wavelength)
-    return np.asarray(omega if speed > 0.0 else omega[:0])
+def excited(case: Case) -> Array:
+    """Return the frequencies of waves [rad/s] at the temperature of the moduli; none at rest."""
+    omega = excitation(case.rubber, case.surface, case.load, case.conditions)
+    return omega[omega > 0.0]
 
 
 def band(rubber: Rubber, master: MasterCurve | None, excitation: ArrayLike, points: int) -> Array:
@@ -109,11 +109,10 @@ def inputs(
     and `further` ones, of measured friction and of rubbers beside that of the case.
     """
     surface = case.surface
-    excitation = excited(case.load.speed, surface.sines)
-    rubber = case.measured_rubber
+    omega, rubber = excited(case), case.measured_rubber
     # what the measurement does not carry stands in `cut_off_beyond_measurement`
     findings = [*further, *case.findings(surfaces, loads, extrapolated=False)]
-    series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, excitation)
+    series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, omega)
     data: Variables = {}
     if files := case.origin.files:
         for part in ("role", "name", "sha256"):
@@ -133,9 +132,9 @@ def inputs(
         **about_series,
         "findings": to_json(findings) if findings else None,
     }
-    if excitation.size:
-        attrs["excited_low_rad_per_s"] = float(excitation.min())
-        attrs["excited_high_rad_per_s"] = float(excitation.max())
+    if omega.size:
+        attrs["excited_low_rad_per_s"] = float(omega.min())
+        attrs["excited_high_rad_per_s"] = float(omega.max())
     if surface.measured is not None and surface.correlation is not None:
         data |= _profiles(surface.measured)
         texture = surface.measured.texture.variables

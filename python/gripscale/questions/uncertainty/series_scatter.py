@@ -31,8 +31,9 @@ from gripscale.rubber.prony import DECADES_BEYOND, largest_modulus, open_equatio
 _FEWEST_BLOCKS = 8  # blocks there are at least to draw from
 # Fits after which the scatter, in whose units the equations are, is that about their solution.
 _PASSES = 3
-# Weight of a row over the largest, from which on it counts: of a case its series misses the others.
-LEAST_WEIGHT = 0.03
+# Weight of a row over the largest, from which on it counts: the series of a case misses the others,
+# and draws that follow them would not lie about it.
+LEAST_WEIGHT = 0.3
 MOST_TAKEN = 0.75  # share of the degrees of freedom a fit is believed to take at most
 
 
