@@ -248,7 +248,7 @@ def arrhenius(activation_energy: float, temperature: Array) -> Array:
 
 # d log10 a_T / d ln T of the most fragile polymer at its glass transition (Q. Qin & G. B. McKenna,
 # J. Non-Cryst. Solids 352 (2006) 2977: polyetherimide), and what scatter may add between two rows.
-STEEPEST, _SCATTER = 214.0, 1.0
+MOST_FRAGILE, _SCATTER = 214.0, 1.0
 
 
 def standard_errors(name: str, value: ArrayLike) -> Array:
@@ -304,7 +304,7 @@ class ShiftTable(Shift, eq=False):
             twice = self.temperature[int(np.argmax(falls))]
             raise InputError(f"temperature [K] must not repeat; got {twice:g} twice")
         steps, middle = np.diff(self.horizontal), 0.5 * np.diff(self.temperature)
-        steepest = STEEPEST * 2.0 * middle / (self.temperature[:-1] + middle)
+        steepest = MOST_FRAGILE * 2.0 * middle / (self.temperature[:-1] + middle)
         steep = np.abs(steps) > _SCATTER + steepest
         if steep.any():
             at = int(np.argmax(steep))
