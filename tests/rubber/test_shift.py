@@ -255,3 +255,12 @@ def test_a_temperature_beyond_the_sweeps_is_refused_in_celsius_with_its_cure() -
     with pytest.raises(InputError, match=r"where the shift \(wlf\) has values; got -150 °C") as far:
         WLF(8.86, 101.6).a(123.15, 293.15)
     assert "sweeps" not in str(far.value)
+
+
+def test_a_table_of_what_is_no_log10_of_a_shift_is_refused() -> None:
+    """Ten decades in 10 K, or a_T itself: 30, 1, 0.05."""
+    for horizontal in ([10.0, 0.0, -1.0], [30.0, 1.0, 0.05]):
+        with pytest.raises(InputError, match="horizontal must be log10 a_T"):
+            ShiftTable([283.15, 293.15, 303.15], horizontal)
+    steep = ShiftTable([283.15, 293.15, 303.15], [6.0, 0.0, -2.0])  # near its glass transition
+    assert steep.a(283.15, 293.15) == pytest.approx(1e6)

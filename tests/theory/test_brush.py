@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from gripscale.core.errors import InputError
@@ -105,3 +106,26 @@ def test_absurd_slips_and_speeds_are_refused(slip: float, speed: float, words: s
         brush_force(BRUSH, constant, slip, speed)
     with pytest.raises(InputError, match="stiffness must be"):
         Brush(LENGTH, PRESSURE, 0.0)
+
+
+@pytest.mark.parametrize(("power", "most"), [(0.1, 0.022), (0.2, 0.08)])
+def test_bristles_that_creep_have_less_force(power: float, most: float) -> None:
+    """d tau/dx (1 - s) v/k = s v - v_s with mu(v_s) = tau/p from the entry on, without sticking."""
+
+    def friction(speed, pressure, warming):
+        return 0.8 * speed**power + 0.0 * pressure
+
+    def rate(y, stress, slip):
+        pressure = 6.0 * PRESSURE * y * (1.0 - y)
+        sliding = (np.maximum(stress, 0.0) / (0.8 * pressure)) ** (1.0 / power)
+        return STIFFNESS * LENGTH / ((1.0 - slip) * ROAD) * (slip * ROAD - sliding)
+
+    y, excess = np.linspace(1e-6, 1.0 - 1e-6, 20001), []
+    for slip in (0.005, 0.02, 0.05, 0.1):
+        solved = solve_ivp(
+            rate, (y[0], y[-1]), [0.0], "LSODA", y, args=(slip,), rtol=1e-8, atol=1e-2
+        )
+        creeping = np.trapezoid(solved.y[0], y) / PRESSURE
+        excess.append(float(brush_force(BRUSH, friction, slip, ROAD).force) / creeping - 1.0)
+    assert min(excess) > 0.0
+    assert 0.9 * most < max(excess) < most

@@ -174,9 +174,9 @@ def method_section(*methods: Sequence[str]) -> Section:
 
     Each method is texts and names of equations; nothing else is shown.
     """
-    known = {equation.name: equation for equation in method_equations()}
+    by_name = {equation.name: equation for equation in method_equations()}
     items = dict.fromkeys(item for method in methods for item in method)
-    return Section("method", "Method", [known.get(item) or Text(item) for item in items])
+    return Section("method", "Method", [by_name.get(item) or Text(item) for item in items])
 
 
 if __name__ == "__main__":

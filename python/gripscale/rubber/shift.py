@@ -246,6 +246,11 @@ def arrhenius(activation_energy: float, temperature: Array) -> Array:
     return np.asarray(activation_energy / (GAS_CONSTANT * math.log(10.0) * temperature))
 
 
+# d log10 a_T / d ln T of the most fragile polymer at its glass transition (Q. Qin & G. B. McKenna,
+# J. Non-Cryst. Solids 352 (2006) 2977: polyetherimide), and what scatter may add between two rows.
+MOST_FRAGILE, _SCATTER = 214.0, 1.0
+
+
 def standard_errors(name: str, value: ArrayLike) -> Array:
     """Return standard errors, NaN where unknown; raise `InputError` if one is negative."""
     errors = checks.vector(name, value, missing=True)
@@ -298,6 +303,17 @@ class ShiftTable(Shift, eq=False):
         if falls.any():
             twice = self.temperature[int(np.argmax(falls))]
             raise InputError(f"temperature [K] must not repeat; got {twice:g} twice")
+        steps, middle = np.diff(self.horizontal), 0.5 * np.diff(self.temperature)
+        steepest = MOST_FRAGILE * 2.0 * middle / (self.temperature[:-1] + middle)
+        steep = np.abs(steps) > _SCATTER + steepest
+        if steep.any():
+            at = int(np.argmax(steep))
+            raise InputError(
+                "horizontal must be log10 a_T, which changes by at most "
+                f"{steepest[at]:.2g} from {self.temperature[at]:g} to "
+                f"{self.temperature[at + 1]:g} K, with the most fragile polymer; got "
+                f"{abs(steps[at]):.3g}"
+            )
 
     def __len__(self) -> int:
         return len(self.temperature)

@@ -341,7 +341,8 @@ def _fitted_shift(
     ]
     held = ShiftTable(kelvin, joint.log_a, vertical=joint.log_b)
     doubt = ""
-    if moduli == "both" and not lifted:
+    met = report_superposition(sweeps, held, reference, scatter).overlaps
+    if moduli == "both" and not (lifted or any(max(p.storage, p.loss) > _MISFIT for p in met)):
         other = align(rows, *start(rows, lifted=True), lifted=True)
         gain = rows.x.size * float(np.log(joint.scatter / other.scatter).sum())
         if gain > count - 1:  # Akaike's criterion: b_T explains more than its number

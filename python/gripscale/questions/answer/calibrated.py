@@ -54,7 +54,7 @@ class Contact(NamedTuple):
         content = json.dumps([canonical_json(part) for part in parts], sort_keys=True)
         return hashlib.sha256(content.encode()).hexdigest()[:32]
 
-    def left(self, contact_fraction: float) -> tuple[float, float]:
+    def remaining_error(self, contact_fraction: float) -> tuple[float, float]:
         """Return w and the half width of the friction by the fit; 1 and 0 without a fit."""
         points = getattr(self.conditions and self.conditions.shear_stress, "fitted_to", None)
         if points is None or points.contact != self.key or not contact_fraction > 0.0:
@@ -76,7 +76,12 @@ def errors_left(
 ) -> tuple[xr.DataArray, xr.DataArray]:
     """Return w and the half width of the fit for answers of contacts, one each or one in all."""
     areas = np.atleast_1d(contact_fraction.values)
-    rows = np.array([one.left(float(a)) for one, a in zip(contacts, areas, strict=True)])
+    rows = np.array(
+        [
+            contact.remaining_error(float(area))
+            for contact, area in zip(contacts, areas, strict=True)
+        ]
+    )
     shape = contact_fraction.shape
     share, width = (contact_fraction.copy(data=column.reshape(shape)) for column in rows.T)
     return share, width

@@ -34,7 +34,7 @@ from gripscale.model import BASIS, LINE_UNDER_LOAD
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact, errors_left
 from gripscale.questions.answer.intervals import (
-    MOST,
+    UPPER_LIMITS,
     LogError,
     combined,
     half_width,
@@ -156,10 +156,10 @@ def answer_of_samples(
             data[REACH] = unknown.copy(data=_line_of(direct).reach)
     errors_of: dict[str, LogError] = {}
     errors_of_total: dict[str, LogError] = {}
-    left, fit = xr.ones_like(unknown), xr.zeros_like(unknown)
+    remaining, fit = xr.ones_like(unknown), xr.zeros_like(unknown)
     if direct is not None and contacts:
         area = reduce.mean(direct, "contact_fraction")
-        left, fit = errors_left(contacts, area * values["contact_fraction"].prod("factor"))
+        remaining, fit = errors_left(contacts, area * values["contact_fraction"].prod("factor"))
     for name in ESTIMATED:
         mean, road, grid = unknown, LogError(unknown, unknown), unknown
         if direct is not None:
@@ -175,7 +175,7 @@ def answer_of_samples(
             for at, error in enumerate(each)
         ]
         errors_of[name] = combined([*errors, *of_inputs])
-        errors = [LogError(left**0.5 * error.sigma, error.freedom) for error in errors]
+        errors = [LogError(remaining**0.5 * error.sigma, error.freedom) for error in errors]
         errors_of_total[name] = combined([*errors, *of_inputs])
         data = data.assign(with_interval(name, mean * value.prod("factor"), errors_of[name]))
         data[f"answer_{name}_sampling_error"] = road.sigma
@@ -192,7 +192,7 @@ def answer_of_samples(
             fit,
         )
         if getattr(conditions and conditions.shear_stress, "fitted_to", None) is not None:
-            data[ERROR_LEFT] = left
+            data[ERROR_LEFT] = remaining
     return described(data)
 
 
@@ -247,7 +247,7 @@ def described(data: xr.Dataset) -> xr.Dataset:
 
 def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, xr.DataArray]:
     """Return a number of an answer by its name, with its uncertainty and 90 % interval."""
-    there, most = value.notnull(), MOST.get(name, math.inf)
+    there, most = value.notnull(), UPPER_LIMITS.get(name, math.inf)
     value = value.clip(max=most)
     low, high = interval_ends(value, half_width(error).where(there), most)
     width = (high - low) / (2.0 * value.where(value > 0.0))

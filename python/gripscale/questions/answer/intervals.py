@@ -22,7 +22,7 @@ import numpy as np
 import xarray as xr
 
 LEVEL = 0.9  # share of cases in which an interval holds the truth
-MOST = {"contact_fraction": 1.0}  # upper limits of numbers that have one
+UPPER_LIMITS = {"contact_fraction": 1.0}  # upper limits of numbers that have one
 
 
 class LogError(NamedTuple):

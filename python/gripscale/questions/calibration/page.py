@@ -250,10 +250,10 @@ def shear_stress_table(calibration: AreaTermFit) -> str:
     if points is not None:
         if points["temperature"] is not None:
             points["temperature"] = [f"{kelvin!r} K" for kelvin in points["temperature"]]
-        stated = ((key, value) for key, value in points.items() if value is not None)
+        rows = ((key, value) for key, value in points.items() if value is not None)
         lines += [
             "# Without this table an answer has the whole error of its contact area.",
             "[conditions.shear_stress.fitted_to]",
-            *(f"{key} = {json.dumps(value)}" for key, value in stated),
+            *(f"{key} = {json.dumps(value)}" for key, value in rows),
         ]
     return "\n".join(lines) + "\n"

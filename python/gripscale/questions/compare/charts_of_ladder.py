@@ -17,7 +17,7 @@ from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, 
 from gripscale.core.units import DisplayUnit
 from gripscale.experiment.measured_friction import measured_series
 from gripscale.half_space.model import DirectContact
-from gripscale.questions.answer.intervals import MOST
+from gripscale.questions.answer.intervals import UPPER_LIMITS
 from gripscale.questions.answer.reliance import headline
 
 ASIDE = ("windows",)  # groups of other surfaces, which only give factors of the answer
@@ -139,7 +139,7 @@ class Row:
 def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the lines of one panel; both panels have the same."""
     for row in _rows(comparison, name):
-        yield replace(row, most=MOST.get(name, math.inf))
+        yield replace(row, most=UPPER_LIMITS.get(name, math.inf))
 
 
 def _rows(comparison: xr.Dataset, name: str) -> Iterator[Row]:

@@ -16,7 +16,7 @@ from gripscale.core.finding import Finding, Topic
 from gripscale.io.table import Column, Table, percent
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.estimate import DIRECT
-from gripscale.questions.answer.intervals import LEVEL, MOST, interval_ends
+from gripscale.questions.answer.intervals import LEVEL, UPPER_LIMITS, interval_ends
 from gripscale.questions.answer.reliance import (
     AnswerNumber,
     has_answer,
@@ -99,7 +99,7 @@ def interval_sentence(data: xr.Dataset) -> str:
     ranges = []
     for name, symbol in HEADS.items() if not axis_of(data) else ():
         best = f"answer_{headline_name(data, name)}"
-        ends = interval_ends(data[best], data[f"{best}_{OF_RUN}"], MOST.get(name, math.inf))
+        ends = interval_ends(data[best], data[f"{best}_{OF_RUN}"], UPPER_LIMITS.get(name, math.inf))
         if interval := AnswerNumber(math.nan, *map(float, ends)).interval:
             ranges.append(f"{symbol} {interval}")
     if not ranges:
