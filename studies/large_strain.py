@@ -34,9 +34,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.core import Array
+from gripscale.core import Array, Mask
 from gripscale.half_space import one_period, spread_windows
 from gripscale.half_space.large_strain import (
     AREA_SCATTER,
@@ -249,8 +250,8 @@ def rows() -> Iterator[dict[str, str]]:
 class Points(NamedTuple):
     """Windows that converged; arrays of shape (windows,)."""
 
-    rubber: Array
-    kind: Array  # windows of the road with more waves are windows of the road
+    rubber: NDArray[np.str_]
+    kind: NDArray[np.str_]  # windows of the road with more waves are windows of the road
     pressed: Array  # pressure over modulus [-]
     area: Array  # at small strain [-]
     log_ratio: Mapping[str, Array]  # of finite over small strain, by the number of an answer
@@ -261,7 +262,7 @@ class Points(NamedTuple):
         _, scatter = finite_over_small(quantity, self.pressed, self.area)
         return np.asarray(scatter / SCATTERS[quantity])
 
-    def inside(self, quantity: str, law: Law, which: Array) -> Array:
+    def inside(self, quantity: str, law: Law, which: Mask) -> Mask:
         """Return which of some windows lie inside the 90 % interval of a law."""
         size = self.size(quantity)[which]
         miss = self.log_ratio[quantity][which] - law.mean * size
@@ -275,7 +276,7 @@ class Law(NamedTuple):
     scatter: float
 
     @classmethod
-    def of(cls, points: Points, quantity: str, which: Array) -> Law:
+    def of(cls, points: Points, quantity: str, which: Mask) -> Law:
         """Return the law of some windows; of the scatter, the size cancels in the likelihood."""
         scaled = (points.log_ratio[quantity] / points.size(quantity))[which]
         return cls(float(scaled.mean()), float(scaled.std(ddof=1)))
@@ -295,7 +296,7 @@ def points() -> Points:
     return Points(solids, kinds, pressed, area, ratios, column("number"))
 
 
-def left_out(of: Points, quantity: str, by: Array) -> dict[str, Array]:
+def left_out(of: Points, quantity: str, by: NDArray[np.str_]) -> dict[str, Mask]:
     """Return which windows of each group lie inside the interval of a law of the other groups."""
     groups = [str(group) for group in np.unique(by)]
     return {
