@@ -25,6 +25,7 @@ from gripscale.questions.uncertainty.page import uncertainty_lines
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.questions.words import OF_THE_PAPER
 from gripscale.rubber.extrapolation import require_measured
+from gripscale.rubber.material import require_load_bearing
 
 if TYPE_CHECKING:
     from gripscale.case import Case
@@ -35,9 +36,10 @@ REPORT_WIDTH = 110  # characters of the lines of the report
 def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> None:
     """Solve, print and write a case: its answer, and the chain of waves beside it."""
     case, console = work.case, work.console
-    measured = case.surface.measured is not None
+    rubber, load, measured = case.rubber_before, case.load, case.surface.measured is not None
+    require_load_bearing(rubber, load.pressure, load.time_under(load.footprint))
     if case.chain.extrapolate == "refuse":
-        require_measured(case.rubber_before, case.surface.sines.wavelength, case.load.speed)
+        require_measured(rubber, case.surface.sines.wavelength, load.speed)
     header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
     work.open_results(target, "", header)
     solving = "the direct contact" if measured else "the chain of waves"
@@ -67,7 +69,7 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> 
     def draw() -> None:
         figures = FigureFolder(target / "figures", work.file.case.output.figures)
         surface_figures(case.surface, figures)
-        rubber_figures(case.measured_rubber, excited(case.load.speed, case.surface.sines), figures)
+        rubber_figures(case.measured_rubber, excited(load.speed, case.surface.sines), figures)
         for name, figure in result.figures():
             figures.save(figure, name)
 
