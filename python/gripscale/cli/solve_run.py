@@ -30,7 +30,7 @@ from gripscale.rubber.material import require_load_bearing
 if TYPE_CHECKING:
     from gripscale.case import Case
 
-REPORT_WIDTH = 110  # characters of the lines of the report
+REPORT, REPORT_WIDTH = "report.txt", 110  # text in the folder of a run, and characters of a line
 
 
 def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> None:
@@ -44,32 +44,43 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> 
     work.open_results(target, "", header)
     solving = "the direct contact" if measured else "the chain of waves"
     terminal.show_step(console, f"solving {solving} ...")
-    result = answer(case, folder=target)
-    inputs = _inputs(case)
+    result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
-    findings = warning_lines(result.findings, terminal.RUN_REPORT, result.half_widths)
+    findings = warning_lines(result.findings, REPORT, result.half_widths)
     terminal.print_parts(console, ["", *result.lines, *findings, "", *inputs])
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
         result.chain = solved_chain(case, bench_of(target))
         terminal.end_steps()
-    assert result.chain is not None
     _save(result, case, target)
+    _conclude(work, result, [f"{header}: {case.title}", "", *inputs], show_chain=show_chain)
+
+
+def _conclude(
+    work: terminal.CaseCommand, result: Answer, opening: list[str | Table], *, show_chain: bool
+) -> None:
+    """Print what stands below the answer; write report, figures and page.
+
+    The report begins with the answer and `opening`. The chain of a measured surface is printed
+    where it is asked for.
+    """
+    case, target = work.case, work.target
+    assert result.chain is not None
     waves: list[str | Table] = [*chain_tables(result.chain), LEGEND]
     parts = _parts(result, case, target)
-    opening: list[str | Table] = [f"{header}: {case.title}", "", *inputs]
-    if not measured:
+    if case.surface.measured is None:
         parts = [*waves, *parts]
     else:
-        opening += ["", *waves]
+        opening = [*opening, "", *waves]
         if show_chain:
-            terminal.print_parts(console, ["", *waves])
+            terminal.print_parts(work.console, ["", *waves])
 
     def draw() -> None:
         figures = FigureFolder(target / "figures", work.file.case.output.figures)
         surface_figures(case.surface, figures)
-        rubber_figures(case.measured_rubber, excited(load.speed, case.surface.sines), figures)
+        marked = excited(case.load.speed, case.surface.sines)
+        rubber_figures(case.measured_rubber, marked, figures)
         for name, figure in result.figures():
             figures.save(figure, name)
 
@@ -77,14 +88,14 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> 
         result,
         parts,
         answer_printed=True,
-        text=terminal.RUN_REPORT,
-        closing=terminal.RUN_CLOSING,
+        text=REPORT,
+        closing="Results, report and figures are in",
         page=lambda page: write_report(target, page),
         opening=opening,
         width=REPORT_WIDTH,
         draw=draw,
     )
-    terminal.print_wrapped(console, result.lines[0])
+    terminal.print_wrapped(work.console, result.lines[0])
 
 
 def _inputs(case: Case) -> list[str | Table]:

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
 # Exit codes: an input that cannot be used, a wave without solution, stopped from outside.
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
-# Text in the folder of a run, and what its last line says.
-RUN_REPORT, RUN_CLOSING = "report.txt", "Results, report and figures are in"
 PLAIN_WIDTH = 100  # characters per line where there is no terminal to ask
 P = ParamSpec("P")
 
