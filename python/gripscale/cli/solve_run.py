@@ -30,7 +30,7 @@ from gripscale.rubber.material import require_load_bearing
 if TYPE_CHECKING:
     from gripscale.case import Case
 
-REPORT, REPORT_WIDTH = "report.txt", 110  # text in the folder of a run, and characters of a line
+TEXT, WIDTH = "report.txt", 110  # name of the report, and characters of its lines
 
 
 def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> None:
@@ -46,7 +46,7 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> 
     terminal.show_step(console, f"solving {solving} ...")
     result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
-    findings = warning_lines(result.findings, REPORT, result.half_widths)
+    findings = warning_lines(result.findings, TEXT, result.half_widths)
     terminal.print_parts(console, ["", *result.lines, *findings, "", *inputs])
     folder.prepare(target, work.file)
     if measured:
@@ -88,11 +88,11 @@ def _conclude(
         result,
         parts,
         answer_printed=True,
-        text=REPORT,
+        text=TEXT,
         closing="Results, report and figures are in",
         page=lambda page: write_report(target, page),
         opening=opening,
-        width=REPORT_WIDTH,
+        width=WIDTH,
         draw=draw,
     )
     terminal.print_wrapped(work.console, result.lines[0])
