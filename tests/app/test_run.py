@@ -101,7 +101,7 @@ def test_what_decides_the_grip_is_run_and_shown(tmp_path: Path, small: Path) -> 
     numbers, *_ = answer_elements(run)
     assert isinstance(numbers, Cards)
     assert numbers.basis[0].startswith("Answer: 1 % more E″")
-    page = run.write_page()
+    page = run.page()
     assert page == run.folder / "report.html"
     text = page.read_text(encoding="utf-8")
     assert 'id="plot-sensitivity-loss"' in text or "sensitivity-loss" in text
@@ -124,7 +124,7 @@ def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
     assert numbers.cards[0].label == "μ of case-1"
     assert numbers.cards[0].detail == "over other (50 %: no significant difference)"
     assert numbers.basis[1].startswith("Answer: friction μ ranks case-1 0.")
-    assert "table-texture" in run.write_page().read_text(encoding="utf-8")
+    assert "table-texture" in run.page().read_text(encoding="utf-8")
 
 
 @pytest.mark.verification

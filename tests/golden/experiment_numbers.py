@@ -30,7 +30,7 @@ NEW_NAMES = {
 }
 RENAMED: dict[str, str] = {
     f"{folder}/{before}": f"{folder}/{now}"
-    for folder in ("run_conditions/dynamic", "study_effects/study", "study/study")
+    for folder in ("run_conditions/chain", "study_effects/study", "study/study")
     for before, now in NEW_NAMES.items()
 }
 """Today's name of a variable, "file/variable" or "file/group/variable", by its name in the file."""
@@ -38,7 +38,7 @@ RENAMED: dict[str, str] = {
 STORES = {"predictions", "effects"}
 """Folders of single finished predictions, named by keys: their numbers are in the results too."""
 
-NOT_PINNED = {"seconds", "prediction_key", "static_prediction_key"}
+NOT_PINNED = {"seconds", "prediction_key"}
 """Times, and keys that depend on the folder of the inputs."""
 
 LONGEST = 150

@@ -60,8 +60,7 @@ ROAD = f"""\
 files = ["road.txt", "lane.txt"]
 scales = 4
 smallest_wavelength = "1 mm"
-{RUBBER}{LOAD}static = true
-
+{RUBBER}{LOAD}
 [solver]
 columns = 16
 rows = 4
@@ -73,7 +72,7 @@ friction = "friction.csv"
 layer_ratio = 1.3
 penetration_depth = "0.5 mm"
 """
-"""Everything a run says: two profiles, finite strain, at rest too, measured friction."""
+"""Everything a run says: two profiles, finite strain, measured friction."""
 
 PLAIN = f"""\
 [surface]
@@ -219,7 +218,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
         "export", "rubber", "plain.toml", "--to", "abaqus", "--output", "rubber.inp",
     ),
     "export_tables": ("export", "tables", "study/study.nc", "--output", "export_tables"),
-    "export_mesh": ("export", "mesh", "run/dynamic.nc", "--wave", "2", "--output", "wave.vtu"),
+    "export_mesh": ("export", "mesh", "run/chain.nc", "--wave", "2", "--output", "wave.vtu"),
     "keys": ("keys",),
     "init": ("init", "init"),
     "report_run": ("report", "run"),

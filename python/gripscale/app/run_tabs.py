@@ -153,36 +153,33 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
     choice = pn.widgets.Select(label="Run", options=[], margin=(4, 8), width=320)
     body = elements.column(elements.raw(NO_RUN))
 
-    async def show(*_: Any) -> None:
+    def show(*_: Any) -> None:
         run = choice.value
         if run is None:
             return
         if run.running:
             waiting = f"<p>{run.name} is running; its page follows at its end.</p>"
-            body.objects, body.loading = [elements.raw(waiting)], False
+            body.objects = [elements.raw(waiting)]
             return
-        body.objects = [elements.raw(f"<p>Writing the page of {run.name} ...</p>")]
-        body.loading = True
         try:
-            page = await asyncio.get_running_loop().run_in_executor(None, run.write_page)
-            address = f"{REPORTS}/{page.relative_to(state.visit.path.parent).as_posix()}"
-            frame = elements.raw(
-                f'<p><a href="{address}" target="_blank">Open this page alone</a></p>'
-                f'<iframe class="report" title="Report of {run.name}" src="{address}"></iframe>'
-            )
-            parts = [downloads(run), frame]
+            page = run.page().relative_to(state.visit.path.parent).as_posix()
         except FileError as error:
-            why = state.visit.short(run.failure() or error)
-            parts = [elements.html(Text(f"{run.name} has no page: {why}"))]
-        if choice.value is run:  # else another was chosen meanwhile
-            body.objects, body.loading = parts, False
+            why = state.visit.short(error)
+            body.objects = [elements.html(Text(f"{run.name} has no page: {why}"))]
+            return
+        address = f"{REPORTS}/{page}"
+        frame = elements.raw(
+            f'<p><a href="{address}" target="_blank">Open this page alone</a></p>'
+            f'<iframe class="report" title="Report of {run.name}" src="{address}"></iframe>'
+        )
+        body.objects = [downloads(run), frame]
 
-    async def follow(_: Any) -> None:
+    def follow(_: Any) -> None:
         options = {f"{run.name}: {run.command.title}": run for run in runs.all}
         if options and choice.options != options:
             choice.param.update(options=options, value=runs.all[-1])  # which shows it
         else:
-            await show()
+            show()
 
     choice.param.watch(show, "value")
     runs.param.watch(follow, "changes")

@@ -72,14 +72,12 @@ class AppRun:
         """What it answers: the command, its arguments and the text of the case."""
         return (self.command.title, *self.arguments, self.text)
 
-    def write_page(self) -> Path:
-        """Write the page of the result, unless it is there, in a process; return its path."""
+    def page(self) -> Path:
+        """Return the page that the command wrote; raise `FileError` if it wrote none."""
         page = self.folder / REPORT
-        if not page.exists():
-            command = [sys.executable, "-m", "gripscale", "report", str(self.folder)]
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
-            if done.returncode:
-                raise FileError(done.stderr.strip().removeprefix("error: "))
+        if not page.is_file():
+            ended = "it was stopped" if self.stopped else "it wrote none"
+            raise FileError(self.failure() or ended)
         return page
 
     @property

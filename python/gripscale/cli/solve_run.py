@@ -25,44 +25,56 @@ from gripscale.questions.uncertainty.page import uncertainty_lines
 from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.questions.words import OF_THE_PAPER
 from gripscale.rubber.extrapolation import require_measured
+from gripscale.rubber.material import require_load_bearing
 
 if TYPE_CHECKING:
     from gripscale.case import Case
 
-REPORT_WIDTH = 110  # characters of the lines of the report
+TEXT, WIDTH = "report.txt", 110  # name of the report, and characters of its lines
 
 
 def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> None:
     """Solve, print and write a case: its answer, and the chain of waves beside it."""
     case, console = work.case, work.console
-    measured = case.surface.measured is not None
+    rubber, load, measured = case.rubber_before, case.load, case.surface.measured is not None
+    require_load_bearing(rubber, load.pressure, load.time_under(load.footprint))
     if case.chain.extrapolate == "refuse":
-        require_measured(case.rubber_before, case.surface.sines.wavelength, case.load.speed)
+        require_measured(rubber, case.surface.sines.wavelength, load.speed)
     header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
     work.open_results(target, "", header)
     solving = "the direct contact" if measured else "the chain of waves"
     terminal.show_step(console, f"solving {solving} ...")
-    result = answer(case, folder=target)
-    inputs = _inputs(case)
+    result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
-    findings = warning_lines(result.findings, terminal.RUN_REPORT, result.half_widths)
+    findings = warning_lines(result.findings, TEXT, result.half_widths)
     terminal.print_parts(console, ["", *result.lines, *findings, "", *inputs])
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
         result.chain = solved_chain(case, bench_of(target))
         terminal.end_steps()
-    assert result.chain is not None
     _save(result, case, target)
+    _conclude(work, result, [f"{header}: {case.title}", "", *inputs], show_chain=show_chain)
+
+
+def _conclude(
+    work: terminal.CaseCommand, result: Answer, opening: list[str | Table], *, show_chain: bool
+) -> None:
+    """Print what stands below the answer; write report, figures and page.
+
+    The report begins with the answer and `opening`. The chain of a measured surface is printed
+    where it is asked for.
+    """
+    case, target = work.case, work.target
+    assert result.chain is not None
     waves: list[str | Table] = [*chain_tables(result.chain), LEGEND]
     parts = _parts(result, case, target)
-    opening: list[str | Table] = [f"{header}: {case.title}", "", *inputs]
-    if not measured:
+    if case.surface.measured is None:
         parts = [*waves, *parts]
     else:
-        opening += ["", *waves]
+        opening = [*opening, "", *waves]
         if show_chain:
-            terminal.print_parts(console, ["", *waves])
+            terminal.print_parts(work.console, ["", *waves])
 
     def draw() -> None:
         figures = FigureFolder(target / "figures", work.file.case.output.figures)
@@ -75,14 +87,14 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> 
         result,
         parts,
         answer_printed=True,
-        text=terminal.RUN_REPORT,
-        closing=terminal.RUN_CLOSING,
+        text=TEXT,
+        closing="Results, report and figures are in",
         page=lambda page: write_report(target, page),
         opening=opening,
-        width=REPORT_WIDTH,
+        width=WIDTH,
         draw=draw,
     )
-    terminal.print_wrapped(console, result.lines[0])
+    terminal.print_wrapped(work.console, result.lines[0])
 
 
 def _inputs(case: Case) -> list[str | Table]:

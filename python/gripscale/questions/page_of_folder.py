@@ -14,7 +14,7 @@ from gripscale.questions.answer.answer import ANSWER_FILE, Answer
 from gripscale.questions.compare.page import Compared, comparison_page, stored_comparisons
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import Result
-from gripscale.questions.stored import KINDS_OF_REPORTS, predicted_tree, result_of
+from gripscale.questions.stored import KINDS_OF_REPORTS, load, predicted_tree, result_of
 from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
 from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_uncertainty
 from gripscale.report import write_page
@@ -43,9 +43,9 @@ class RunAnswer(Answer):
 def read_run(folder: Path) -> RunAnswer:
     """Return what a run left in a folder: its answer, with what is of the same case beside it.
 
-    Raises `FileError` if a file is damaged.
+    Raises `FileError` if a file is damaged or no result.
     """
-    stored: Answer = result_of(netcdf.load_tree(folder / ANSWER_FILE))
+    stored: Answer = load(folder / ANSWER_FILE)
     result = RunAnswer(stored.data, stored.inputs)
     result.sampled = stored_uncertainty(folder)
 

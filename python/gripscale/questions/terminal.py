@@ -6,7 +6,7 @@ import inspect
 import os
 import sys
 import time
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Sequence
 from contextvars import ContextVar
 from functools import cached_property, wraps
 from pathlib import Path
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
 # Exit codes: an input that cannot be used, a wave without solution, stopped from outside.
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
-# Text in the folder of a run, and what its last line says.
-RUN_REPORT, RUN_CLOSING = "report.txt", "Results, report and figures are in"
 PLAIN_WIDTH = 100  # characters per line where there is no terminal to ask
 P = ParamSpec("P")
 
@@ -397,14 +395,11 @@ class CaseCommand:
         text: str = "",
         opening: Sequence[str | Table] = (),
         drawings: str = "figures",
-        files: Mapping[str, str] | None = None,
-        keep_figures: bool = False,
     ) -> None:
         """End the command with the result of its question: save, print and draw it.
 
         `contents` is what the folder holds beside the result, `text` the file of what is printed
-        where it has another name, and `drawings` the folder of the figures; `files` are further
-        texts by name. With `keep_figures` figures of an earlier run stay as they are.
+        where it has another name, and `drawings` the folder of the figures.
         """
         from gripscale.charts.figure_folder import FigureFolder
         from gripscale.io.folders import make_folder
@@ -415,8 +410,6 @@ class CaseCommand:
         make_folder(figures.path)
 
         def draw() -> None:
-            if keep_figures and any(figures.path.iterdir()):
-                return
             for name, figure in result.figures():
                 figures.save(figure, name)
 
@@ -426,7 +419,6 @@ class CaseCommand:
             text=text or self._text,
             closing=f"Result ({result.file}), {contents} are in",
             opening=opening,
-            files=files,
             draw=draw,
         )
 
@@ -441,15 +433,14 @@ class CaseCommand:
         opening: Sequence[str | Table] = (),
         answer_printed: bool = False,
         width: int = PLAIN_WIDTH,
-        files: Mapping[str, str] | None = None,
         page: Callable[[Path], Path] | None = None,
     ) -> None:
         """Print and write what the command found, draw figures and page, set the exit code.
 
         The answer, unless it is printed already, the first findings and `parts` are printed, or the
         answer alone where no more is asked for. The file `text`, with lines of `width`, has the
-        answer, all findings, then `opening`, which the screen shows already, then `parts`. `files`
-        are further texts by name. `closing` says what is in the folder.
+        answer, all findings, then `opening`, which the screen shows already, then `parts`.
+        `closing` says what is in the folder.
         """
         from gripscale.io.folders import write_text
         from gripscale.io.table import as_text
@@ -462,9 +453,7 @@ class CaseCommand:
         print_parts(console, ["", *lead, *parts])
         answer = [*result.lines, *warning_lines(findings, rest="")]
         above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
-        texts = {text: as_text(*above, *parts, width=width), **(files or {})}
-        for name, content in texts.items():
-            write_text(target / name, content)
+        write_text(target / text, as_text(*above, *parts, width=width))
         show_step(console, "drawing figures and page ...")
         draw()
         try:

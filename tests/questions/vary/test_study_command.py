@@ -32,7 +32,6 @@ def test_command_solves_prints_draws_and_resumes(
     assert result.stdout.count("converged") == 6
     assert max(len(line) for line in result.stdout.splitlines() if "in /" not in line) <= 100
     again = shell(*asked)
-    assert "[6/6]" not in again.stdout, "a whole study is read"
     assert again.stdout.partition("Answer")[2] == result.stdout.partition("Answer")[2]
 
 

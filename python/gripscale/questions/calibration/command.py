@@ -44,6 +44,7 @@ def calibrate_command(
     cluster: terminal.Cluster = None,
 ) -> None:
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
+    from gripscale.io.folders import write_text
     from gripscale.questions.calibration.calibration_law import parse_fixed
     from gripscale.questions.calibration.page import shear_stress_table
     from gripscale.questions.calibration.question import calibrate, measured_of
@@ -64,9 +65,5 @@ def calibrate_command(
         **work.solving(workers),
     )
     assert result.fit is not None
-    work.finish(
-        result,
-        "tables, figures and [conditions.shear_stress]",
-        drawings="",
-        files={"shear_stress.toml": shear_stress_table(result.fit)},
-    )
+    write_text(work.target / "shear_stress.toml", shear_stress_table(result.fit))
+    work.finish(result, "tables, figures and [conditions.shear_stress]", drawings="")

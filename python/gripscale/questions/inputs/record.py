@@ -1,4 +1,4 @@
-"""The record of its inputs that a run writes beside its chain, and as pages read it.
+"""The record of the inputs of a case beside its results, and as pages read it.
 
 A report needs nothing but the result file. Group `inputs`: the input files with their checksums,
 the profiles as drawn, their cleaning, the height difference correlation and its fits, the master

@@ -7,8 +7,6 @@ and ln p; beyond them it is that of the last point.
 
 from __future__ import annotations
 
-import hashlib
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -19,10 +17,9 @@ import xarray as xr
 from gripscale.case import Case, fitted_for_load
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import ZERO_CELSIUS, Array, InputError
-from gripscale.core.provenance import software
 from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
 from gripscale.experiment.solve import Bench
-from gripscale.experiment.task import KEY_LENGTH, Task
+from gripscale.experiment.task import Task
 from gripscale.questions.answer.estimate import TOTAL
 from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.questions.vary.study import study_numbers
@@ -46,22 +43,11 @@ def friction_table(
     """Return the friction of a case up to a sliding speed [m/s], at temperatures [K] and above.
 
     `TABLE` over `kind` (hysteresis, and with the area term of the case), `bound` and `AXES`. The
-    store of the bench keeps it. Raises `InputError` if no surface was measured, or a contact has no
-    result.
+    store of the bench keeps what is solved. Raises `InputError` if no surface was measured, or a
+    contact has no result.
     """
     if case.surface.measured is None:
         raise InputError("a slip curve needs a measured surface; got sine waves")
-    asked = json.dumps([software(), case.key, list(temperatures), fastest])
-    key = hashlib.sha256(asked.encode()).hexdigest()[:KEY_LENGTH]
-    stored = None if bench.store is None else bench.store.get(key)
-    if stored is None:
-        stored = _solved(case, temperatures, fastest, bench)
-        if bench.store is not None:
-            bench.store.put(key, stored.assign_attrs(prediction_key=key))
-    return stored.drop_attrs()
-
-
-def _solved(case: Case, temperatures: Sequence[float], fastest: float, bench: Bench) -> xr.Dataset:
     conditions, rubber = (case.conditions or Conditions()).without("heat"), case.rubber
     kelvins = np.array([math.nan])  # of a rubber without a temperature
     if temperatures:

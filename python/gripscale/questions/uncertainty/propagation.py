@@ -6,7 +6,6 @@ All sources are drawn at once for each sample, and each sample is a task of
 
 from __future__ import annotations
 
-import hashlib
 import json
 import tomllib
 import warnings
@@ -26,7 +25,7 @@ from gripscale.core.provenance import software
 from gripscale.experiment import design as designs
 from gripscale.experiment.design import CONVERGED, Design, Point
 from gripscale.experiment.solve import Bench, OnTask, bench_in
-from gripscale.experiment.task import canonical_json, load_stored
+from gripscale.experiment.task import load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import Doubtful, Load, Model, input_doubts
@@ -246,20 +245,6 @@ class Plan:
             for label, value in zip(axis.labels, axis.values, strict=True)
         } or {"": self.case.load}
 
-    @property
-    def key(self) -> str:
-        """A hash of all the result depends on."""
-        content = {
-            "software": software(),
-            "case": [self.case.key, self.case.origin.text],
-            "uncertainty": canonical_json(self.uncertainty),
-            "samples": [self.samples, self.seed],
-            "models": list(self.models),
-            "tolerance": canonical_json(self.tolerance),
-            "axes": [[axis.name, canonical_json(axis.values)] for axis in self.axes],
-        }
-        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
-
     def design(self, samples: Sequence[SampledInputs]) -> Design:
         """Return the tasks of samples, of which the first is the case, by each model and load."""
         case, shape = self.case, [len(axis.values) for axis in self.axes]
@@ -317,9 +302,6 @@ def propagate(
 ) -> xr.Dataset:
     """Predict each sample of a plan; return the Dataset of `gripscale.uncertainty`, and keep it."""
     path = None if folder is None else Path(folder) / _RESULT
-    data = None if path is None else load_stored(path)
-    if data is not None and data.attrs.get("plan_key") == plan.key:
-        return data
     chosen = plan.uncertainty.of(plan.case, plan.models)
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
@@ -362,6 +344,5 @@ def solve_samples(
         case.attributes | input_doubts(inputs, loads, case.units, case.softening_doubts),
         **{_FILES: json.dumps(case.origin.digests)},
         seed=plan.seed,
-        plan_key=plan.key,
         software=software(),
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
@@ -63,17 +62,12 @@ def study_command(
     varied = read_named_inputs(axes, work.file, modulus)
     planned = Study(work.case, varied, model=model, tolerance=tolerance)
     work.open_results(output, "study")
-    stored = planned.stored(work.target)
     opening = planned.description()
-    if stored is not None:
-        opening = json.loads(stored.attrs["description"])
     for line in opening:
         terminal.print_wrapped(work.console, line)
     folder.save_case(work.file, work.target)
     data = planned.run(client=cluster, **work.solving(workers))
-    work.finish(
-        Variation(data), "table and figures", opening=opening, keep_figures=stored is not None
-    )
+    work.finish(Variation(data), "table and figures", opening=opening)
 
 
 CaseOfRest = Annotated[

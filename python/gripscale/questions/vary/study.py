@@ -9,7 +9,6 @@ where it was when it is run again, and ends in the same Dataset to the last bit.
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -34,7 +33,7 @@ from gripscale.experiment.design import (
     variable_attributes,
 )
 from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.experiment.task import Task, canonical_json, load_stored
+from gripscale.experiment.task import Task
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io import netcdf
 from gripscale.model import METHOD, Model, input_doubts
@@ -171,18 +170,6 @@ class Study:
     def _values(self, name: str) -> tuple[Any, ...]:
         return next((axis.values for axis in self.axes if axis.name == name), ())
 
-    @cached_property
-    def key(self) -> str:
-        """Hash of everything that the study depends on."""
-        settings = {
-            "software": software(),
-            "case": [self.case.key, self.case.origin.text],
-            "axes": {axis.name: axis.labels for axis in self.axes},
-            "values": {axis.name: canonical_json(axis.values) for axis in self.axes},
-            "model": canonical_json(self.model),
-        }
-        return hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()
-
     def description(self) -> list[str]:
         """Return in words what is varied, and on what."""
         count = len({point.task.key for point in self.points})
@@ -220,26 +207,17 @@ class Study:
         Parameters
         ----------
         folder : path, optional
-            Gets `study.nc`, and the predictions in `predictions`; has it that of just this study,
-            this is returned. Studies may share a folder, one after the other: the last Dataset
-            stays.
+            Gets `study.nc`, and the predictions in `predictions`. Studies may share a folder, one
+            after the other: the last Dataset stays.
         workers, client, on_task
             As for `Bench`.
         """
-        data = None if folder is None else self.stored(folder)
-        if data is not None:
-            return data
         with bench_in(folder, workers, client, on_task) as bench:
             answers = bench.solve(self.design.tasks, study_numbers)
             data = self.assemble(answers).assign_attrs(kind="study")
         if folder is None:
             return data
         return netcdf.load_dataset(netcdf.save(data, Path(folder) / STUDY_FILE))
-
-    def stored(self, folder: str | Path) -> xr.Dataset | None:
-        """Return the Dataset an earlier run of just this study left in `folder`, or None."""
-        data = load_stored(Path(folder) / STUDY_FILE)
-        return data if data is not None and data.attrs.get("study_key") == self.key else None
 
     def assemble(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the Dataset of the study from its predictions by their keys."""
@@ -325,8 +303,6 @@ class Study:
                 dict.fromkeys(str(f) for surface in self.surfaces for f in surface.findings)
             ),
             "software": software(),
-            "study_key": self.key,
-            "description": json.dumps(self.description()),
             "model": model.name,
             METHOD: json.dumps([*model.method]),
         }
