@@ -21,7 +21,7 @@ from gripscale.rubber.sweeps import states_temperature
 from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES
 
-SOURCES_OF_SURFACE = {"files", "map", "sines"}
+SOURCES_OF_SURFACE = {"files", "map", "sines", "assumed"}
 # Keys of the case's [surface] that belong to its own files.
 OF_ONE_ROAD = ("crop", "crop_across", "z_axis")
 # Keys of the case's [rubber] that another file is read with where it does not state them.

@@ -458,7 +458,13 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 friction=friction,
                 cleaning=_options(table, surfaces.clean) if cleaned else None,
                 options={"uncertainty": file.case.uncertainty.options()},
-                origin=Origin(str(file.path), file.text, file.units, named_files(file)),
+                origin=Origin(
+                    str(file.path),
+                    file.text,
+                    file.units,
+                    named_files(file),
+                    (*(table.assumed or ()), *(file.case.rubber.assumed or ())),
+                ),
             )
         except InputError as error:
             raise InputError(f"{file.path}: [conditions] {error}") from error

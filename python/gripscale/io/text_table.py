@@ -274,6 +274,8 @@ def column_in(path: Path, lines: list[Line], *, kinds: Collection[str]) -> TextT
             titles.append(_column_title(cell, kinds))
     if not cells or "\t" in above:  # titles of several columns, of which only one has numbers
         return None
+    if len(cells) == 1 and "," in cells[0][0]:  # the only row of two columns
+        return None
     title = next((title for title in reversed(titles) if _is_unit(title.unit, kinds)), None)
     decimal = _decimal_sign(path, cells, numbers)
     return TextTable(path, [title or ColumnTitle()], cells, numbers, decimal)
