@@ -163,7 +163,7 @@ def propose(
             effect = TENS_OF_PERCENT if key == "footprint" else BY_A_FACTOR
             of_load.add(key, default, f"not stated; --{key} states another", effect)
     road = surface_proposal(
-        surfaces, [names[file] for file in surfaces], step=step, stated=of_surface
+        surfaces, [names[file] for file in surfaces], step=step, keys=of_surface
     )
     if named:
         rubber = Proposal()

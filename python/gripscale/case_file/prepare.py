@@ -243,8 +243,8 @@ def _stored_rubber(path: Path, source: RubberSource, resolve: Resolve) -> Measur
     of_table: set[str] = set() if path.suffix.lower() == ".json" else {"modulus", "modulus_unit"}
     try:
         if of_table:
-            stated = {"modulus": source.modulus, "modulus_unit": source.modulus_unit}
-            values: Any = read_prony_table(path, **stated)
+            options = {"modulus": source.modulus, "modulus_unit": source.modulus_unit}
+            values: Any = read_prony_table(path, **options)
         else:
             values = json.loads(read_bytes(path))
     except json.JSONDecodeError as error:

@@ -108,16 +108,16 @@ def surface_proposal(
     names: list[str],
     *,
     step: str | list[str] | None = None,
-    stated: Mapping[str, Any] = MappingProxyType({}),
+    keys: Mapping[str, Any] = MappingProxyType({}),
 ) -> Proposal:
     """Return the table [surface] for profiles, or for one map.
 
     `names` are those of the files in the case; `step` is the distance between points, where a file
-    has none, and `stated` what else is stated as keys of [surface]. Raises `FileError` and
+    has none, and `keys` what else is stated in [surface]. Raises `FileError` and
     `InputError` as reading does.
     """
     proposal = Proposal()
-    reading = reading_keys(stated)
+    reading = reading_keys(keys)
     options: dict[str, Any] = _step_option(step) | reading
     surface, missing = open_surface(paths[0], step, UNITS_OF_SURFACE, **reading)
     if isinstance(surface, HeightMap):
@@ -131,7 +131,7 @@ def surface_proposal(
         proposal.add("files", names)
     if step is not None:
         proposal.add("step", step)
-    for key, value in stated.items():
+    for key, value in keys.items():
         proposal.add(key, value, "as stated")
     read = read_map if isinstance(surface, HeightMap) else read_profile
     units: dict[str, Any] = {}
@@ -148,7 +148,7 @@ def surface_proposal(
     for key, unit in units.items():
         words = f"{paths[0].name} names no unit; with this one the heights are a texture"
         proposal.add(key, unit, words, OF_ANOTHER_CASE)
-    if isinstance(surface, Profile) and "crop" not in stated:
+    if isinstance(surface, Profile) and "crop" not in keys:
         profiles = [read_profile(path, **options, **units) for path in paths]
         ends = [part for profile in profiles if (part := road_between(profile)) is not None]
         if ends:
@@ -166,10 +166,10 @@ def surface_proposal(
     return proposal
 
 
-def reading_keys(stated: Mapping[str, Any]) -> dict[str, Any]:
+def reading_keys(keys: Mapping[str, Any]) -> dict[str, Any]:
     """Return those of the stated keys of [surface] with which its files are read."""
     names = ("x_unit", "z_unit", "channel", "z_axis")
-    return {name: stated[name] for name in names if name in stated}
+    return {name: keys[name] for name in names if name in keys}
 
 
 def _step_option(step: str | list[str] | None) -> dict[str, Any]:
@@ -184,14 +184,14 @@ def open_surface(
     path: Path,
     step: str | list[str] | None = None,
     defaults: Mapping[str, str] = MappingProxyType({}),
-    **stated: Any,
+    **reading: Any,
 ) -> tuple[Profile | HeightMap, dict[str, str]]:
     """Return the profile or the map of a file, and those of the `defaults` that it needs.
 
-    What is `stated` are further arguments of reading. Raises `FileError` and `InputError` as
+    `reading` are further arguments of the readers. Raises `FileError` and `InputError` as
     reading does.
     """
-    options = _step_option(step) | stated
+    options = _step_option(step) | reading
     # an instrument's map has profiles, too; a text with a distance and a height is no map
     lines = is_text_surface(path) and path.suffix.lower() not in POINT_SUFFIXES
     readers = (read_profile, read_map) if lines else (read_map, read_profile)

@@ -142,7 +142,7 @@ class TextTable:
     rows: list[list[str]]
     line_numbers: list[int]
     decimal: str
-    left: int = 0
+    empty: int = 0
     """Columns of the file without numbers before the first one: they count, too."""
 
     @property
