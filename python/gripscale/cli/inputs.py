@@ -17,10 +17,6 @@ from gripscale.cli.new import (
     RubberHeader,
     RubberModulus,
     RubberSheet,
-    SurfaceAxis,
-    SurfaceChannel,
-    SurfaceCrop,
-    SurfaceUnit,
     WlfConstants,
     naming_options,
     shift_of_wlf,
@@ -28,6 +24,10 @@ from gripscale.cli.new import (
 from gripscale.core.errors import about_keys
 from gripscale.questions.terminal import (
     COLUMNS,
+    SurfaceAxis,
+    SurfaceChannel,
+    SurfaceCrop,
+    SurfaceUnit,
     argument,
     column_of,
     columns_of,

@@ -43,21 +43,6 @@ ReferenceTemperature = Annotated[
     str | None,
     terminal.option('Such as "20 C": what a master curve holds for, or sweeps are shifted to.'),
 ]
-SurfaceUnit = Annotated[
-    str | None,
-    terminal.option("Where the file of the surface does not state it; of counts such as 0.5 um."),
-]
-SurfaceAxis = Annotated[
-    str | None,
-    terminal.option("Which way the heights count: up, the default, or down, of depths."),
-]
-SurfaceChannel = Annotated[
-    str | None,
-    terminal.option("Channel of heights of an instrument, or column of a text; title or number."),
-]
-SurfaceCrop = Annotated[
-    tuple[str, str] | None, terminal.option('Part of the profiles, such as "120 mm" "1780 mm".')
-]
 WlfConstants = Annotated[
     tuple[float, str] | None,
     terminal.option('Constants c1 and c2 of a shift, such as 8.86 "101.6 K".', metavar="C1 C2"),
@@ -121,11 +106,11 @@ def new(
             'Distance between points where a file has none: "0.1 mm", of a map "1 um, 2 um".'
         ),
     ] = None,
-    x_unit: SurfaceUnit = None,
-    z_unit: SurfaceUnit = None,
-    z_axis: SurfaceAxis = None,
-    channel: SurfaceChannel = None,
-    crop: SurfaceCrop = None,
+    x_unit: terminal.SurfaceUnit = None,
+    z_unit: terminal.SurfaceUnit = None,
+    z_axis: terminal.SurfaceAxis = None,
+    channel: terminal.SurfaceChannel = None,
+    crop: terminal.SurfaceCrop = None,
     wlf: WlfConstants = None,
     columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
     sheet: RubberSheet = None,
@@ -158,13 +143,9 @@ def new(
         "temperature_unit": temperature_unit,
         "modulus_unit": modulus_unit,
     }
-    surface = {
-        "x_unit": x_unit,
-        "z_unit": z_unit,
-        "z_axis": z_axis,
-        "channel": None if channel is None else terminal.column_of(channel),
-        "crop": None if crop is None else list(crop),
-    }
+    surface = terminal.surface_keys(
+        x_unit=x_unit, z_unit=z_unit, z_axis=z_axis, channel=channel, crop=crop
+    )
     if filled is None and sys.stdin.isatty() and sys.stdout.isatty():
         choices = click.Choice(["yes", "no", "unknown"])
         question = "Is the rubber filled (carbon black, silica), as every tread is?"
@@ -182,7 +163,7 @@ def new(
             thickness=thickness,
             filled=filled,
             interface=interface,
-            surface={key: value for key, value in surface.items() if value is not None},
+            surface=surface,
         )
     lines = [f"Case: {case.path}"]
     if case.skipped:
