@@ -89,6 +89,7 @@ class Origin:
     # Units that the case states, by key, in which results are shown.
     units: Mapping[str, str] = field(default_factory=dict)
     files: Sequence[NamedFile] = ()
+    assumed: Sequence[str] = ()  # what no file states and `gripscale new` proposed
 
     @property
     def digests(self) -> list[str]:
@@ -449,7 +450,8 @@ class Case(Described):
     ) -> list[Finding]:
         """Return why the answer may be that of another road, rubber or load; as `findings`."""
         roads = [self.surface] if surfaces is None else surfaces
-        doubts = [*(d for road in roads for d in road.doubts), *self.measured_rubber.doubts]
+        doubts = [Finding(Severity.DOUBT, text) for text in self.origin.assumed]
+        doubts += [*(d for road in roads for d in road.doubts), *self.measured_rubber.doubts]
         doubts += self.softening_doubts
         doubts += load_doubts([self.load] if loads is None else loads, self.units)
         doubts = list(dict.fromkeys(doubts))

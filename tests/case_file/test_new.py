@@ -15,7 +15,7 @@ from gripscale.case_file import prepare_rubber, read_case_file
 from gripscale.case_file.new import NewCase, new_case
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import BY_A_FACTOR, OF_ANOTHER_CASE, TENS_OF_PERCENT
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.finding import Severity
 from gripscale.rubber import WLF
 from tests.samples import Shell
@@ -188,7 +188,7 @@ def test_ramps_at_several_frequencies_get_nominal_temperatures(tmp_path: Path) -
         (["dma"], "expected a file with a surface"),
         (["road", "picture"], "picture.png"),
         (["road", "ansys"], "expected rows of frequency, storage and loss"),
-        (["dma", "ansys"], "ansys.MPL: expected a surface"),
+        (["dma", "ansys"], "ansys.MPL: expected rows with two columns"),
         (["road", "dma", "gone"], "gone.dat"),
     ],
 )
@@ -479,3 +479,43 @@ def test_cases_in_one_folder_have_results_of_their_own(tmp_path: Path) -> None:
     files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
     for name, results in (("case", "results"), ("wet", "results-wet")):
         assert keys(new_case(files, tmp_path / f"{name}.toml"))["output"]["folder"] == results
+
+
+def test_what_is_proposed_is_among_the_doubts_of_the_case(tmp_path: Path) -> None:
+    bare = road(tmp_path / "bare.csv", "x;z")
+    new = new_case([bare, TREAD], tmp_path / "case.toml")
+    case = gs.read_case(new.path)
+    proposed = [str(finding) for finding in case.doubts()][:3]
+    assert [text.partition(" = ")[0] for text in proposed] == [
+        "x_unit",
+        "z_unit",
+        "reference_temperature",
+    ]
+    sentences = [str(finding) for finding in new.findings]
+    assert sentences[:3] == proposed
+    assert len(sentences) == len(set(sentences))
+    stated = {"x_unit": "mm", "z_unit": "mm"}
+    layout = {"reference_temperature": "20 C"}
+    known = new_case([bare, TREAD], tmp_path / "known.toml", surface=stated, layout=layout)
+    assert not gs.read_case(known.path).origin.assumed
+
+
+def test_a_plane_has_no_roughness(tmp_path: Path) -> None:
+    flat = tmp_path / "flat.csv"
+    flat.write_text("x [mm],z [mm]\n" + "\n".join(f"{0.1 * i:.1f},0" for i in range(400)))
+    with pytest.raises(GripscaleError, match="a plane has no roughness"):
+        new_case([flat, TREAD], tmp_path / "case.toml")
+
+
+def test_one_row_is_one_point(tmp_path: Path) -> None:
+    row = tmp_path / "row.csv"
+    row.write_text("x [mm],z [mm]\n0,1\n")
+    with pytest.raises(GripscaleError, match="at least 16 points; got 1"):
+        new_case([row, TREAD], tmp_path / "case.toml")
+
+
+def test_moduli_of_no_solid_ask_for_their_unit(tmp_path: Path) -> None:
+    dma = tmp_path / "dma.csv"
+    dma.write_text("f (Hz),E' (MPa),E'' (MPa)\n" + "1,5e6,1e6\n10,6e6,1.2e6\n100,7e6,1.4e6\n")
+    with pytest.raises(InputError, match=r"modulus_unit.*7e\+03 GPa, which no solid has"):
+        new_case([road(tmp_path / "road.csv"), dma], tmp_path / "case.toml")

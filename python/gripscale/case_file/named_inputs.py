@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from gripscale.case_file.prepare import case_surface, prepare_rubber, prepare_surface
@@ -21,9 +22,10 @@ from gripscale.rubber.sweeps import states_temperature
 from gripscale.surface import SineStack, Surface
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES
 
-SOURCES_OF_SURFACE = {"files", "map", "sines"}
+SOURCES_OF_SURFACE = {"files", "map", "sines", "assumed"}
 # Keys of the case's [surface] that belong to its own files.
 OF_ONE_ROAD = ("crop", "crop_across", "z_axis")
+_NO_KEYS: Mapping[str, Any] = MappingProxyType({})
 # Keys of the case's [rubber] that another file is read with where it does not state them.
 OF_A_FILE = (
     *("frequency_unit", "modulus_unit", "temperature_unit"),
@@ -48,12 +50,13 @@ def read_named_inputs(
     return inputs
 
 
-def read_surface(value: Any, file: CaseFile) -> Any:
+def read_surface(value: Any, file: CaseFile, options: Mapping[str, Any] = _NO_KEYS) -> Any:
     """Return a surface that a command names, with a note on how it was read.
 
     `value` is the path of another case (its [surface] is taken), or of a profile or, of a case on a
     map, a map, read with all other settings of the case but the crop, which belongs to its own
-    files. "case", synthetic surfaces known by name and surfaces are returned as they are.
+    files; `options`, keys of [surface], go before those of the case. "case", synthetic surfaces
+    known by name and surfaces are returned as they are.
     """
     if isinstance(value, Surface | SineStack) or value in (OF_THE_CASE, *SYNTHETIC_SURFACES):
         return value
@@ -66,7 +69,8 @@ def read_surface(value: Any, file: CaseFile) -> Any:
     if table.sines is not None:
         settings["scales"] = len(table.sines)
     source = {"files": [str(path)]} if table.map is None else {"map": str(path)}
-    surface = prepare_surface(validate(SurfaceTable, settings | source, "vary surface"))
+    settings |= {**source, **options}
+    surface = prepare_surface(validate(SurfaceTable, settings, "vary surface"))
     if not outside:
         return surface
     keys = table.model_fields_set - SOURCES_OF_SURFACE

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from gripscale.case import Case
@@ -26,6 +27,7 @@ from gripscale.case_file.proposals import (
     holds_moduli,
     open_rubber,
     open_surface,
+    reading_keys,
     rubber_proposal,
     surface_proposal,
 )
@@ -115,6 +117,7 @@ def propose(
     thickness: str | None = None,
     filled: bool | None = None,
     interface: str | None = None,
+    surface: Mapping[str, Any] | None = None,
 ) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
     """Return the tables of a case in a directory for measured files, and the files without use.
 
@@ -136,7 +139,10 @@ def propose(
     shift : mapping, optional
         Time-temperature shift of the rubber, as in a case: kind, c1 and c2.
     layout : mapping, optional
-        What the file of the rubber does not state: keys of [rubber], such as columns.
+        What the file of the rubber does not state: keys of [rubber], such as columns or
+        reference_temperature.
+    surface : mapping, optional
+        What the files of the surface do not state: keys of [surface], such as z_unit or channel.
     thickness : str, optional
         Of the rubber on its base, such as "8 mm"; without it the rubber has no end, with a doubt.
     filled : bool, optional
@@ -145,10 +151,11 @@ def propose(
         "dry" adds the interface of a dry road to the friction of the hysteresis.
     """
     kelvin = si_value("temperature", temperature, "K")
-    layout = layout or {}
+    layout, of_surface = dict(layout or {}), dict(surface or {})
+    reference = layout.pop("reference_temperature", None)
     named = [str(name) for name in files if str(name) in NAMED_RUBBERS and not Path(name).exists()]
     paths = [Path(file) for file in files if str(file) not in named]
-    surfaces, rubbers, shifts, skipped = _sorted(paths, step, layout, named)
+    surfaces, rubbers, shifts, skipped = _sorted(paths, step, layout, named, of_surface)
     names = {file: path_between(directory, file) for file in (*surfaces, *rubbers, *shifts)}
     of_load = Proposal()
     for key, default in _LOAD.items():
@@ -157,7 +164,9 @@ def propose(
         else:
             effect = TENS_OF_PERCENT if key == "footprint" else BY_A_FACTOR
             of_load.add(key, default, f"not stated; --{key} states another", effect)
-    surface = surface_proposal(surfaces, [names[file] for file in surfaces], step=step)
+    road = surface_proposal(
+        surfaces, [names[file] for file in surfaces], step=step, keys=of_surface
+    )
     if named:
         rubber = Proposal()
         rubber.add("name", named[0], "known by published parameters")
@@ -165,6 +174,7 @@ def propose(
             rubber.add("shift", dict(shift), "as stated")
     else:
         measurement = {"temperature": kelvin, "shift": shift, "layout": layout}
+        measurement["reference"] = reference
         rubber = _one_rubber(rubbers, [names[file] for file in rubbers], **measurement)
     if shift is None:
         for name in (names[file] for file in shifts):
@@ -180,7 +190,7 @@ def propose(
     conditions = conditions_proposal(rubber, rubbers, kelvin)
     if interface is not None:
         conditions.add("interface", interface, "as stated")
-    tables = {"surface": surface, "rubber": rubber, "load": of_load, "conditions": conditions}
+    tables = {"surface": road, "rubber": rubber, "load": of_load, "conditions": conditions}
     return tables, skipped
 
 
@@ -188,7 +198,8 @@ def ranked_findings(
     tables: Mapping[str, Proposal], further: Iterable[Finding] = ()
 ) -> Sequence[Finding]:
     """Return the findings of proposals and further ones, the most important first."""
-    return ranked([*(finding for t in tables.values() for finding in t.findings), *further])
+    proposed = (finding for table in tables.values() for finding in table.findings)
+    return ranked(dict.fromkeys([*proposed, *further]))
 
 
 def _sorted(
@@ -196,6 +207,7 @@ def _sorted(
     step: str | list[str] | None,
     layout: Mapping[str, Any],
     named: Sequence[str] = (),
+    of_surface: Mapping[str, Any] = MappingProxyType({}),
 ) -> tuple[list[Path], list[Path], list[Path], tuple[Path, ...]]:
     """Return the files of surfaces, of moduli and of shifts, and those of folders without use.
 
@@ -216,7 +228,7 @@ def _sorted(
                 shifts.append(path)
                 continue
             try:
-                open_surface(path, step, UNITS_OF_SURFACE)
+                open_surface(path, step, UNITS_OF_SURFACE, **reading_keys(of_surface))
             except GripscaleError as error:
                 if file.is_dir():
                     skipped.append(path)

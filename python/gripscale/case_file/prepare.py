@@ -243,8 +243,8 @@ def _stored_rubber(path: Path, source: RubberSource, resolve: Resolve) -> Measur
     of_table: set[str] = set() if path.suffix.lower() == ".json" else {"modulus", "modulus_unit"}
     try:
         if of_table:
-            stated = {"modulus": source.modulus, "modulus_unit": source.modulus_unit}
-            values: Any = read_prony_table(path, **stated)
+            options = {"modulus": source.modulus, "modulus_unit": source.modulus_unit}
+            values: Any = read_prony_table(path, **options)
         else:
             values = json.loads(read_bytes(path))
     except json.JSONDecodeError as error:
@@ -457,7 +457,13 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 friction=friction,
                 cleaning=_options(table, surfaces.clean) if cleaned else None,
                 options={"uncertainty": file.case.uncertainty.options()},
-                origin=Origin(str(file.path), file.text, file.units, named_files(file)),
+                origin=Origin(
+                    str(file.path),
+                    file.text,
+                    file.units,
+                    named_files(file),
+                    (*(table.assumed or ()), *(file.case.rubber.assumed or ())),
+                ),
             )
         except InputError as error:
             raise InputError(f"{file.path}: [conditions] {error}") from error

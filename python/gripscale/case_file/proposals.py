@@ -73,6 +73,8 @@ class Proposal:
         if effect is not None:
             sentence = f"{key} = {value!r}".replace("'", '"') + f": {reason}"
             self.findings.append(assumption(effect, sentence))
+            if effect == OF_ANOTHER_CASE:  # the case carries it, so that its answers say it
+                self.keys["assumed"] = [*self.keys.get("assumed", []), sentence]
 
 
 LENGTHS = ("mm", "um", "m")
@@ -102,16 +104,22 @@ def _read_with(
 
 
 def surface_proposal(
-    paths: list[Path], names: list[str], *, step: str | list[str] | None = None
+    paths: list[Path],
+    names: list[str],
+    *,
+    step: str | list[str] | None = None,
+    keys: Mapping[str, Any] = MappingProxyType({}),
 ) -> Proposal:
     """Return the table [surface] for profiles, or for one map.
 
     `names` are those of the files in the case; `step` is the distance between points, where a file
-    has none. Raises `FileError` and `InputError` as reading does.
+    has none, and `keys` what else is stated in [surface]. Raises `FileError` and
+    `InputError` as reading does.
     """
     proposal = Proposal()
-    options: dict[str, Any] = _step_option(step)
-    surface, missing = open_surface(paths[0], step, UNITS_OF_SURFACE)
+    reading = reading_keys(keys)
+    options: dict[str, Any] = _step_option(step) | reading
+    surface, missing = open_surface(paths[0], step, UNITS_OF_SURFACE, **reading)
     if isinstance(surface, HeightMap):
         if len(paths) > 1:
             raise InputError(f"expected one map, or profiles; got {paths[0]} and {paths[1]}")
@@ -123,6 +131,8 @@ def surface_proposal(
         proposal.add("files", names)
     if step is not None:
         proposal.add("step", step)
+    for key, value in keys.items():
+        proposal.add(key, value, "as stated")
     read = read_map if isinstance(surface, HeightMap) else read_profile
     units: dict[str, Any] = {}
     # units that the file does not state with which its heights are those of a texture, if any are
@@ -138,7 +148,7 @@ def surface_proposal(
     for key, unit in units.items():
         words = f"{paths[0].name} names no unit; with this one the heights are a texture"
         proposal.add(key, unit, words, OF_ANOTHER_CASE)
-    if isinstance(surface, Profile):
+    if isinstance(surface, Profile) and "crop" not in keys:
         profiles = [read_profile(path, **options, **units) for path in paths]
         ends = [part for profile in profiles if (part := road_between(profile)) is not None]
         if ends:
@@ -156,6 +166,12 @@ def surface_proposal(
     return proposal
 
 
+def reading_keys(keys: Mapping[str, Any]) -> dict[str, Any]:
+    """Return those of the stated keys of [surface] with which its files are read."""
+    names = ("x_unit", "z_unit", "channel", "z_axis")
+    return {name: keys[name] for name in names if name in keys}
+
+
 def _step_option(step: str | list[str] | None) -> dict[str, Any]:
     """Return a step as an argument of readers [m]."""
     if step is None:
@@ -168,13 +184,14 @@ def open_surface(
     path: Path,
     step: str | list[str] | None = None,
     defaults: Mapping[str, str] = MappingProxyType({}),
-    **units: str,
+    **reading: Any,
 ) -> tuple[Profile | HeightMap, dict[str, str]]:
     """Return the profile or the map of a file, and those of the `defaults` that it needs.
 
-    Further `units` are those of reading. Raises `FileError` and `InputError` as reading does.
+    `reading` are further arguments of the readers. Raises `FileError` and `InputError` as
+    reading does.
     """
-    options = _step_option(step) | units
+    options = _step_option(step) | reading
     # an instrument's map has profiles, too; a text with a distance and a height is no map
     lines = is_text_surface(path) and path.suffix.lower() not in POINT_SUFFIXES
     readers = (read_profile, read_map) if lines else (read_map, read_profile)
@@ -195,11 +212,13 @@ def rubber_proposal(
     temperature: float | None = None,
     shift: Mapping[str, Any] | None = None,
     layout: Mapping[str, Any] = MappingProxyType({}),
+    reference: str | None = None,
 ) -> Proposal:
     """Return the table [rubber] for a master curve or sweeps, to be used at a temperature [K].
 
-    `names` are those of the files in the case, and the `layout` what is stated of them. Raises
-    `FileError` and `InputError` as reading does.
+    `names` are those of the files in the case, the `layout` what is stated of them, `reference` the
+    temperature that a curve holds for or sweeps are shifted to. Raises `FileError` and
+    `InputError` as reading does.
     """
     proposal, settings = Proposal(), dict(layout)
     proposal.add("file", names[0] if len(names) == 1 else names)
@@ -207,7 +226,7 @@ def rubber_proposal(
         proposal.add(key, value, "as stated")
     if len(paths) == 1 and holds_prony_table(paths[0]):
         read_prony_table(paths[0], **settings)
-        _add_room(proposal, temperature)
+        _add_reference(proposal, None, temperature, reference)
         if shift is not None:
             proposal.add("shift", dict(shift), "as stated")
         return proposal
@@ -218,7 +237,7 @@ def rubber_proposal(
         proposal.add(key, settings[key], reason, OF_ANOTHER_CASE)
     if asked:
         measured, _ = open_rubber(paths, settings)
-    _add_reference(proposal, measured, temperature)
+    _add_reference(proposal, measured, temperature, reference)
     if isinstance(measured, Sweeps) and not measured.is_ramp:
         try:
             replace(measured, tolerance=TEMPERATURE_TOLERANCE)
@@ -286,12 +305,23 @@ def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str
 
 
 def _add_reference(
-    proposal: Proposal, measured: MasterCurve | Sweeps, temperature: float | None
+    proposal: Proposal,
+    measured: MasterCurve | Sweeps | None,
+    temperature: float | None,
+    reference_text: str | None,
 ) -> None:
+    if reference_text is not None:
+        proposal.add("reference_temperature", reference_text, "as stated")
+        return
     target = ROOM if temperature is None else temperature
-    if isinstance(measured, MasterCurve):
-        if measured.reference_temperature is None:
-            _add_room(proposal, temperature)
+    if not isinstance(measured, Sweeps):
+        if measured is None or measured.reference_temperature is None:
+            words = (
+                "the file states no temperature; the moduli are assumed to be measured at this one"
+            )
+            if temperature is None:
+                words += ", as is the contact; --temperature states another"
+            proposal.add("reference_temperature", celsius_text(target), words, OF_ANOTHER_CASE)
         return
     kelvin = measured.temperature
     if np.ptp(kelvin) <= _ONE_SWEEP:
@@ -304,14 +334,6 @@ def _add_reference(
     if temperature is None:
         text = f"no temperature of the contact stated: {reference - ZERO_CELSIUS:.4g} °C assumed"
         proposal.findings.append(assumption(BY_A_FACTOR, f"{text}; --temperature states another"))
-
-
-def _add_room(proposal: Proposal, temperature: float | None) -> None:
-    words = "the file states no temperature; the moduli are assumed to be measured at this one"
-    if temperature is None:
-        words += ", as is the contact; --temperature states another"
-    kelvin = celsius_text(ROOM if temperature is None else temperature)
-    proposal.add("reference_temperature", kelvin, words, OF_ANOTHER_CASE)
 
 
 NOMINAL_STEP = "5 K"  # step of nominal temperatures of ramps at several frequencies

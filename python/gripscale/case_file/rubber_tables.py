@@ -47,7 +47,16 @@ SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable
 
 # Keys of [rubber] that a named rubber may have.
 OF_ANY_RUBBER = {
-    *("file", "name", "bulk_modulus", "strain_energy", "extrapolate", "shift", "thickness"),
+    *(
+        "file",
+        "name",
+        "assumed",
+        "bulk_modulus",
+        "strain_energy",
+        "extrapolate",
+        "shift",
+        "thickness",
+    ),
     "filled",
 }
 
@@ -113,6 +122,8 @@ class RubberSource(LayoutKeys):
     """Find a vertical shift of sweeps, too."""
     source: str = ""
     """Where the rubber comes from, carried into the results."""
+    assumed: list[str] | None = None
+    """What `gripscale new` proposed because no file states it, each a doubt of the answer."""
     terms: int | None = Field(default=None, ge=1, le=200)
     """Number of Maxwell elements; chosen from the data by default."""
     outlier_threshold: float | None = Field(default=None, gt=0.0)

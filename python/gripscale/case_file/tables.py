@@ -125,6 +125,8 @@ class ReadingKeys(CaseTable):
     """Distance between points, or those of a map along x and y, where the file has none."""
     reliable: Length | None = None
     """Shortest wavelength the instrument measures reliably, where the file does not tell."""
+    assumed: list[str] | None = None
+    """What `gripscale new` proposed because no file states it, each a doubt of the answer."""
 
 
 class CleaningKeys(CaseTable):

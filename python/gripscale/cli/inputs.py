@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gripscale.cli.new import (
+    ReferenceTemperature,
     RubberFrequency,
+    RubberHeader,
     RubberModulus,
     RubberSheet,
     WlfConstants,
@@ -22,6 +24,10 @@ from gripscale.cli.new import (
 from gripscale.core.errors import about_keys
 from gripscale.questions.terminal import (
     COLUMNS,
+    SurfaceAxis,
+    SurfaceChannel,
+    SurfaceCrop,
+    SurfaceUnit,
     argument,
     column_of,
     columns_of,
@@ -142,12 +148,11 @@ def fit_surface(
     s_wavelength: Annotated[float | None, option("Given instead of fitted.")] = None,
     s_amplitude: Annotated[float | None, option("Given instead of fitted.")] = None,
     single_factor: Annotated[bool, option("One factor for both lengths.")] = False,
-    crop: Annotated[tuple[str, str] | None, option('Such as "120 mm" "1780 mm".')] = None,
-    x_unit: Annotated[str | None, option("Where the file does not state it.")] = None,
-    z_unit: Annotated[str | None, option("Where the file does not state it.")] = None,
-    z_axis: Annotated[
-        str | None, option("Which way the heights count: up, the default, or down, of depths.")
-    ] = None,
+    crop: SurfaceCrop = None,
+    x_unit: SurfaceUnit = None,
+    z_unit: SurfaceUnit = None,
+    z_axis: SurfaceAxis = None,
+    channel: SurfaceChannel = None,
     step: Annotated[
         str | None, option('Distance between points, if not stated: "0.1 mm", or "1 um, 2 um".')
     ] = None,
@@ -159,7 +164,7 @@ def fit_surface(
 ) -> None:
     """Clean profiles or a map, find their height difference correlation, fit sine waves to it."""
     from gripscale.case_file import SurfaceTable, prepare_surface, validate
-    from gripscale.case_file.proposals import open_surface
+    from gripscale.case_file.proposals import open_surface, reading_keys
     from gripscale.io.folders import make_folder, require_writable
     from gripscale.questions.inputs import page
     from gripscale.surface import HeightMap
@@ -169,14 +174,16 @@ def fit_surface(
         values["crop"] = list(crop)
     if step is not None:
         values["step"] = lengths_of(step)
+    if channel is not None:
+        values["channel"] = column_of(channel)
     if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
     raw = None
     if len(files) == 1:
         # whether two steps are right depends on what the file holds
         validate(SurfaceTable, values | {"step": None}, "options")
-        read_by = {key: values[key] for key in ("x_unit", "z_unit", "z_axis") if key in values}
-        with about_keys("surface"):
+        read_by = reading_keys(values)
+        with about_keys("surface"), naming_options():
             measured, _ = open_surface(Path(files[0]), values.get("step"), **read_by)
         raw = measured if isinstance(measured, HeightMap) else [measured]
     if isinstance(raw, HeightMap):
@@ -239,15 +246,11 @@ def fit_rubber(
     modulus: RubberModulus = None,
     frequency: RubberFrequency = None,
     bulk_modulus: Annotated[str | None, option('Such as "2 GPa".')] = None,
-    reference_temperature: Annotated[
-        str | None, option('Such as "20 C": where sweeps are shifted to.')
-    ] = None,
+    reference_temperature: ReferenceTemperature = None,
     temperature_unit: Annotated[str | None, option("K, C or F, if not stated.")] = None,
     columns: Annotated[str | None, option(COLUMNS)] = None,
     sheet: RubberSheet = None,
-    header: Annotated[
-        int | None, option("Lines above the rows, if there are numbers among them.")
-    ] = None,
+    header: RubberHeader = None,
     outlier_threshold: Annotated[
         float | None,
         option("Times the typical scatter beyond which a row is left out; inf keeps all."),

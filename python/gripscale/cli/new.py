@@ -20,6 +20,7 @@ _EXAMPLES = {
     "shift": ': here with --wlf C1 C2, such as --wlf 8.86 "101.6 K"',
     "columns": ", such as --columns frequency=2,storage=3,loss=4",
     "modulus": ", such as --modulus E",
+    "channel": ", such as --channel 2",
 }
 
 
@@ -33,6 +34,14 @@ RubberFrequency = Annotated[
 ]
 RubberModulus = Annotated[
     str | None, terminal.option("E (Young) or G (shear), if the file of the rubber does not say.")
+]
+RubberHeader = Annotated[
+    int | None,
+    terminal.option("Lines above the rows of the rubber, if there are numbers among them."),
+]
+ReferenceTemperature = Annotated[
+    str | None,
+    terminal.option('Such as "20 C": what a master curve holds for, or sweeps are shifted to.'),
 ]
 WlfConstants = Annotated[
     tuple[float, str] | None,
@@ -97,10 +106,20 @@ def new(
             'Distance between points where a file has none: "0.1 mm", of a map "1 um, 2 um".'
         ),
     ] = None,
+    x_unit: terminal.SurfaceUnit = None,
+    z_unit: terminal.SurfaceUnit = None,
+    z_axis: terminal.SurfaceAxis = None,
+    channel: terminal.SurfaceChannel = None,
+    crop: terminal.SurfaceCrop = None,
     wlf: WlfConstants = None,
     columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
     sheet: RubberSheet = None,
+    header: RubberHeader = None,
+    reference_temperature: ReferenceTemperature = None,
     frequency: RubberFrequency = None,
+    frequency_unit: Annotated[
+        str | None, terminal.option("Such as rad/s, if the file of the rubber does not state it.")
+    ] = None,
     modulus: RubberModulus = None,
     temperature_unit: Annotated[
         str | None, terminal.option("K, C or F, if the file of the rubber does not state it.")
@@ -116,11 +135,17 @@ def new(
     layout = {
         "columns": None if columns is None else terminal.columns_of(columns),
         "sheet": None if sheet is None else terminal.column_of(sheet),
+        "header": header,
+        "reference_temperature": reference_temperature,
         "frequency": frequency,
+        "frequency_unit": frequency_unit,
         "modulus": modulus,
         "temperature_unit": temperature_unit,
         "modulus_unit": modulus_unit,
     }
+    surface = terminal.surface_keys(
+        x_unit=x_unit, z_unit=z_unit, z_axis=z_axis, channel=channel, crop=crop
+    )
     if filled is None and sys.stdin.isatty() and sys.stdout.isatty():
         choices = click.Choice(["yes", "no", "unknown"])
         question = "Is the rubber filled (carbon black, silica), as every tread is?"
@@ -138,6 +163,7 @@ def new(
             thickness=thickness,
             filled=filled,
             interface=interface,
+            surface=surface,
         )
     lines = [f"Case: {case.path}"]
     if case.skipped:

@@ -194,7 +194,7 @@ class TextTable:
     rows: Sequence[list[str]]
     line_numbers: list[int]
     decimal: str
-    left: int = 0
+    empty: int = 0
     """Columns of the file without numbers before the first one: they count, too."""
 
     @property
@@ -335,6 +335,8 @@ def column_in(path: Path, lines: list[Line], *, kinds: Collection[str]) -> TextT
             above = cell
             titles.append(_column_title(cell, kinds))
     if not cells or "\t" in above:  # titles of several columns, of which only one has numbers
+        return None
+    if len(cells) == 1 and "," in cells[0][0]:  # the only row of two columns
         return None
     title = next((title for title in reversed(titles) if _is_unit(title.unit, kinds)), None)
     decimal = _decimal_sign(path, cells, numbers)

@@ -289,6 +289,21 @@ MeasuredPath = Annotated[
         metavar="FILE.csv",
     ),
 ]
+SurfaceUnit = Annotated[
+    str | None,
+    option("Where the file of the surface does not state it; of counts such as 0.5 um."),
+]
+SurfaceAxis = Annotated[
+    str | None,
+    option("Which way the heights count: up, the default, or down, of depths."),
+]
+SurfaceChannel = Annotated[
+    str | None,
+    option("Channel of heights of an instrument, or column of a text; title or number."),
+]
+SurfaceCrop = Annotated[
+    tuple[str, str] | None, option('Part of the profiles, such as "120 mm" "1780 mm".')
+]
 Modulus = Annotated[
     str | None,
     option(
@@ -332,6 +347,15 @@ def column_of(text: str) -> str | int:
     """Return the number or the name of a column as it was typed."""
     text = text.strip()
     return int(text) if text.isdecimal() else text
+
+
+def surface_keys(
+    *, channel: str | None, crop: tuple[str, str] | None, **units: str | None
+) -> dict[str, Any]:
+    """Return options, as typed, as keys of [surface]."""
+    keys: dict[str, Any] = {key: value for key, value in units.items() if value is not None}
+    keys |= {} if channel is None else {"channel": column_of(channel)}
+    return keys if crop is None else {**keys, "crop": list(crop)}
 
 
 def columns_of(text: str) -> dict[str, str | int] | list[str | int]:

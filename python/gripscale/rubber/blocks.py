@@ -24,6 +24,7 @@ from gripscale.io.cells import Line, is_row, parse_number
 from gripscale.io.text_table import ColumnTitle, TextTable
 from gripscale.rubber import columns
 from gripscale.rubber.columns import FileLayout, quantity, stated_in
+from gripscale.rubber.compliances import with_moduli
 from gripscale.rubber.shift import WLF
 from gripscale.rubber.side_by_side import split_blocks
 
@@ -207,7 +208,7 @@ def _table(path: Path, lines: list[Line], expected: list[str]) -> TextTable:
         kinds=KINDS,
         named=lambda name: quantity(name) is not None or name in expected,
     )
-    return columns.with_moduli(columns.raised(table))
+    return with_moduli(columns.raised(table))
 
 
 _HOTTEST = 180.0  # temperature that no rubber is measured at [°C]

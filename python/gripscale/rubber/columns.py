@@ -20,13 +20,8 @@ delta, or the angle delta, state the modulus:
     E'' = E' tan d,   E' = E''/tan d,   E' = |E*|/sqrt(1 + tan^2 d)
 
 Each modulus has the unit of its own title. A loss factor may be in %, an angle states its unit.
-An angular frequency without a unit, or in 1/s, is in rad/s. Compliances J', J'' of shear or D', D''
-of tension become moduli,
-
-    G' = J'/(J'^2 + J''^2),   G'' = J''/(J'^2 + J''^2)
-
-Rows whose frequency or modulus is zero or less, up to a tenth of them, count as missing: faults of
-a measurement. More of them are a fault of the columns.
+An angular frequency without a unit, or in 1/s, is in rad/s. Rows whose frequency or modulus is
+zero or less, up to a tenth of them, count as missing: faults of a measurement, not of the columns.
 
 A shear modulus becomes the Young's modulus of the incompressible solid by E = 3 G.
 """
@@ -79,15 +74,14 @@ _OTHER = re.compile(
     r"log|ln\b|lg\b|eta\b|η|visco(?!us comp)|visko|complian|torque|phase|rate\b|static|statisch"
 )
 _COMPLIANCE = re.compile(r"[JD]['’′″\"]|.*(complian|nachgieb)", re.IGNORECASE)
-_STORED, _LOST = re.compile(r"([JD])'(?!')"), re.compile(r"([JD])''")
 _ANGULAR = re.compile(r"omega|ω|angular|kreis|pulsation|角|ang\.? ?freq", re.IGNORECASE)
 # A frequency in words that mean either kind: 1/s of an angular one is rad/s.
 _PER_SECOND = re.compile(r"(1/s(ec)?|s\^?-1|s⁻¹)", re.IGNORECASE)
 _PHASE = re.compile(r"delta|δ|(phase|loss)[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE)
 # Letters that are a title by themselves: t is a time and F a force.
 _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
-_BARE_PRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
-_PRIMES = str.maketrans(dict.fromkeys("’′`´", "'") | dict.fromkeys('″”"', "''"))
+_BAREPRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
+PRIMES = str.maketrans(dict.fromkeys("’′`´", "'") | dict.fromkeys('″”"', "''"))
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
 # A line that states the temperature or the frequency of the rows below it.
 _STATED = {
@@ -106,7 +100,7 @@ _STATED = {
 
 def quantity(name: str) -> str | None:
     """Return the quantity a column `name` clearly means, else None."""
-    text = _SYMBOL.sub("", _SHIFTED.sub("", name.strip().translate(_PRIMES)))
+    text = _SYMBOL.sub("", _SHIFTED.sub("", name.strip().translate(PRIMES)))
     if logarithm := _RAISED.fullmatch(text):
         return quantity(logarithm[2])
     if _PHASE.fullmatch(text):
@@ -130,7 +124,7 @@ def modulus_kind(name: str) -> str | None:
 def with_primes(line: str) -> str:
     """Return a line of titles with E'' and G'' where it has E" and G" outside quotation marks."""
     start = 0
-    while match := _BARE_PRIMES.search(line, start):
+    while match := _BAREPRIMES.search(line, start):
         start = match.end()
         if line.count('"', 0, start) % 2:
             line = f"{line[: start - 1]}''{line[start:]}"
@@ -170,42 +164,6 @@ def stated_in(line: str, kind: str = "temperature") -> tuple[str, str | None] | 
     """Return number and unit, if any, of what a line states, such as T = 20 °C or f = 10 Hz."""
     match = _STATED[kind].search(line.strip())
     return None if match is None else (match["number"], match["before"] or match["after"])
-
-
-def with_moduli(table: TextTable) -> TextTable:
-    """Return a table with the moduli in place of compliances J', J'' or D', D''."""
-    names = [name.translate(_PRIMES) for name in table.names]
-    hits = [[at for at, name in enumerate(names) if p.match(name)] for p in (_STORED, _LOST)]
-    if any(len(columns) != 1 for columns in hits):
-        return table
-    stored, lost = (
-        quantity_in_si(
-            table.numbers(at, "a compliance", missing=True),
-            str(_compliance_unit(table, at)),
-            "compliance",
-        )
-        for (at,) in hits
-    )
-    letter = "G" if names[hits[0][0]][0].upper() == "J" else "E"
-    rows, columns = [[*row] for row in table.rows], [*table.columns]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        moduli = [part / (stored**2 + lost**2) for part in (stored, lost)]
-    for (at,), values, primes in zip(hits, moduli, ("'", "''"), strict=True):
-        columns[at] = ColumnTitle(f"{letter}{primes}", "Pa")
-        for row, value in zip(rows, values, strict=True):
-            row[at] = repr(float(value)).replace(".", table.decimal)
-    return replace(table, columns=columns, rows=rows)
-
-
-def _compliance_unit(table: TextTable, column: int) -> str:
-    title = table.columns[column]
-    unit = spelled(title.unit, "compliance")
-    if unit is None:
-        raise FileError(
-            f"{table.path}: the title of the compliance {title.name} must state one of "
-            f"{listed('compliance')}; got {title.unit or 'none'}"
-        )
-    return unit
 
 
 def unit_in(title: ColumnTitle, kind: str) -> str | None:
@@ -379,8 +337,8 @@ def position_of(table: TextTable, column: str | int) -> int:
     """Return the position, from 0, of a column given by its number from 1 or by its title."""
     if not isinstance(column, str):
         # columns of words before the first one with numbers count, too
-        last = table.left + len(table.columns)
-        position = checks.counted(f"{table.path}: a column", column, last) - table.left
+        last = table.empty + len(table.columns)
+        position = checks.counted(f"{table.path}: a column", column, last) - table.empty
         if position < 0:
             raise InputError(f"{table.path}: column {column} holds no numbers")
         return position

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.core import FileError, GripscaleError, unstated
+from gripscale.core import FileError, GripscaleError
 from gripscale.core.units import quantity_in_si, spelled
 from gripscale.io.text_table import TextTable, is_excel, read_bytes, read_table
-from gripscale.rubber.columns import modulus_kind
+from gripscale.rubber.columns import FileLayout
 
 _TIME = re.compile(r"\W*(tau|τ|relax\w*[ _-]?(time|zeit)|temps de relax)", re.IGNORECASE)
 _MODULUS = re.compile(r"\W*([EG]_?[ijkn\d]?$|(young|shear|relax\w*)?[ _-]?modul)", re.IGNORECASE)
@@ -52,20 +52,12 @@ def read_prony_table(
     `modulus` is E or G and `modulus_unit` a unit, where the titles do not say. Raises `FileError`
     and `InputError` for a table that lacks one of these.
     """
-    found = _table(path)
-    if found is None:
+    columns = _table(path)
+    if columns is None:
         raise FileError(f"{path}: expected columns of relaxation time and modulus")
-    table, time, column = found
-    title = table.columns[column]
-    kind = modulus or modulus_kind(title.name)
-    if kind is None:
-        why = " must be given (E for Young's or G for shear), because the title does not tell"
-        raise unstated(f"{path}: ", "modulus", why)
-    unit = modulus_unit or spelled(title.unit, "modulus")
-    if unit is None:
-        stated = title.unit or "no unit"
-        why = f" must be given, because the header states {stated} of {title.name}"
-        raise unstated(f"{path}: ", "modulus_unit", why)
+    table, time, column = columns
+    layout = FileLayout(modulus=modulus, modulus_unit=modulus_unit)
+    unit, kind = layout.unit(table, column, "modulus"), layout.modulus_of(table, [column])
     times = table.numbers(time, "a relaxation time", missing=True)
     times *= quantity_in_si(1.0, spelled(table.columns[time].unit, "time") or "s", "time")
     values = quantity_in_si(table.numbers(column, "a modulus"), unit, "modulus")

@@ -81,16 +81,16 @@ def read_header(lines: Sequence[Line]) -> Header:
         name = next((key for key, names in _NAMES.items() if re.fullmatch(names, low)), "")
         if not name and pair["each"]:  # such as resolution, 100 um/sample
             name = "dx"
-        stated = pair["unit"] or pair["word"].strip('"') or pair["last"]
-        unit, number = spelled(stated, "length"), (pair["number"] or "").replace(",", ".")
+        word = pair["unit"] or pair["word"].strip('"') or pair["last"]
+        unit, number = spelled(word, "length"), (pair["number"] or "").replace(",", ".")
         if name == "factor" and number and unit:
             factor = f"{float(number):g} {unit}"
-        elif name[:1] in ("d", "s") and number and (unit or (name[0] == "d" and not stated)):
+        elif name[:1] in ("d", "s") and number and (unit or (name[0] == "d" and not word)):
             lengths.setdefault(name, (float(number), unit))
             if pair["second"]:
                 lengths[f"{name[0]}y"] = float(pair["second"].replace(",", ".")), unit
-        elif name in ("x", "z", "xz") and stated and not number and (unit or name != "xz"):
-            units.update(dict.fromkeys(name, unit or stated))
+        elif name in ("x", "z", "xz") and word and not number and (unit or name != "xz"):
+            units.update(dict.fromkeys(name, unit or word))
     x_unit, z_unit = units.get("x"), units.get("z")
     if factor and spelled(z_unit, "length") is None:
         z_unit = factor

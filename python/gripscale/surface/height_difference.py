@@ -261,6 +261,8 @@ def block_starts(sizes: list[int], blocks: int) -> list[NDArray[np.int64]]:
 
 def require_positive(hdc: HeightDifference) -> None:
     """Raise `InputError` where the curve is not above zero: its logarithm is fitted."""
+    if not (hdc.value > 0.0).any():
+        raise InputError("the heights must differ, a plane has no roughness; got the same ones")
     if (hdc.value <= 0.0).any():
         at = int(np.argmin(hdc.value))
         raise InputError(

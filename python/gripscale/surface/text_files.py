@@ -204,8 +204,8 @@ def _column_number(table: TextTable, channel: str | int) -> int:
         raise InputError(
             Words(f"{table.path}: ", CaseKey("channel"), words, checks.short_repr(channel))
         )
-    return checks.counted(f"{table.path}: channel", channel, table.left + len(table.columns)) - (
-        table.left
+    return checks.counted(f"{table.path}: channel", channel, table.empty + len(table.columns)) - (
+        table.empty
     )
 
 
@@ -228,9 +228,9 @@ def read_text_profile(
     """
     lines = erd_as_table(read_lines(path, sheet=sheet))
     column, header = column_in(path, lines, kinds=("length",)), read_header(lines)
-    stated = None if step is None else (step, step)
+    pair = None if step is None else (step, step)
     if column is not None:
-        steps = _stated_steps(path, stated, header.steps(max(2, len(column.rows))))
+        steps = _stated_steps(path, pair, header.steps(max(2, len(column.rows))))
         if steps is None:
             before = "expected two columns, distance and height; got one column of numbers: give "
             after = ', the distance between its points, such as "0.1 mm"'
@@ -240,7 +240,7 @@ def read_text_profile(
         x, z = steps[0] * np.arange(printed.size), quantity_in_si(printed, unit, "length")
         return _profile(path, np.asarray(x, float), z, notes, depth_doubts(column, 0))
     table = _read_table(path, lines, "rows with two columns of numbers")
-    steps = _stated_steps(path, stated, header.steps(max(2, len(table.rows))))
+    steps = _stated_steps(path, pair, header.steps(max(2, len(table.rows))))
     x_column, z_column = _profile_columns(table, channel, None if steps is None else steps[0])
     if x_column is not None:
         x_unit = _column_unit(table, x_column, "x_unit", x_unit, header.x_unit)
@@ -361,13 +361,13 @@ def _heights(table: TextTable, column: int, unit: str) -> tuple[Array, list[str]
 
 
 def _stated_steps(
-    path: Path, steps: tuple[float, float] | None, stated: tuple[float, float] | None
+    path: Path, steps: tuple[float, float] | None, by_header: tuple[float, float] | None
 ) -> tuple[float, float] | None:
     """Return the caller's steps [m], or those that the file states, which must be the same."""
-    if steps is None or stated is None or np.allclose(steps, stated, rtol=1e-6, atol=0.0):
-        return steps or stated
+    if steps is None or by_header is None or np.allclose(steps, by_header, rtol=1e-6, atol=0.0):
+        return steps or by_header
     by_caller, by_file = (
-        " and ".join(in_mm(s) for s in dict.fromkeys(pair)) for pair in (steps, stated)
+        " and ".join(in_mm(s) for s in dict.fromkeys(pair)) for pair in (steps, by_header)
     )
     raise InputError(f"step is {by_caller}, but {path} says {by_file}; give one of them")
 

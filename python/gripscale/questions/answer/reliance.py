@@ -53,8 +53,22 @@ def no_answer(data: xr.Dataset, but: str = "") -> str:
         return " ".join(["none.", *doubts, words])
     guessed = [share.sentence for share in guesses(data) if share.effect > MOST_ON_GUESSES]
     widths = [] if f"filled_{ESTIMATED_AREA}" in data else _sampled_too_little(data)
-    reasons = [*doubts, *guessed, *_beyond_law(data), *widths]
+    reasons = [*doubts, *_as_on_a_plate(data), *guessed, *_beyond_law(data), *widths]
     return f"none to rely on. {' '.join(reasons)}" if reasons else ""
+
+
+_WHOLE, _NONE = 0.99, 1e-3  # contact fraction and friction together that no road has
+
+
+def _as_on_a_plate(data: xr.Dataset) -> Iterator[str]:
+    """Yield that an answer is that of a smooth plate, as where a unit is wrong."""
+    area, friction = (headline(data, name).value for name in ("contact_fraction", "friction"))
+    if is_moving(data) and area > _WHOLE and friction < _NONE:
+        yield (
+            f"The rubber touches {percent_text(area)} of the surface with a friction of "
+            f"{friction:.1g}, as on a smooth plate: are the units of heights, distances and moduli "
+            "right?"
+        )
 
 
 def guesses(data: xr.Dataset) -> Iterator[Finding]:

@@ -15,10 +15,14 @@ from gripscale.questions.terminal import (
     Cluster,
     Modulus,
     OwnFolder,
+    SurfaceChannel,
+    SurfaceCrop,
+    SurfaceUnit,
     Workers,
     argument,
     case_command,
     option,
+    surface_keys,
 )
 
 
@@ -97,6 +101,10 @@ def compare_surfaces_command(
         ),
     ],
     case: CaseOfRest = None,
+    x_unit: SurfaceUnit = None,
+    z_unit: SurfaceUnit = None,
+    channel: SurfaceChannel = None,
+    crop: SurfaceCrop = None,
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
@@ -106,7 +114,8 @@ def compare_surfaces_command(
 
     work = terminal.CaseCommand(case_of(surfaces, case, "the rubber and the load"))
     work.open_results(output, "surfaces")
-    read = [read_surface(value, work.file) for value in surfaces]
+    keys = surface_keys(x_unit=x_unit, z_unit=z_unit, channel=channel, crop=crop)
+    read = [read_surface(value, work.file, keys) for value in surfaces]
     roads = dict(zip(names_of(surfaces), read, strict=True))
     ranking = compare_surfaces(work.case, roads, **work.solving(workers))
     work.finish(ranking, "tables and figures", drawings="")
