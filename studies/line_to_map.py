@@ -24,7 +24,7 @@ import argparse
 import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
-from functools import cache, partial
+from functools import cache
 from itertools import combinations, pairwise, product
 from pathlib import Path
 from typing import Any
@@ -80,8 +80,9 @@ FIGURE = Path(__file__).resolve().parents[1] / "docs" / "figures" / "line_to_map
 @cache
 def rubber_of(name: str) -> gs.Rubber:
     """Return the filled tread rubber, compound S100 or the unfilled rubber."""
-    rubbers = {"tread": tread, "S100": partial(compound, "S100"), "unfilled": styrene_butadiene}
-    return rubbers[name]()
+    if name == "unfilled":
+        return styrene_butadiene()
+    return tread() if name == "tread" else compound(name)
 
 
 @dataclass(frozen=True)
@@ -185,8 +186,7 @@ def solved_maps(path: Path, seeds: int) -> list[SolvedMap]:
     if path.exists():
         for line in path.read_text(encoding="utf-8").splitlines():
             entry: dict[str, Any] = json.loads(line)
-            contacts = [SolvedMap(**numbers) for numbers in entry["contacts"]]
-            kept[entry["family"], entry["seed"]] = contacts
+            kept[entry["family"], entry["seed"]] = [SolvedMap(**c) for c in entry["contacts"]]
     for seed, (number, family) in product(range(seeds), enumerate(FAMILIES)):
         if (family, seed) in kept:
             continue
@@ -231,7 +231,8 @@ class FittedLaw:
             for family in {m.family for m in maps}
         }
         held_out = [_residuals(m, quantity, without[m.family]) for m in maps]
-        law = RatioLaw(*numbers.tolist(), *scatter_of(maps, quantity, held_out))
+        constant, slope, tail = numbers.tolist()
+        law = RatioLaw(constant, slope, tail, *scatter_of(maps, quantity, held_out))
         residuals = [_residuals(m, quantity, numbers) for m in maps]
         return cls(quantity, law, maps, residuals, held_out)
 

@@ -110,7 +110,8 @@ def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
         )
     elif any(number.high > 2.0 * number.value for number in numbers):
         # the parts of an interval that is sampled say why
-        why = "" if "part_label" in data else ": the measured surface is too small"
+        why = ": the measured surface is too small, or too few of its summits carry"
+        why = "" if "part_label" in data else why
         yield f"The ends of the interval are more than a factor of two from the value{why}."
 
 
