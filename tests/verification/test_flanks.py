@@ -66,8 +66,8 @@ def held(cases: list[ProfileCase], largest: float) -> dict[str, float]:
 
 @pytest.mark.verification
 def test_the_law_of_large_strain_holds_stones_it_was_not_fitted_to():
-    """Other stones than those of the law, to 30 bar where it was fitted to 10."""
-    assert min(held(steep_stones(), 8e-3).values()) >= 0.85
+    """Twenty other stones than those of the law, to 30 bar where it was fitted to 10."""
+    assert min(held(steep_stones()[::5], 8e-3).values()) >= 0.85
 
 
 @pytest.mark.verification
