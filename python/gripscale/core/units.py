@@ -25,33 +25,13 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 
 # A pound-force per square inch [Pa]: pound, standard gravity and inch are exact.
 _PSI = 0.45359237 * 9.80665 / 0.0254**2
-_METRES = {
-    "m": 1.0,
-    "cm": 1e-2,
-    "mm": 1e-3,
-    "um": 1e-6,
-    "nm": 1e-9,
-    "pm": 1e-12,
-    "km": 1e3,
-    "Å": 1e-10,
-    "in": 0.0254,
-    "mil": 2.54e-5,
-    "uin": 2.54e-8,
-    "ft": 0.3048,
-    "ftUS": 1200.0 / 3937.0,
-}
-_PASCALS = {
-    "Pa": 1.0,
-    "kPa": 1e3,
-    "psi": _PSI,
-    "bar": 1e5,
-    "MPa": 1e6,
-    "N/mm^2": 1e6,
-    "GPa": 1e9,
-    "ksi": 1e3 * _PSI,
-    "mbar": 100.0,
-    "kgf/cm^2": 98066.5,
-}
+_METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12, "in": 0.0254}
+_METRES |= {"km": 1e3, "Å": 1e-10, "mil": 2.54e-5, "uin": 2.54e-8, "ft": 0.3048, "yd": 0.9144}
+_METRES["ftUS"] = 1200.0 / 3937.0
+_PASCALS = {"Pa": 1.0, "kPa": 1e3, "psi": _PSI, "bar": 1e5, "MPa": 1e6, "N/mm^2": 1e6, "GPa": 1e9}
+_PASCALS |= {"ksi": 1e3 * _PSI, "kgf/cm^2": 98066.5}
+_HERTZ = {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "mHz": 1e-3, "rpm": 1.0 / 60.0}
+_HERTZ |= {"rad/s": 0.5 / math.pi, "krad/s": 500.0 / math.pi}
 
 # Elementary charge times Avogadro's number: both exact in the SI.
 _JOULES_PER_MOLE_IN_EV = 1.602176634e-19 * 6.02214076e23
@@ -65,16 +45,7 @@ UNITS: dict[str, dict[str, float]] = {
     "compliance": {"1/Pa": 1.0, "1/kPa": 1e-3, "1/MPa": 1e-6, "1/GPa": 1e-9, "cm^2/dyn": 10.0},
     "speed": {"m/s": 1.0, "mm/s": 1e-3, "km/h": 1.0 / 3.6},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
-    "frequency": {
-        "Hz": 1.0,
-        "kHz": 1e3,
-        "MHz": 1e6,
-        "GHz": 1e9,
-        "mHz": 1e-3,
-        "rad/s": 0.5 / math.pi,
-        "krad/s": 500.0 / math.pi,
-        "rpm": 1.0 / 60.0,
-    },
+    "frequency": _HERTZ,
     "temperature": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
     "temperature difference": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
     "conductivity": {"W/(m K)": 1.0, "mW/(m K)": 1e-3},
@@ -114,13 +85,13 @@ _OTHER_SPELLINGS = {
     "g/cm^3": ("g/cm3", "g/cm³"),
     "N/mm^2": ("n/mm2", "n/mm²"),
     "Pa": ("n/m2", "n/m^2"),
-    "dyn/cm^2": ("dyn/cm2", "dyn/cm²", "dyne/cm2", "dyne/cm^2"),
+    "dyn/cm^2": ("dyn/cm2", "dyn/cm²", "dyne/cm2", "dyne/cm^2", "dyne/cm²"),
     "psi": ("lbf/in2", "lbf/in^2"),
     "ksi": ("kpsi",),
     "kgf/cm^2": ("kgf/cm2", "kgf/cm²", "kg/cm2", "kg/cm^2", "kg/cm²", "kp/cm2", "kp/cm²"),
     "Hz": ("hz", "cps"),
     "rad/s": ("rad/sec", "rad s-1", "rad s^-1", "rad·s-1", "rads-1", "rad.s-1", "rad/s."),
-    "rpm": ("1/min", "min-1", "min^-1", "u/min", "r/min"),
+    "rpm": ("cpm", "1/min", "min-1", "min^-1", "u/min", "r/min"),
     "1/Pa": ("pa-1", "pa^-1", "pa⁻¹", "m2/n", "m^2/n", "m²/n"),
     "cm^2/dyn": ("cm2/dyn", "cm²/dyn", "cm2/dyne", "cm^2/dyne"),
     "C": ("°c", "degc", "deg c", "celsius"),

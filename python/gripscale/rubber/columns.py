@@ -52,9 +52,9 @@ _TITLES = {
         r"|.*module? complex",
         "storage": r"[eg]'(?!')|[eg][_ ]?stor|.*\bstor|.*speichermodul|.*elastic component"
         r"|m[oó]dul[eo] (de |d['’]|di )?(stockage|conserva|almacena|accumul|[eé]lasti)"
-        r"|储能模量|貯蔵.*率",
+        r"|(储能|存储|储存)模量|貯蔵.*率",
         "loss": r"[eg]''|[eg][_ ]?loss|.*\bloss|.*verlustmodul|.*viscous component"
-        r"|m[oó]dul[eo] .*(perte|p[eé]rdi|visqueux|viscos)|损耗模量|損失.*率",
+        r"|m[oó]dul[eo] .*(perte|p[eé]rdi|dissipa|visqueux|viscos)|损耗模量|損失.*率",
         "strain": r".*strain\b|.*dehnung|.*verformung|.*d[eé]formation|gamma\b|.*scherung|应变",
     }.items()
 }

@@ -23,7 +23,7 @@ from gripscale.io.cells import Line
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?"
 _PAIR = re.compile(
     r"[\s#%!/*\"]*(?P<name>[^:=;\t\[(,]+?)\s*(?:[\[(](?:->\s*)?(?P<unit>[^\])]*)[\])])?"
-    rf"\s*[:=;\t,]\s*(?:(?P<number>{_NUMBER})[\s;]*)?"
+    rf"\s*[:=;\t,]\s*(?:(?P<number>{_NUMBER})[\s;,]*)?"
     r"(?P<word>[^\s;,]*?)(?P<each>/(?:sample|pixel|px|point|pt|pkt)s?)?"
     rf"(?:\s*[x×*]\s*(?P<second>{_NUMBER})\s*(?P<last>[^\s;,]*))?[\s;,\"]*"
 )
@@ -47,8 +47,8 @@ _NAMES = {
     "x": rf"(?:distance|lateral|weg|längen|xy?)[ -]?{_UNIT}|{_UNIT}{_OF}(?:distances?|xy?)",
     "z": rf"(?:height|value|data|höhen|z)[ -]?{_UNIT}|{_UNIT}{_OF}(?:heights?|höhen?|z)",
     "xz": rf"(?:length )?{_UNIT}",
-    "factor": r"1 ?(?:counts?|digits?|lsb|bit|rad|v|increment|z)|(?:z|height|data|value)"
-    r"(?:[ -]?(?:conversion|scaling|scale|calibration))*[ -]?(?:factor|scale)|counts? ?size",
+    "factor": r"1 ?(?:digits?|bit|rad|v|increment|z)|(?:1 ?)?(?:counts?|lsb)"
+    r"|(?:z|height|data|value)(?:[ -]?(?:conversion|scaling|scale|calibration))*[ -]?(?:factor|scale)|counts? ?size",
 }
 _MOST_LINES = 100  # lines of a header
 
