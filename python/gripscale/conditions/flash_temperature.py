@@ -74,7 +74,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, Protocol
 
@@ -109,15 +109,6 @@ class ThermalProperties(Checked):
     def effusivity(self) -> float:
         """sqrt(conductivity x density x specific heat) [J/(m^2 K s^0.5)]."""
         return math.sqrt(self.conductivity * self.density * self.specific_heat)
-
-    def with_effusivity(self, factor: float) -> ThermalProperties:
-        """Return the same with `factor` times the effusivity, and the same diffusivity."""
-        change = checks.positive("factor", factor)
-        return replace(
-            self,
-            conductivity=self.conductivity * change,
-            specific_heat=self.specific_heat * change,
-        )
 
 
 # One standard deviation of ln effusivity between rubbers, estimated: conductivity 20 %, specific

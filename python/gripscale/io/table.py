@@ -80,11 +80,6 @@ def whole_number(value: float) -> str:
     return f"{round(value):,}".replace(",", "\u202f")
 
 
-def yes_no(value: float) -> str:
-    """Return "yes" for any number but zero."""
-    return "yes" if value else "no"
-
-
 def on_page(text: str) -> str:
     """Return the text of a number with the minus signs of a page, `NONE` where it is missing."""
     return NONE if text in ("-", "") else text.replace("-", "−")
