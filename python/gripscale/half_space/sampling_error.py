@@ -13,6 +13,18 @@ pieces have all of the load, and the others tell nothing of the scatter. The
 friction force of a piece is that of the losses: pressure times the part of the slope of the rubber
 that its losses make. The traction would do for the sum but not for a piece, because elastic forces
 of one piece on another cancel in the sum only.
+
+Few such pieces fit into a map, and neighbours are not independent: without waves beyond its longest
+one piece has what the next lacks. The error of a map is that of its low frequencies, as of a time
+series (U. K. Mueller, J. Econometrics 141 (2007) 1331, doi:10.1016/j.jeconom.2007.01.019). With
+cosines c_j whose half waves are at least as long as the longest wave, one along each side at least,
+and the residuals e = y/sum(y) - p/sum(p) of small parts,
+
+    var(r)/r^2 = sum_j (sum(c_j e))^2 / tr M,   M_jk = sum(e^2 (c_j - <c_j>)(c_k - <c_k>))/sum(e^2),
+
+with < > weighted by the load, as r is a ratio. M is the covariance of independent residuals at the
+same places: 1 for an even load, less for few summits. The degrees of freedom are
+(tr M)^2 / tr(M^2) (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110).
 """
 
 from __future__ import annotations
@@ -29,6 +41,7 @@ from gripscale.half_space.result import RoughContact
 FEWEST_PIECES = 4  # pieces below which their scatter says nothing
 FEWEST_CARRYING = 1.5  # the same of pieces that carry
 PIECE = 2.0  # length of a piece in largest waves: long enough to make neighbours nearly independent
+_PART = 1.0 / 16.0  # width of the parts of a map in pieces: an eighth of the shortest half wave
 
 
 class SamplingError(NamedTuple):
@@ -42,25 +55,64 @@ class SamplingError(NamedTuple):
 def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
     """Return the relative standard errors of a contact as an estimate for its road.
 
-    The pieces are equal and at least as long as `piece` along each axis [m]. NaN for fewer than
-    four; of friction also at rest, and where it is not positive.
+    The pieces of a line are equal and at least as long as `piece` [m], the waves of a map as well.
+    NaN for fewer than four, or load on one alone; of friction also at rest, and where it is not
+    positive. `pieces` is one more than the degrees of freedom.
     """
     piece = checks.positive("piece", piece, unit="m")
-    load = _by_piece(contact.pressure, contact, piece)
+    of_map = len(contact.grid.shape) > 1
+    part = _PART * piece if of_map else piece
+    load = _by_piece(contact.pressure, contact, part)
     carrying = _carrying(load)
     if load.size < FEWEST_PIECES or carrying < FEWEST_CARRYING:
         return SamplingError(math.nan, math.nan, carrying)
-    touched = _by_piece(contact.active.astype(float), contact, piece)
-    friction = math.nan
-    if contact.speed > 0.0:
-        friction = _relative_error(_by_piece(_losses(contact), contact, piece), load)
-    return SamplingError(_relative_error(touched, load), friction, carrying)
+    fields = [contact.active.astype(float)] + [_losses(contact)] * (contact.speed > 0.0)
+    values = [_by_piece(field, contact, part) for field in fields]
+    if of_map:
+        known = [_error_of_map(each, load, contact, piece) for each in values]
+        errors, freedom = [error for error, _ in known], min(each for _, each in known)
+    else:
+        errors, freedom = [_relative_error(each, load) for each in values], carrying - 1.0
+    return SamplingError(errors[0], errors[1] if len(errors) > 1 else math.nan, freedom + 1.0)
+
+
+def _error_of_map(
+    values: Array, load: Array, contact: RoughContact, wave: float
+) -> tuple[float, float]:
+    """Return the relative error of a ratio and its freedom, from waves of a length at least."""
+    if float(values.sum()) <= 0.0:
+        return math.nan, math.inf
+    residuals = _residuals(values, load)
+    if not residuals.any():
+        return 0.0, math.inf
+    axes, orders = [], []
+    for side, count in zip(contact.grid.lengths, _counts(contact, _PART * wave), strict=True):
+        most = max(1, int(2.0 * side / wave * (1.0 + 1e-9)))
+        order = np.arange(min(most, count - 1) + 1)
+        angle = np.pi * order[:, None] * (np.arange(count) + 0.5) / count
+        axes.append(np.where(order > 0, math.sqrt(2.0), 1.0)[:, None] * np.cos(angle))
+        orders.append(order / most)
+    radius = np.hypot(orders[0][:, None], orders[1])
+    cosines = np.einsum("ja,kb->jkab", *axes)[(radius > 0.0) & (radius < 1.0 + 1e-9)]
+    cosines = cosines.reshape(len(cosines), -1)
+    seen = cosines @ residuals
+    away = cosines - (cosines @ load / load.sum())[:, None]
+    covariance = (away * residuals**2) @ away.T / float(residuals @ residuals)
+    trace = float(np.trace(covariance))
+    freedom = trace**2 / float(np.sum(covariance**2))
+    return math.sqrt(float(seen @ seen) / trace), max(freedom, 1.0)
+
+
+def _counts(contact: RoughContact, piece: float) -> list[int]:
+    """Return the number of pieces along each axis, at least `piece` long [m]."""
+    grid = contact.grid
+    counts = (max(1, int(side / piece * (1.0 + 1e-9))) for side in grid.lengths)
+    return [min(pair) for pair in zip(counts, grid.shape, strict=True)]
 
 
 def _by_piece(field: Array, contact: RoughContact, piece: float) -> Array:
     """Return the sums of a field over the pieces of a contact, at least `piece` long [m]."""
-    for axis, side in enumerate(contact.grid.lengths):
-        count = max(1, int(side / piece * (1.0 + 1e-9)))
+    for axis, count in enumerate(_counts(contact, piece)):
         ends = np.linspace(0, field.shape[axis], count, endpoint=False).astype(int)
         field = np.add.reduceat(field, ends, axis=axis)
     return field.reshape(-1)

@@ -275,7 +275,10 @@ class Surface(Described):
         """What white noise of the measured heights changes; nothing without a cut-off."""
         if self.measured is None or (self.end is None and self.waves is None):
             return ()
-        finding = noise_finding(self.measured.heights, self.cutoff_wavelength)
+        lines, whole = self.measured.cleaned, self.measured.map
+        across = None if whole is None else whole.step[1]
+        # thirty lines of a map show its noise
+        finding = noise_finding(lines[:: 1 + len(lines) // 30], self.cutoff_wavelength, across)
         return () if finding is None else (finding,)
 
     @property

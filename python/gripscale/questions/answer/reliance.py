@@ -106,7 +106,7 @@ def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
             return
         yield (
             "The measured surface is too small to tell whether it stands for the whole: it holds "
-            "fewer than four pieces of two largest waves."
+            "fewer than four pieces of two largest waves, or one summit carries it."
         )
     elif any(number.high > 2.0 * number.value for number in numbers):
         # the parts of an interval that is sampled say why
