@@ -8,10 +8,6 @@ from typing import Any
 
 import lazy_loader
 
-from gripscale.core import faces
-
-faces.enter(faces.CASE_WRITER, "gripscale.case_file.save:write_case")
-faces.enter(faces.FIGURE_PNG, "gripscale.charts.paper:figure_file")
 _lazy, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 

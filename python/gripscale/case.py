@@ -26,7 +26,6 @@ from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, Words, checks
 from gripscale.core.arrays import Array
-from gripscale.core.faces import CASE_WRITER, face
 from gripscale.core.finding import FILLED, Finding, Severity, Topic, doubt
 from gripscale.core.provenance import CASE_TITLE, COMMAND, version_attributes
 from gripscale.core.units import (
@@ -378,8 +377,9 @@ class Case(Described):
         path : path-like
             The case file (TOML), such as "folder/case.toml". An earlier one is replaced.
         """
-        written: Path = face(CASE_WRITER)(self, Path(path))
-        return written
+        from gripscale.case_file.save import write_case
+
+        return write_case(self, Path(path))
 
     def display_unit(self, name: str) -> DisplayUnit:
         """Return how `pressure`, `speed` or `footprint` is shown: as the case gives it."""

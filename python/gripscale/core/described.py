@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gripscale.core.errors import GripscaleError
-from gripscale.core.faces import FIGURE_PNG, face
 from gripscale.core.units import readable
 from gripscale.core.wording import short_repr, shortened
 
@@ -108,8 +107,10 @@ class Pictured(Described):
 
 def with_figure(html: str, drawn: Any) -> str:
     """Return HTML beside the figure of an object's `plot`, alone where there is none to draw."""
+    from gripscale.charts.paper import figure_file
+
     try:
-        picture = b64encode(face(FIGURE_PNG)(drawn.plot(), dpi=110)).decode()
+        picture = b64encode(figure_file(drawn.plot(), dpi=110)).decode()
     except GripscaleError:
         return html
     image = f'<img alt="" style="{_IMAGE}" src="data:image/png;base64,{picture}">'

@@ -73,24 +73,15 @@ def master_curve_figure(
     marked; the measured points of `master` with those that `fit` left out as crosses; the angular
     frequencies `excitation` of the waves [rad/s] as marks on the curves.
     """
-    return master_curve_sheet(rubber, master, fit, excitation).on_paper()
-
-
-def master_curve_sheet(
-    rubber: Rubber,
-    master: MasterCurve | None = None,
-    fit: PronyFit | None = None,
-    excitation: ArrayLike = (),
-) -> Sheet:
-    """Describe what `master_curve_figure` draws; arguments and errors are its own."""
     omega = np.asarray(excitation, dtype=float)
     variables, attrs = rubber_variables(rubber, master, fit, omega)
     panels = moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
-    return Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=_TWO_TO_ONE)
+    sheet = Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=_TWO_TO_ONE)
+    return sheet.on_paper()
 
 
 def rubber_charts(inputs: xr.Dataset, excited: xr.Dataset | None) -> list[Chart]:
-    """Return moduli, loss factor and residuals of the fit of the recorded inputs of a result.
+    """Return moduli and loss factor of the recorded inputs of a result.
 
     `excited` is the prediction of the chain whose waves are marked, if any.
     """
@@ -106,36 +97,6 @@ def rubber_charts(inputs: xr.Dataset, excited: xr.Dataset | None) -> list[Chart]
             )
             for panel, value, label in zip(panels, values, labels, strict=True)
         ]
-    if "master_frequency" in inputs:
-        kept = ~_left_out(inputs)
-        omega = 2.0 * math.pi * inputs["master_frequency"].values[kept]
-        marks: list[Mark] = [CrossLine(0.0, INK)]
-        for part, name, colour in _MODULI:
-            ratio = inputs[f"master_series_{part}"].values / inputs[f"master_{part}"].values
-            marks.append(Series(omega, 100.0 * (ratio - 1.0)[kept], colour, name, "", marker="."))
-        panels.append(Panel(
-            OMEGA,
-            PlotAxis("Prony series / measured − 1 [%]"),
-            marks,
-            name="prony-residual",
-            caption="Residual of the Prony series at the fitted rows.",
-            alt="Relative error of the Prony series in both moduli against angular frequency.",
-        ))  # fmt: skip
-    if "term_modulus" in inputs:
-        times, moduli = inputs["term_relaxation_time"].values, inputs["term_modulus"].values / MEGA
-        foot = np.full_like(moduli, float(moduli.min()) / 10.0)
-        stems = np.column_stack([foot, moduli, np.full_like(moduli, math.nan)]).ravel()
-        panels.append(Panel(
-            PlotAxis("relaxation time $\\tau$ [s]", log=True),
-            PlotAxis("modulus of the element [MPa]", log=True),
-            [
-                Series(np.repeat(times, 3), stems, width=1.1),
-                Series(times, moduli, dash="", marker="o", size=5.0),
-            ],
-            name="prony-spectrum",
-            caption="The Maxwell elements of the Prony series.",
-            alt="Modulus of each Maxwell element against its relaxation time.",
-        ))  # fmt: skip
     return draw.panels_on_page(panels)
 
 
@@ -257,11 +218,6 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
 
     Raises `InputError` if their `master` curve has no shift.
     """
-    return superposition_sheet(sweeps, master).on_paper()
-
-
-def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
-    """Describe what `superposition_figure` draws; arguments and errors are its own."""
     if master.shift is None or master.reference_temperature is None:
         raise InputError("master must have a shift, as superpose gives it; got none")
     kelvin = temperatures_in(master.shift, sweeps.temperatures, sweeps.tolerance)
@@ -295,7 +251,7 @@ def superposition_sheet(sweeps: Sweeps, master: MasterCurve) -> Sheet:
     ]
     layout = {"sharex": "col", "sharey": "row"}
     bar = _temperatures(sweeps)
-    return Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout)
+    return Sheet(panels, height=6.2, gap=0.02, colour_bar=bar, layout=layout).on_paper()
 
 
 def _temperatures(sweeps: Sweeps) -> ColourBar:
@@ -317,11 +273,6 @@ def shift_figure(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Figure:
 
     Formulas `fits` to the `table` of factors are dashed beyond the temperatures fitted.
     """
-    return shift_sheet(table, fits).on_paper()
-
-
-def shift_sheet(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Sheet:
-    """Describe what `shift_figure` draws; arguments and errors are its own."""
     celsius = table.temperature - ZERO_CELSIUS
 
     def factors(values: Array, error: Array, label: str = "") -> Series:
@@ -356,7 +307,7 @@ def shift_sheet(table: ShiftTable, fits: Sequence[ShiftFit] = ()) -> Sheet:
         panels.append(Panel(CELSIUS, PlotAxis("$\\log_{10} b_T$ [-]"), lifted))
     layout = {"sharex": True, "height_ratios": [2.0, *[1.0] * (len(panels) - 1)]}
     height = 1.5 * len(panels) + 1.4
-    return Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout)
+    return Sheet(panels, 1, NARROW, height, legend="", gap=0.02, layout=layout).on_paper()
 
 
 def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
@@ -366,11 +317,6 @@ def superposition_tests_figure(sweeps: Sweeps, report: Superposition) -> Figure:
     curve where horizontal shifts suffice; overlap and distance of neighbours by temperature, as the
     `report` of their superposition has them.
     """
-    return superposition_tests_sheet(sweeps, report).on_paper()
-
-
-def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
-    """Describe what `superposition_tests_figure` draws; arguments and errors are its own."""
     gurp: list[Mark] = []
     cole: list[Mark] = []
     for sweep, colour in _coloured(sweeps, sweeps):
@@ -398,7 +344,7 @@ def superposition_tests_sheet(sweeps: Sweeps, report: Superposition) -> Sheet:
               legend="best" if overlaps else ""),
     ]  # fmt: skip
     bar = replace(_temperatures(sweeps), first_row=True)
-    return Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar)
+    return Sheet(panels, height=5.4, gap=0.02, legend="", colour_bar=bar).on_paper()
 
 
 def softening_sheet(law: SofteningTable) -> Sheet:
@@ -461,11 +407,11 @@ def rubber_figures(prepared: MeasuredRubber, omega: ArrayLike, figures: FigureFo
     Of sweeps at several temperatures also how they meet, and the shift factors.
     """
     sweeps, master, report = prepared.sweeps, prepared.master, prepared.superposition
-    figure = master_curve_sheet(prepared.rubber, master, prepared.fit, omega)
+    figure = master_curve_figure(prepared.rubber, master, prepared.fit, omega)
     figures.save(figure, "master_curve")
     if sweeps is None or master is None or report is None or len(sweeps) < 2:
         return
-    figures.save(superposition_sheet(sweeps, master), "superposition")
-    figures.save(superposition_tests_sheet(sweeps, report), "superposition_tests")
+    figures.save(superposition_figure(sweeps, master), "superposition")
+    figures.save(superposition_tests_figure(sweeps, report), "superposition_tests")
     if isinstance(master.shift, ShiftTable):
-        figures.save(shift_sheet(master.shift, prepared.shift_fits()), "shift")
+        figures.save(shift_figure(master.shift, prepared.shift_fits()), "shift")

@@ -7,7 +7,6 @@ back there, are dotted. Neither is drawn beyond the first wavelength.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -54,13 +53,8 @@ def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
     Rows: as read, with the points cleaning removed or cut off; cleaned; 30 mm of it close up,
     where the missing heights are gaps.
     """
-    return profile_sheet(pairs).on_paper()
-
-
-def profile_sheet(pairs: Sequence[tuple[Profile, Profile]]) -> Sheet:
-    """Describe what `profile_figure` draws; arguments and errors are its own."""
     columns = [_profile_panels(raw, cleaned, i) for i, (raw, cleaned) in enumerate(pairs)]
-    return Sheet(
+    sheet = Sheet(
         [panel for row in zip(*columns, strict=True) for panel in row],
         columns=len(pairs),
         width=WIDE if len(pairs) > 1 else 0.7 * WIDE,
@@ -70,6 +64,7 @@ def profile_sheet(pairs: Sequence[tuple[Profile, Profile]]) -> Sheet:
         gap=0.02,
         layout={"sharey": "row"},
     )
+    return sheet.on_paper()
 
 
 def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
@@ -205,15 +200,6 @@ def correlation_figure(
     self_affine: SelfAffineFit | None = None,
 ) -> Figure:
     """Draw C_z [mm^2] against lag [mm], with the named sine stacks and their wavelengths marked."""
-    return correlation_sheet(measured, sines, self_affine).on_paper()
-
-
-def correlation_sheet(
-    measured: HeightDifference,
-    sines: Mapping[str, SineStack],
-    self_affine: SelfAffineFit | None = None,
-) -> Sheet:
-    """Describe what `correlation_figure` draws; arguments and errors are its own."""
     panel = _correlation_panel(measured.lag, measured.value, measured.lower, measured.upper)
     marks: list[Mark] = []
     if self_affine is not None:
@@ -227,47 +213,21 @@ def correlation_sheet(
         marks.append(Series(stack.wavelength / MILLI, foot, colour, "their wavelengths", dash="",
                             marker="|", size=9.0, width=1.4, clip=False))  # fmt: skip
     panel = panel.with_marks(marks)
-    return Sheet([panel], columns=1, width=NARROW, height=3.7, legend="", gap=0.02)
+    return Sheet([panel], columns=1, width=NARROW, height=3.7, legend="", gap=0.02).on_paper()
 
 
 def correlation_charts(inputs: xr.Dataset) -> list[Chart]:
-    """Return C_z of recorded inputs with its fits, and what the fits leave over.
-
-    That is open where the lag did not count in the fit.
-    """
+    """Return C_z of recorded inputs with its fits."""
     lag, value = inputs["lag"].values, inputs["correlation_value"].values
     ends = (inputs[f"correlation_{end}"].values for end in ("lower", "upper"))
     names = ("fine_lag", "fine_sines", "fine_pure_sines")
     lags, fitted, pure = (inputs[name].values for name in names)
     fits = _waves(lags, fitted, pure, "sine waves, as fitted", BLUE)
-    residuals: list[Mark] = [CrossLine(0.0, INK)]
-    labels = {"sines": ("sine waves", BLUE)}
     if SELF_AFFINE in inputs:
-        labels["self_affine"] = "self-affine", ORANGE
         label = f"self-affine, $H$ = {inputs.attrs['self_affine_hurst']:.2f}"
         fits.append(_self_affine(lag, inputs[SELF_AFFINE].values, label))
-    for key, (label, colour) in labels.items():
-        fit = inputs[f"correlation_{key}"].values
-        low, high = (inputs.attrs.get(f"{key}_lag_{end}_m") for end in ("min", "max"))
-        inside = (lag >= (low or 0.0)) & (lag <= (high or math.inf))
-        usable = (value > 0.0) & np.isfinite(fit)
-        for filled, words in ((True, "fitted lags"), (False, "not fitted")):
-            rows = usable & (inside == filled)
-            ratio = np.log10(fit[rows] / value[rows])
-            residuals.append(Series(lag[rows] / MILLI, ratio, colour, f"{label}, {words}", "",
-                                    marker="o", size=3.8, filled=filled))  # fmt: skip
-    residual = Panel(
-        PlotAxis("lag $l$ [mm]", log=True),
-        PlotAxis("$\\log_{10}$ (fit / measured) [-]"),
-        residuals,
-        name="correlation-residual",
-        caption="Residual of the fits, in decades of C_z; filled marks are lags that count in the "
-        "fit.",
-        alt="Difference of fitted and measured height difference correlation against lag.",
-        height=400,
-    )
     panel = _correlation_panel(lag, value, *ends).with_marks(fits)
-    return draw.panels_on_page([panel, residual])
+    return draw.panels_on_page([panel])
 
 
 def _correlation_panel(lag: Array, value: Array, low: Array | None, high: Array | None) -> Panel:
@@ -311,10 +271,10 @@ def surface_figures(prepared: Surface, figures: FigureFolder) -> None:
     """Draw the profiles and their correlation; waves stated by hand have neither."""
     if prepared.measured is None or prepared.correlation is None:
         return
-    figures.save(profile_sheet(prepared.measured.profiles), "profile")
+    figures.save(profile_figure(prepared.measured.profiles), "profile")
     waves = {f"{len(prepared.sines)} sine waves": prepared.sines}
     fit = prepared.measured.self_affine
-    figure = correlation_sheet(prepared.correlation, waves, fit)
+    figure = correlation_figure(prepared.correlation, waves, fit)
     figures.save(figure, "correlation")
     if (levels := prepared.measured.texture_levels) is not None:
         lengths = levels.wavelength.values / MILLI
