@@ -65,7 +65,8 @@ def is_excel(path: Path) -> bool:
         return path.suffix.lower() in EXCEL
     if content.startswith(_ZIP) and _WORKBOOK in content:
         return True
-    return path.suffix.lower() in EXCEL and not (content.strip() and is_text(content))
+    text = content.strip() and is_text(content) and not content.startswith(_ZIP[:2])
+    return path.suffix.lower() in EXCEL and not text
 
 
 def read_sheets(path: Path) -> dict[str, _Rows]:
