@@ -484,7 +484,7 @@ def above_zero(table: TextTable, column: int, wanted: str) -> Array:
 _FEW = 0.1  # share of rows with a value of zero or less that are left out as faults
 
 
-def left_out(table: TextTable, layout: FileLayout) -> list[str]:
+def notes_of_faults(table: TextTable, layout: FileLayout) -> list[str]:
     """Return a note of the rows that are left out because a value is zero or less."""
     names = ("frequency", *(name for name in MODULI if name not in RATIOS))
     columns = {layout.column(table, name) for name in names} - {None}
