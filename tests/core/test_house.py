@@ -173,6 +173,8 @@ READERS = {
     "report.equations": "SVG",
     "rubber.blocks": "measured files",
     "rubber.columns": "titles of columns",
+    "rubber.compliances": "titles of columns",
+    "rubber.prony_table": "titles of columns",
     "rubber.side_by_side": "titles of columns",
     "rubber.shift_fit": "titles of columns",
     "rubber.strain_sweeps": "titles of columns",

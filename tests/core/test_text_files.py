@@ -121,7 +121,6 @@ def third_line(new: str) -> Any:
 REFUSED = {
     "nothing": (lambda _: "", "got 0 in an empty file"),
     "words": (lambda _: "a\nb\n", r"found none from line 1 \('a'\) on"),
-    "utf-16 without its mark": (lambda lines: "\n".join(lines).encode("utf-16-le"), "got binary"),
     "two decimal signs": (
         third_line("2,5"),
         r"line \d: expected one decimal sign throughout; got '\S+' after '\S+' in line 3",
@@ -129,7 +128,6 @@ REFUSED = {
     "thousands ill parted": (third_line("1,23.5"), r"line 3: expected a .*; got '1,23\.5'"),
     "underscores": (third_line("1_000"), "line 3: expected a .*; got '1_000'"),
     "foreign digits": (third_line("١"), "line 3: expected a .*; got '١'"),
-    "infinity": (third_line("inf"), "line 3: expected a .*; got 'inf'"),
     "beyond floating point": (third_line("1e999"), "line 3: expected a .*; got '1e999'"),
     "a long row": (
         lambda lines: "\n".join(lines) + "\n1;1;1;1;1",
@@ -220,7 +218,7 @@ def test_titles(tmp_path: Path, title: str, name: str, unit: str | None) -> None
     assert (table.columns[0].name, table.columns[0].unit) == (name, unit)
 
 
-@pytest.mark.parametrize("cell", ["1_000", "0x1", "infinity", "1e", "1.2.3", "١", "1,5"])
+@pytest.mark.parametrize("cell", ["1_000", "0x1", "1e", "1.2.3", "١", "1,5"])
 def test_only_plain_numbers_are_numbers(cell: str) -> None:
     assert parse_number(cell) is None
 

@@ -62,7 +62,7 @@ def test_the_first_unit_of_a_kind_is_that_of_si(kind: str) -> None:
         ("°C", "temperature", "C"),
         ("MM", "length", None),
         ("mpa", "modulus", None),
-        ("bar", "modulus", None),
+        ("bar", "modulus", "bar"),
         ("", "length", None),
         (None, "length", None),
     ],

@@ -68,7 +68,8 @@ def is_excel(path: Path) -> bool:
         return path.suffix.lower() in EXCEL
     if content.startswith(_ZIP) and _WORKBOOK in content:
         return True
-    return path.suffix.lower() in EXCEL and not (content.strip() and is_text(content))
+    text = content.strip() and is_text(content) and not content.startswith(_ZIP[:2])
+    return path.suffix.lower() in EXCEL and not text
 
 
 def read_sheets(path: Path) -> dict[str, _Rows]:
@@ -382,17 +383,16 @@ def table_in(
     used = [at for at in range(count) if any(row[at] for row in rows)]
     full = slice(used[0], used[-1] + 1)
     columns = _columns(above, count, kinds, named)
-    for at in sorted(set(range(count)) - set(range(count)[full])):
+    for at in {0, count - 1} - set(range(count)[full]):
         if named(columns[at].name):
             raise FileError(
                 f"{path}: expected numbers in column {at + 1}, {short_repr(columns[at].name)}; "
                 f"got none in {len(rows)} rows"
             )
     columns, rows = columns[full], [row[full] for row in rows]
-    if not any(columns) and len(columns) < count:  # titles without those empty cells, or with one
-        columns = _columns(above, len(columns) + 1, kinds, named)[:-1]
-    if not any(columns) and len(columns) < count:
-        columns = _columns(above, len(columns), kinds, named)
+    for more in (0, 1):  # titles without those empty cells, or with one of them
+        if not any(columns) and len(columns) < count:
+            columns = _columns(above, len(columns) + more, kinds, named)[: len(columns)]
     return TextTable(path, columns, rows, numbers, decimal, full.start)
 
 

@@ -474,17 +474,17 @@ def above_zero(table: TextTable, column: int, wanted: str) -> Array:
     within = f"{what} between {checks.LEAST:g} and {checks.MOST:g}"
     values = table.numbers(column, within, missing=True)
     faults = values <= 0.0
-    if faults.sum() > FEW * len(values):
+    if faults.sum() > _FEW * len(values):
         check_rows(table, column, ~faults, values, f"{what} above zero")
     values = np.where(faults, np.nan, values)
     check_rows(table, column, values >= checks.LEAST, values, within)
     return values
 
 
-FEW = 0.1  # share of rows with a value of zero or less that are left out as faults
+_FEW = 0.1  # share of rows with a value of zero or less that are left out as faults
 
 
-def left_out(table: TextTable, layout: FileLayout) -> list[str]:
+def notes_of_faults(table: TextTable, layout: FileLayout) -> list[str]:
     """Return a note of the rows that are left out because a value is zero or less."""
     names = ("frequency", *(name for name in MODULI if name not in RATIOS))
     columns = {layout.column(table, name) for name in names} - {None}

@@ -186,7 +186,7 @@ def read_master_curve(
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
-    notes = tuple(columns.left_out(table, layout))
+    notes = tuple(columns.notes_of_faults(table, layout))
     return MasterCurve(hertz, storage, loss, reference_temperature, name, source, None, notes)
 
 

@@ -26,7 +26,7 @@ from gripscale.rubber.columns import (
     APART,
     FileLayout,
     check_rows,
-    left_out,
+    notes_of_faults,
     spread_of_repeats,
     young_moduli,
 )
@@ -329,7 +329,7 @@ def read_sweeps(
             blocks = [with_named_temperature(block, file.stem, layout) for block in blocks]
         for table_layout, block in ((layout.for_table(block.table), block) for block in blocks):
             parts.append(_rows(block, table_layout, temperature))
-            notes += left_out(block.table, table_layout)
+            notes += notes_of_faults(block.table, table_layout)
     rows = np.concatenate(parts, axis=1)
     if not rows.size:
         raise FileError(f"{paths[0]}: expected rows without missing values; got none")

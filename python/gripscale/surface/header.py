@@ -48,7 +48,8 @@ _NAMES = {
     "z": rf"(?:height|value|data|höhen|z)[ -]?{_UNIT}|{_UNIT}{_OF}(?:heights?|höhen?|z)",
     "xz": rf"(?:length )?{_UNIT}",
     "factor": r"1 ?(?:digits?|bit|rad|v|increment|z)|(?:1 ?)?(?:counts?|lsb)"
-    r"|(?:z|height|data|value)(?:[ -]?(?:conversion|scaling|scale|calibration))*[ -]?(?:factor|scale)|counts? ?size",
+    r"|(?:z|height|data|value)(?:[ -]?(?:conversion|scaling|calibration))*[ -]?(?:factor|scale)"
+    r"|counts? ?size",
 }
 _MOST_LINES = 100  # lines of a header
 

@@ -126,14 +126,18 @@ _MOST_TIMES = 100
 
 
 def _read_table(path: Path, lines: list[Line], expected: str) -> TextTable:
-    titles = (_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE, _TIME_TITLE, _WAVENUMBER)
-    table = table_in(
-        path,
-        lines,
-        expected,
-        kinds=("length",),
-        named=lambda name: any(title.match(name) for title in titles),
-    )
+    titles = [_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE, _WAVENUMBER]
+
+    def read() -> TextTable:
+        def named(name: str) -> bool:
+            return any(title.match(name) for title in titles)
+
+        return table_in(path, lines, expected, kinds=("length",), named=named)
+
+    table = read()
+    if not table.names:  # times alone: beside other titles they may be words, such as 12:03
+        titles.append(_TIME_TITLE)
+        table = read()
     if _titled(table, _WAVENUMBER) and _titled(table, _SPECTRUM):
         raise FileError(
             f"{path}: expected heights; got the power spectrum of a surface, titled "
