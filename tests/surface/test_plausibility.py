@@ -128,9 +128,10 @@ def prepared(options, profile=ROUGH):
 
 
 def of_waves(options):
-    """Return the findings but for that on ridges, which profiles of one direction always have."""
+    """Return the findings but for those on ridges and on noise, which are of the profile."""
     surface = prepared(options)
-    return [finding for finding in surface.findings if finding not in surface.direction]
+    others = (*surface.direction, *surface.noise)
+    return [finding for finding in surface.findings if finding not in others]
 
 
 def test_it_is_said_where_the_waves_end():

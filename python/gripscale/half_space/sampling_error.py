@@ -69,8 +69,8 @@ def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
     fields = [contact.active.astype(float)] + [_losses(contact)] * (contact.speed > 0.0)
     values = [_by_piece(field, contact, part) for field in fields]
     if of_map:
-        known = [_error_of_map(each, load, contact, piece) for each in values]
-        errors, freedom = [error for error, _ in known], min(each for _, each in known)
+        pairs = [_error_of_map(each, load, contact, piece) for each in values]
+        errors, freedom = [error for error, _ in pairs], min(each for _, each in pairs)
     else:
         errors, freedom = [_relative_error(each, load) for each in values], carrying - 1.0
     return SamplingError(errors[0], errors[1] if len(errors) > 1 else math.nan, freedom + 1.0)
