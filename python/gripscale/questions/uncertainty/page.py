@@ -6,7 +6,6 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from itertools import pairwise
 
 import numpy as np
 import xarray as xr
@@ -196,40 +195,18 @@ def quantile_table(data: xr.Dataset) -> Table:
 
 
 def share_table(part: xr.Dataset, title: str) -> Table:
-    """Return what each source does to friction and contact fraction at one load, most first.
-
-    From and to: 5 and 95 % of what it does alone. Notes name the shares in friction that are not
-    significant, and those that do not differ.
-    """
-    ranked = np.argsort(-part.friction_share.values, kind="stable")
-    part = part.isel(source=ranked, other_source=ranked)
-    labels, whole = part.label.values.tolist(), "{:.0%}".format
-    columns = [Column("source", [*labels, NOT_ALONE])]
+    """Return the share of each source in the samples of one model at one load, most first."""
+    part = part.isel(source=np.argsort(-part.friction_share.values, kind="stable"))
+    columns, whole = [Column("source", [*part.label.values.tolist(), NOT_ALONE])], "{:.0%}".format
     for name, symbol in HEADS.items():
-        ends = np.array([*part[f"{name}_end"].values, [np.nan, np.nan]])
-        share = [*part[f"{name}_share"].values, float(part[f"{name}_unexplained"])]
+        share = part[f"{name}_share"].values
+        shown = np.maximum([*share, 1.0 - share.sum()], 0.0)
         error = [*part[f"{name}_share_error"].values, np.nan]
         columns += [
-            Column(f"{name}_end", ends, "from to", group=symbol),
-            Column(f"{name}_share", np.maximum(share, 0.0), "share of variance", group=symbol,
-                   format=whole),
+            Column(f"{name}_share", shown, "share of variance", group=symbol, format=whole),
             Column(f"{name}_share_error", error, "±", group=symbol, format=whole),
-        ]  # fmt: skip
-    shares = part.friction_share.values
-    seen = shares > SIGNIFICANCE * part.friction_share_error.values
-    apart = SIGNIFICANCE * part.friction_share_difference_error.values
-    close = [
-        f"{labels[a]} and {labels[b]}"
-        for a, b in pairwise(np.flatnonzero(seen))
-        if shares[a] - shares[b] < apart[a, b]
-    ]
-    count, notes = int(np.isfinite(part.friction).sum()), []
-    if close:
-        notes.append(f"The order is not significant with {count} samples: {'; '.join(close)}.")
-    if not seen.all():
-        unseen = ", ".join(labels[k] for k in np.flatnonzero(~seen))
-        notes.append(f"No significant effect with {count} samples: {unseen}.")
-    return Table("shares", columns, f"What matters most ({title})", notes)
+        ]
+    return Table("shares", columns, f"What matters most ({title})")
 
 
 def grid_sentences(data: xr.Dataset) -> Iterator[str]:

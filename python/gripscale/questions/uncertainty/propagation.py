@@ -37,7 +37,7 @@ from gripscale.questions.uncertainty.sampled_answer import chain_answer, measure
 from gripscale.questions.uncertainty.sampled_inputs import Inputs
 from gripscale.questions.uncertainty.sampling import SampledInputs, SampleSet, Uncertainty
 from gripscale.questions.uncertainty.sources import BOTH, GRID_PLACE, SOURCES
-from gripscale.questions.uncertainty.variance_shares import shares
+from gripscale.questions.uncertainty.variance_shares import Shares, shares
 from gripscale.questions.vary.axis import Axis, axes_of
 from gripscale.questions.vary.study import coordinates
 from gripscale.uncertainty_options import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
@@ -72,19 +72,6 @@ _NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
 }
 
 
-# What is kept of the shares of the sources in a variance: dimensions and meaning.
-_SHARES = {
-    "share": (["source"], "share of each source in the variance of the logarithm of {}"),
-    "share_error": (["source"], "standard error of the share"),
-    "share_difference_error": (
-        ["source", "other_source"],
-        "standard error of the difference of two shares",
-    ),
-    "end": (["source", "end"], "{}, at 5 and 95 % of what a source alone does"),
-    "unexplained": ([], "share of no source in the variance of the logarithm of {}"),
-}
-
-
 def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     """Return all samples with their quantiles and shares; the first of `solved` is the case.
 
@@ -92,19 +79,15 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     it that was drawn.
     """
     sources, logarithms = drawn.chosen.sources, drawn.logarithms
-    sizes = {"source": len(sources), "other_source": len(sources), "end": 2}
     data: dict[str, xr.DataArray] = {}
 
     def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
         data[name] = values.drop_attrs().assign_attrs(units=unit, long_name=long_name)
 
-    def share_numbers(values: Array) -> tuple[Any, ...]:
-        """Return the numbers of `_SHARES` in their order."""
-        fit = shares(values, logarithms)
-        if fit is None:
-            return tuple(np.full([sizes[n] for n in dims], np.nan) for dims, _ in _SHARES.values())
-        ends = np.stack([fit.low, fit.high], axis=-1)
-        return fit.share, fit.error, fit.apart, ends, fit.unexplained
+    def known_shares(values: Array) -> Shares:
+        """Return shares and their errors, NaN where the samples cannot tell."""
+        nothing = np.full(len(sources), np.nan)
+        return shares(values, logarithms) or Shares(nothing, nothing)
 
     solved = solved.rename({model.FRICTION_OUTSIDE_BAND: "outside_band"})
     case, samples = solved.isel(sample=0), solved.isel(sample=slice(1, None))
@@ -127,15 +110,16 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
         values = data[name] * np.exp(error.fillna(0.0) * xr.DataArray(in_error))
         add(name, values.transpose(*data[name].dims), text)
         add(f"{name}_quantile", quantiles(data[name]), text)
-        parts = xr.apply_ufunc(
-            share_numbers,
+        share, share_error = xr.apply_ufunc(
+            known_shares,
             data[name],
             input_core_dims=[["sample"]],
-            output_core_dims=[dims for dims, _ in _SHARES.values()],
+            output_core_dims=[["source"], ["source"]],
             vectorize=True,
         )
-        for (part, (_, meaning)), values in zip(_SHARES.items(), parts, strict=True):
-            add(f"{name}_{part}", values, meaning.format(text))
+        about = f"share of each source in the variance of the logarithm of {text}"
+        add(f"{name}_share", share, about)
+        add(f"{name}_share_error", share_error, "standard error of the share")
     labels = [source.label for source in sources]
     return xr.Dataset(
         data,
@@ -143,7 +127,6 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
             "quantile": ("quantile", list(LEVELS), designs.variable_attributes("share below")),
             "source": ("source", list(logarithms), {"long_name": "source"}),
             "label": ("source", labels, {"long_name": "source in words"}),
-            "end": ("end", ["low", "high"]),
             **drawn.coordinates,
         },
         {
