@@ -19,7 +19,6 @@ from gripscale.questions.answer.intervals import LEVEL, UPPER_LIMITS, interval_e
 from gripscale.questions.answer.reliance import (
     AnswerNumber,
     has_answer,
-    headline,
     headline_name,
     is_measured,
     is_moving,
@@ -32,22 +31,17 @@ from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
 from gripscale.questions.words import SYMBOLS, believed
 from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Element, Page, Section, Text
+from gripscale.report.elements import Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained, failures_in
 
 # Symbols of the quantities, in their order.
 HEADS = {name: SYMBOLS[name] for name in propagation.PROPAGATED_QUANTITIES}
-OF_ANOTHER = (
-    "The uncertainty in this folder belongs to another case and is left out; run `gripscale "
-    "uncertainty` again."
-)
 UNCERTAINTY = (
     "The case was solved many times, each time with other values of the inputs that are not known "
     "exactly. 90 % of the samples of a model lie between its quantiles of 5 and 95 %."
 )
 # Share of the samples of a model without an answer up to which the others stand for all.
 MOST_FAILED = 0.25
-SUMMARY = (0.05, 0.5, 0.95)  # quantiles in the summaries of other reports
 
 
 def model_places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
@@ -250,64 +244,6 @@ def too_many_failed(data: xr.Dataset) -> bool:
     )
 
 
-def uncertainty_lines(
-    data: xr.Dataset | None, text: str, digests: Iterable[str] | None = None
-) -> list[str]:
-    """Return the quantiles of friction and area by model, or that they are of another case.
-
-    `text` and `digests` are of the case of the report, see `gripscale.questions.of_same_inputs`.
-    """
-    if data is None:
-        return []
-    if not propagation.of_same_inputs(data, text, digests):
-        return [OF_ANOTHER]
-    if axis := axis_of(data):
-        return [f"The uncertainty of this case was sampled over {axis}: see uncertainty.txt."]
-    lines = []
-    if answered := [f"{head} = {headline(data, name)}" for name, head in _widened(data)]:
-        count = _samples(data.isel(model=0))
-        lines.append(f"With the errors of the inputs, {count}: {', '.join(answered)}")
-    for name, part in model_places(data):
-        numbers = "; ".join(f"{head} = {', '.join(values)}" for head, values in _quantiles(part))
-        lines.append(f"Uncertainty, {name}, 5, 50 and 95 % of {_samples(part)}: {numbers}")
-    return lines
-
-
-def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
-    """Return the interval of the answer with errors of the inputs, or quantiles of each model."""
-    if data is None or axis_of(data):
-        return []
-    count = _samples(data.isel(model=0))
-    detail = f"{100.0 * LEVEL:.0f} % interval of the answer; {count}"
-    cards = [
-        Card(f"{head}, inputs sampled", headline(data, name).interval, detail)
-        for name, head in _widened(data)
-    ]
-    return cards or [
-        Card(f"{head}, 5 to 95 %", f"{low} to {high}", f"{name}: median {median}; {_samples(part)}")
-        for name, part in model_places(data)
-        for head, (low, median, high) in _quantiles(part)
-    ]
-
-
-def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
-    """Yield name and symbol of each number whose interval holds errors of the inputs."""
-    if has_answer(data) and (DIRECT in data.model.values or not is_measured(data)):
-        yield from (pair for pair in HEADS.items() if headline(data, pair[0]).interval)
-
-
-def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
-    for name, head in HEADS.items():
-        values = part[f"{name}_quantile"].sel(quantile=list(SUMMARY)).values
-        if np.isfinite(values).all():
-            yield head, [f"{value:#.2g}" for value in values]
-
-
-def _samples(part: xr.Dataset) -> str:
-    failed, count = int(part.failed), part.sizes["sample"]
-    return f"{count} samples" if not failed else f"{count - failed} of {count} samples"
-
-
 def page_notices(data: xr.Dataset) -> list[Finding]:
     """Return failures: an error where too many failed."""
     failed = sampling_failure(data)
@@ -334,7 +270,7 @@ def uncertainty_page(data: xr.Dataset) -> Page:
         f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",
         f"{data.sizes['sample']} samples; {models}",
         page_notices(data),
-        answer.answer_cards(data) if answered else uncertainty_cards(data),
+        answer.answer_cards(data) if answered else [],
         [
             Section(
                 "answer",

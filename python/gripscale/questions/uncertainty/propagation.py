@@ -7,9 +7,8 @@ All sources are drawn at once for each sample, and each sample is a task of
 from __future__ import annotations
 
 import json
-import tomllib
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -25,7 +24,6 @@ from gripscale.core.provenance import software
 from gripscale.experiment import design as designs
 from gripscale.experiment.design import CONVERGED, Design, Point
 from gripscale.experiment.solve import Bench, OnTask, bench_in
-from gripscale.experiment.task import load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import Doubtful, Load, Model, input_doubts
@@ -136,35 +134,7 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     )
 
 
-FOLDER, _RESULT = "uncertainty", "uncertainty.nc"  # where it is in the results folder of the case
-# Tables of a case that change no prediction of it.
-NO_INPUTS = ("uncertainty", "measured", "output", "compare")
-_FILES = "file_sha256"  # attribute of the result: digests of the files the case names, as JSON
-
-
-def stored_uncertainty(results: Path) -> xr.Dataset | None:
-    """Return the uncertainty in the results folder of a case, or None without a whole one."""
-    return load_stored(results / FOLDER / _RESULT)
-
-
-def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = None) -> bool:
-    """Return whether uncertainty `data` of `propagate` is of a case file with this text.
-
-    `digests` are those of the files it names; None where they are not known.
-    """
-
-    def inputs(case: str) -> dict[str, Any] | None:
-        try:
-            tables = tomllib.loads(case)
-        except tomllib.TOMLDecodeError:
-            return None
-        return {name: table for name, table in tables.items() if name not in NO_INPUTS}
-
-    if inputs(str(data.attrs.get("case", ""))) != inputs(text):
-        return False
-    return digests is None or sorted(json.loads(data.attrs.get(_FILES, "[]"))) == sorted(digests)
-
-
+_RESULT = "uncertainty.nc"  # in the folder of the samples
 # Inputs that may be varied beside the samples: those of the load, the same samples at each.
 SAMPLED_OVER = ("speed", "pressure")
 
@@ -325,7 +295,6 @@ def solve_samples(
     inputs: list[Doubtful] = [case.surface, case.measured_rubber]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
         case.attributes | input_doubts(inputs, loads, case.units, case.softening_doubts),
-        **{_FILES: json.dumps(case.origin.digests)},
         seed=plan.seed,
         software=software(),
     )
