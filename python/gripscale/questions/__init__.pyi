@@ -42,7 +42,6 @@ from .page_of_folder import write_report as write_report
 from .sensitivity.friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .sensitivity.question import Sensitivity as Sensitivity
 from .slip.question import SlipCurve as SlipCurve
-from .uncertainty.first_order import first_order as first_order
 from .uncertainty.profile_blocks import ProfileBlocks as ProfileBlocks
 from .uncertainty.sampled_inputs import Range as Range
 from .uncertainty.sampling import Uncertainty as Uncertainty

@@ -25,6 +25,7 @@ from gripscale.questions.answer.reliance import (
 )
 from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
+from gripscale.questions.uncertainty.next_measurement import next_measurements
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
@@ -106,11 +107,15 @@ def not_stated(data: xr.Dataset) -> list[str]:
 
 
 def part_tables(data: xr.Dataset) -> Iterator[Table]:
-    """Yield what the interval of the answer is made of, at each load, most first."""
+    """Yield what the interval of the answer is made of, at each load, and what to measure next."""
     for label, part in loads_of(data):
         if has_answer(part) and part.sizes["part"]:
-            title = f"What matters most to the answer{f' ({label})' if label else ''}"
-            yield part_table(part, title)
+            where = f" ({label})" if label else ""
+            yield part_table(part, f"What matters most to the answer{where}")
+            if is_moving(part) and (
+                table := next_measurements(part, f"What to measure next{where}")
+            ):
+                yield table
 
 
 def part_table(part: xr.Dataset, title: str) -> Table:
