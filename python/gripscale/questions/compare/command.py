@@ -63,7 +63,7 @@ def compare_command(
     from gripscale.questions.result import warning_lines
     from gripscale.questions.vary import axis
 
-    axes = None if vary is None else dict([axis.parse_vary(vary, comparison.COMPARED_OVER)])
+    axes = None if vary is None else axis.parse_axes([vary], comparison.COMPARED_OVER)
     work = terminal.CaseCommand(case)
     work.open_results(output, "comparison", f"Comparison of models for {work.file.path}")
     console, target, read = work.console, work.target, work.case

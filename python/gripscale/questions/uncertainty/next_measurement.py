@@ -43,7 +43,7 @@ MEASUREMENTS = {SOURCES[name].label: each for name, each in _OF_SOURCES.items()}
 MEASUREMENTS |= {f"factor: {label}": (text, 0.0) for label, text in _OF_FACTORS.items()}
 
 
-def next_measurements(answer: xr.Dataset, title: str) -> Table | None:
+def next_measurements(answer: xr.Dataset) -> Table | None:
     """Return measurements by how much of the interval of the friction they would take.
 
     `answer` is a result of `gripscale.uncertainty` at one load and in motion. None where the parts
@@ -53,8 +53,8 @@ def next_measurements(answer: xr.Dataset, title: str) -> Table | None:
     if not {SOURCES[name].label for name in _OF_SOURCES} & set(labels):
         return None
     listed = [at for at, label in enumerate(labels) if label in MEASUREMENTS]
-    texts, left = zip(*(MEASUREMENTS[labels[at]] for at in listed), strict=True)
-    widths = {name: _widths(answer, name, listed, np.array(left)) for name in SYMBOLS}
+    texts, shares = zip(*(MEASUREMENTS[labels[at]] for at in listed), strict=True)
+    widths = {name: _widths(answer, name, listed, np.array(shares)) for name in SYMBOLS}
     order = np.argsort(widths["friction"][1:], kind="stable")
     columns = [Column("measurement", ["none", *(texts[k] for k in order)])]
     for name, width in widths.items():
@@ -62,13 +62,14 @@ def next_measurements(answer: xr.Dataset, title: str) -> Table | None:
         columns.append(Column(f"{name}_width", ranked, f"± of {SYMBOLS[name]}", format=percent))
     takes = 1.0 - widths["friction"][1:][order] / widths["friction"][0]
     columns.append(Column("takes", [0.0, *takes], format="{:.0%}".format))
-    return Table("next", columns, title, ["Half widths of the 90 % interval."], keys=1)
+    notes = ["Half widths of the 90 % interval."]
+    return Table("next", columns, "What to measure next", notes, keys=1)
 
 
-def _widths(answer: xr.Dataset, name: str, listed: list[int], left: Array) -> Array:
+def _widths(answer: xr.Dataset, name: str, listed: list[int], share: Array) -> Array:
     """Return half widths of an interval [-]: as it is, and once each listed part is measured."""
     sigma = answer[f"answer_{name}_part_error"].fillna(0.0).values[listed]
     total = float(answer[f"answer_{name}_uncertainty"])
-    rest = np.sqrt(np.maximum(1.0 - (1.0 - left**2) * (sigma / total) ** 2, 0.0))
+    rest = np.sqrt(np.maximum(1.0 - (1.0 - share**2) * (sigma / total) ** 2, 0.0))
     log_width = math.asinh(float(answer[f"answer_{name}_half_width"]))
     return np.asarray(np.sinh(log_width * np.append(1.0, rest)))

@@ -107,14 +107,16 @@ def not_stated(data: xr.Dataset) -> list[str]:
 
 
 def part_tables(data: xr.Dataset) -> Iterator[Table]:
-    """Yield what the interval of the answer is made of, at each load, and what to measure next."""
+    """Yield what the interval of the answer is made of, at each load, most first.
+
+    At a single load what to measure next stands below.
+    """
     for label, part in loads_of(data):
         if has_answer(part) and part.sizes["part"]:
-            where = f" ({label})" if label else ""
-            yield part_table(part, f"What matters most to the answer{where}")
-            if is_moving(part) and (
-                table := next_measurements(part, f"What to measure next{where}")
-            ):
+            yield part_table(
+                part, f"What matters most to the answer{f' ({label})' if label else ''}"
+            )
+            if not label and is_moving(part) and (table := next_measurements(part)):
                 yield table
 
 
@@ -199,31 +201,13 @@ def share_table(part: xr.Dataset, title: str) -> Table:
     columns, whole = [Column("source", [*part.label.values.tolist(), NOT_ALONE])], "{:.0%}".format
     for name, symbol in HEADS.items():
         share = part[f"{name}_share"].values
-        shown = np.maximum([*share, 1.0 - share.sum()], 0.0)
+        every = np.maximum([*share, 1.0 - share.sum()], 0.0)
         error = [*part[f"{name}_share_error"].values, np.nan]
         columns += [
-            Column(f"{name}_share", shown, "share of variance", group=symbol, format=whole),
+            Column(f"{name}_share", every, "share of variance", group=symbol, format=whole),
             Column(f"{name}_share_error", error, "±", group=symbol, format=whole),
         ]
     return Table("shares", columns, f"What matters most ({title})")
-
-
-def grid_sentences(data: xr.Dataset) -> Iterator[str]:
-    """Yield the estimated errors of the grids of the direct contact, if it was sampled."""
-    drawn = "drawn" if "grid" in data.source.values else "not"
-    for name in data.model.values:
-        errors = {head: data[f"{key}_grid_error"].sel(model=name) for key, head in HEADS.items()}
-        texts = [
-            f"{100.0 * float(error.median()):.2g} % in {head}"
-            for head, error in errors.items()
-            if error.notnull().any()
-        ]
-        if texts:
-            yield (
-                f"{name}: the estimated error of the grid of a sample is {' and '.join(texts)} "
-                f"(median), {drawn} in its quantiles; the grid of the answer is finer. --tolerance "
-                "makes it smaller."
-            )
 
 
 def sampling_failure(data: xr.Dataset) -> Failure | None:
@@ -268,8 +252,7 @@ def uncertainty_page(data: xr.Dataset) -> Page:
     axis, parts = axis_of(data), list(part_tables(data))
     head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]
     held, title = interval_sentence(data), "What matters most"
-    samples: list[str | Table] = [UNCERTAINTY, quantile_table(data)]
-    samples += [*grid_sentences(data), *left_out_sentences(data)]
+    samples = [UNCERTAINTY, quantile_table(data), *left_out_sentences(data)]
     answered = not axis and has_answer(data)
     return Page.of(
         f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",
