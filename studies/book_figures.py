@@ -44,6 +44,7 @@ from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.charts import named_traces
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.sensitivity.charts import sensitivity_figure
+from gripscale.questions.uncertainty.charts import parts_figure
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import transmission
 from gripscale.theory import Persson
@@ -93,9 +94,14 @@ class Shipped:
 
     @cached_property
     def sensitivity(self) -> xr.Dataset:
-        """The derivatives of the friction, and the errors that the inputs carry to it."""
+        """The derivatives of the friction."""
         with tempfile.TemporaryDirectory() as folder:
             return gs.sensitivity(self.case, folder=folder).data
+
+    @cached_property
+    def uncertainty(self) -> xr.Dataset:
+        """The answer with the errors of its inputs, from samples."""
+        return gs.uncertainty(self.case).data
 
     def wave(self, speed: float, pressure: float | None = None) -> gs.ScaleResult:
         """Solve the wave of the pictures under a pressure [Pa], that of the chain by default."""
@@ -422,26 +428,8 @@ def models(shipped: Shipped) -> Figure:
 
 
 def errors(shipped: Shipped) -> Figure:
-    """Draw the standard errors of the friction: of inputs, and of the factors of the answer."""
-    data, direct = shipped.sensitivity, shipped.direct
-    parts = [
-        (str(label), float(error), BLUE)
-        for label, error in zip(data.label.values, data.source_friction_error.values, strict=True)
-    ]
-    factors = zip(
-        direct.factor_label.values, direct.answer_friction_factor_uncertainty.values, strict=True
-    )
-    parts += [(f"factor: {label}", float(error), ORANGE) for label, error in factors]
-    parts.append(("grid of the answer", float(direct.answer_friction_grid_error), ORANGE))
-    parts.sort(key=lambda part: part[1])
-    rows = PlotAxis(ticks={float(row): label for row, (label, *_) in enumerate(parts)}, grid=False)
-    bars = [
-        Bars(0.0, 100.0 * error, row - 0.3, row + 0.3, colour)
-        for row, (_, error, colour) in enumerate(parts)
-    ]
-    keys = [Bars(0, 0, 0, 0, BLUE, "of the inputs"), Bars(0, 0, 0, 0, ORANGE, "of the model")]
-    panel = Panel(PlotAxis("standard error of friction $\\mu$ [%]", low=0.0), rows, bars)
-    return Sheet([panel], 1, 6.0, 1.2 + 0.3 * len(parts), keys=keys).on_paper()
+    """Draw the standard errors of the answer: of inputs, and of the model."""
+    return parts_figure(shipped.uncertainty)
 
 
 PICTURES = (

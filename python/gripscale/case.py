@@ -90,11 +90,6 @@ class Origin:
     files: Sequence[NamedFile] = ()
     assumed: Sequence[str] = ()  # what no file states and `gripscale new` proposed
 
-    @property
-    def digests(self) -> list[str]:
-        """Checksums of the files that predictions depend on."""
-        return [file.sha256 for file in self.files if file.role != "measured"]
-
 
 @dataclass(frozen=True)
 class BelowMeasurement:

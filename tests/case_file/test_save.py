@@ -218,7 +218,8 @@ def test_a_case_from_a_file_keeps_its_text_and_takes_its_files_along(tmp_path: P
     case = gs.read_case(written)
     other = moved(case, tmp_path)
     assert other.origin.text == case.origin.text
-    assert other.origin.digests == case.origin.digests
+    now, before = ([file.sha256 for file in each.origin.files] for each in (other, case))
+    assert now == before
     (tmp_path / case.origin.files[0].name).write_text("x [m],z [m]\n")
     with pytest.raises(FileError, match="has changed since the case was read"):
         case.save(tmp_path / "late" / "case.toml")

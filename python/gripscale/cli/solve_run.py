@@ -21,8 +21,6 @@ from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surf
 from gripscale.questions.inputs.record import excited
 from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE, write_report
 from gripscale.questions.result import warning_lines
-from gripscale.questions.uncertainty.page import uncertainty_lines
-from gripscale.questions.uncertainty.propagation import stored_uncertainty
 from gripscale.questions.words import OF_THE_PAPER
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.material import require_load_bearing
@@ -68,7 +66,7 @@ def _conclude(
     case, target = work.case, work.target
     assert result.chain is not None
     waves: list[str | Table] = [*chain_tables(result.chain), LEGEND]
-    parts = _parts(result, case, target)
+    parts = _parts(result, case)
     if case.surface.measured is None:
         parts = [*waves, *parts]
     else:
@@ -122,11 +120,9 @@ def _save(result: Answer, case: Case, target: Path) -> None:
         cut_off_result(result.curve, case).save(target / CURVE_FILE)
 
 
-def _parts(result: Answer, case: Case, target: Path) -> list[str | Table]:
+def _parts(result: Answer, case: Case) -> list[str | Table]:
     """Return tables and sentences that stand below an answer."""
     parts: list[str | Table] = list(slopes_table(result.data))
-    sampled = stored_uncertainty(target)
-    parts += uncertainty_lines(sampled, case.origin.text, case.origin.digests)
     if result.curve is not None:
         curve = CutOff(result.curve)
         parts += ["", *curve.basis, curve.rules_table()]

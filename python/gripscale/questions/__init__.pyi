@@ -42,10 +42,7 @@ from .page_of_folder import write_report as write_report
 from .sensitivity.friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .sensitivity.question import Sensitivity as Sensitivity
 from .slip.question import SlipCurve as SlipCurve
-from .uncertainty.first_order import first_order as first_order
 from .uncertainty.profile_blocks import ProfileBlocks as ProfileBlocks
-from .uncertainty.propagation import of_same_inputs as of_same_inputs
-from .uncertainty.propagation import stored_uncertainty as stored_uncertainty
 from .uncertainty.sampled_inputs import Range as Range
 from .uncertainty.sampling import Uncertainty as Uncertainty
 from .uncertainty.series_scatter import SeriesScatter as SeriesScatter

@@ -2,52 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import xarray as xr
 
 from gripscale.core.errors import FileError
-from gripscale.core.finding import Finding, Severity, Topic, ranked
 from gripscale.io import netcdf
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer
 from gripscale.questions.compare.page import Compared, comparison_page, stored_comparisons
-from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.questions.stored import KINDS_OF_REPORTS, load, predicted_tree, result_of
-from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
-from gripscale.questions.uncertainty.propagation import of_same_inputs, stored_uncertainty
 from gripscale.report import write_page
 from gripscale.report.elements import Page
 
 CHAIN_FILE, CURVE_FILE = "chain.nc", "cut_off.nc"  # beside the answer of a run
 
 
-class RunAnswer(Answer):
-    """The answer of a run with what its folder holds beside it."""
-
-    sampled: xr.Dataset | None = None
-    """The uncertainty that was sampled of this case, or of another."""
-
-    def page_content(self) -> Page:
-        """Return the page of the answer with the interval that was sampled."""
-        page, case = super().page_content(), str(self.data.attrs.get("case", ""))
-        if self.sampled is None:
-            return page
-        if not of_same_inputs(self.sampled, case, InputRecord(self.inputs).digests):
-            other = Finding(Severity.WARNING, OF_ANOTHER, topic=Topic.SOURCE)
-            return replace(page, notices=ranked([*page.notices, other]))
-        return replace(page, cards=[*page.cards, *uncertainty_cards(self.sampled)])
-
-
-def read_run(folder: Path) -> RunAnswer:
+def read_run(folder: Path) -> Answer:
     """Return what a run left in a folder: its answer, with what is of the same case beside it.
 
     Raises `FileError` if a file is damaged or no result.
     """
-    stored: Answer = load(folder / ANSWER_FILE)
-    result = RunAnswer(stored.data, stored.inputs)
-    result.sampled = stored_uncertainty(folder)
+    result: Answer = load(folder / ANSWER_FILE)
 
     def of_this_case(name: str) -> xr.Dataset | None:
         path = folder / name
@@ -100,7 +76,7 @@ def read_result(path: Path) -> Compared | Result:
         return result
     if (path / ANSWER_FILE).is_file():
         return read_run(path)
-    compared = replace(stored_comparisons(path), uncertainty=stored_uncertainty(path.parent))
+    compared = stored_comparisons(path)
     if compared.parts:
         return compared
     others = sorted(file for file in path.glob("*.nc") if not file.name.startswith("."))

@@ -11,7 +11,7 @@ import xarray as xr
 from scipy import stats
 
 from gripscale.case_file import read_case
-from gripscale.questions import Uncertainty, first_order
+from gripscale.questions import Uncertainty
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.uncertainty.page import part_tables
 from gripscale.questions.uncertainty.question import SampledAnswer
@@ -122,8 +122,16 @@ def test_the_variance_of_the_samples_is_in_the_interval(folder: Path, certain: x
     sentences = " ".join(SampledAnswer(data).lines)
     assert "Answer: hysteresis friction μ = " in sentences
     assert "`gripscale run`, without them: μ" in sentences
-    (table,) = part_tables(data)
+    table, measured = part_tables(data)
     assert "cut-off of the roughness" in table.columns[0].texts()
+    assert measured.columns[0].texts()[0] == "none"
+    # a profile to where the roughness ends leaves the interval without that part
+    columns = {column.name: column.values for column in measured.columns}
+    widths = dict(zip(columns["measurement"], columns["friction_width"], strict=True))
+    rest = after - sigma(data, "friction", "cut-off of the roughness") ** 2
+    left = math.asinh(widths["a finer profile, to where the roughness ends"])
+    assert left / math.asinh(widths["none"]) == pytest.approx(math.sqrt(rest / after))
+    assert list(widths.values())[1:] == sorted(list(widths.values())[1:])
 
 
 def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
@@ -201,11 +209,3 @@ def test_parts_add_up_and_have_their_freedom() -> None:
     squares = {float(e.freedom): float(e.sigma) ** 2 for e in error.errors}
     assert squares[7.0] == pytest.approx(error.variance["profile"] + error.variance[REST])
     assert squares[399.0] == pytest.approx(error.variance["other"])
-
-
-def test_a_range_of_the_chain_alone_has_no_derivative(folder: Path) -> None:
-    """It asks for both models; derivatives are those of the direct contact."""
-    case = read_case(folder / "case.toml")
-    choice = only(cut_off="0.98 mm:1.02 mm", load_time="0.5:2")
-    assert propagate(case, choice, samples=10).model.values.tolist() == ["chain", "direct"]
-    assert first_order(case, choice).source.values.tolist() == ["cut_off"]

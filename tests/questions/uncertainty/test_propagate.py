@@ -243,14 +243,14 @@ def test_the_command_writes_result_table_and_figures(folder, tmp_path):
     assert code == 0, output
     assert "What matters most (chain)" in output
     assert {path.name for path in (tmp_path / "figures").iterdir()} == {
-        f"{name}.png" for name in ("answer", "distributions", "tornado_chain")
+        f"{name}.png" for name in ("answer", "distributions")
     }
     assert netcdf.load_dataset(tmp_path / "uncertainty.nc").sizes["sample"] == ENOUGH
     text = (tmp_path / "uncertainty.txt").read_text()
     assert "Quantiles of the samples, without the factors of the answer" in text
     page = write_report(tmp_path).read_text()
     assert "Quantiles of the samples, without the factors of the answer" in page
-    assert page.count("<img ") == 3
+    assert page.count("<img ") == 2
 
 
 def test_the_command_draws_a_band_over_speed(folder, over_speed):

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from gripscale.core.errors import InputError
-from gripscale.questions.vary.axis import axes_of, parse_vary
+from gripscale.questions.vary.axis import axes_of, parse_axes
 
 
 @pytest.mark.parametrize(
@@ -101,7 +101,7 @@ def test_wrong_axis_is_one_sentence(vary: dict[str, Any], words: str) -> None:
 
 
 def test_option_is_a_name_and_its_values() -> None:
-    assert parse_vary("speed = 1:2:lin2") == ("speed", " 1:2:lin2")
+    assert parse_axes(["speed = 1:2:lin2"]) == {"speed": "1:2:lin2"}
     for wrong in ("speed", "speed=", "sped=1"):
         with pytest.raises(InputError, match="vary must be"):
-            parse_vary(wrong)
+            parse_axes([wrong])

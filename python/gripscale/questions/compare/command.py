@@ -61,11 +61,9 @@ def compare_command(
     from gripscale.questions.compare import charts, comparison, ladder, page, question
     from gripscale.questions.page_of_folder import write_report
     from gripscale.questions.result import warning_lines
-    from gripscale.questions.uncertainty.page import uncertainty_lines
-    from gripscale.questions.uncertainty.propagation import stored_uncertainty
     from gripscale.questions.vary import axis
 
-    axes = None if vary is None else dict([axis.parse_vary(vary, comparison.COMPARED_OVER)])
+    axes = None if vary is None else axis.parse_axes([vary], comparison.COMPARED_OVER)
     work = terminal.CaseCommand(case)
     work.open_results(output, "comparison", f"Comparison of models for {work.file.path}")
     console, target, read = work.console, work.target, work.case
@@ -108,8 +106,6 @@ def compare_command(
     if residuals is not None:
         netcdf.save(residuals, target / "at_measured.nc")
         parts.append(residual_table(residuals))
-    sampled = stored_uncertainty(work.file.resolve(work.file.case.output.folder))
-    parts += uncertainty_lines(sampled, work.file.text, read.origin.digests)
     if axes is None and has_answer(result.data):
         parts += ["", page.best_line(result.data)]
 

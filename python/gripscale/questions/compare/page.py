@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
-from gripscale.core.finding import Finding, Severity, Topic, from_json
+from gripscale.core.finding import Finding, Topic, from_json
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
 from gripscale.io.table import Column, Table, digits, fixed, percent, significant
@@ -32,8 +32,6 @@ from gripscale.questions.compare.charts import axis_charts, ladder_charts
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.stored import predicted_tree
-from gripscale.questions.uncertainty.page import OF_ANOTHER, uncertainty_cards
-from gripscale.questions.uncertainty.propagation import of_same_inputs
 from gripscale.questions.vary.axis import axis_shown
 from gripscale.questions.words import HEADINGS, SYMBOLS, is_estimated
 from gripscale.report import elements
@@ -51,7 +49,6 @@ class Compared:
     """The comparisons of one case: under its own load, and over varied inputs."""
 
     parts: list[xr.Dataset] = field(default_factory=list)
-    uncertainty: xr.Dataset | None = None  # what was sampled of the case, or of another
 
     @property
     def ladder(self) -> xr.Dataset | None:
@@ -62,12 +59,6 @@ class Compared:
     def over(self) -> list[xr.Dataset]:
         """The comparisons over varied inputs."""
         return [data for data in self.parts if varied(data)]
-
-    @property
-    def own_uncertainty(self) -> xr.Dataset | None:
-        """What was sampled of this very case, or None."""
-        data, case = self.uncertainty, str(self.parts[0].attrs.get("case", ""))
-        return data if data is not None and of_same_inputs(data, case) else None
 
 
 def stored_comparisons(folder: Path) -> Compared:
@@ -260,8 +251,6 @@ def comparison_page(compared: Compared) -> Page:
     first, ladder = compared.parts[0], compared.ladder
     case = case_title(first.attrs)
     elements = comparison_elements(compared)
-    sampled = compared.own_uncertainty
-    stale = sampled is None and compared.uncertainty is not None
     return Page.of(
         f"Models side by side: {case}",
         str(first.attrs.get("title", "")),
@@ -269,9 +258,8 @@ def comparison_page(compared: Compared) -> Page:
             *from_json(str(first.attrs.get(FRICTION_DOUBTS, ""))),
             *([*no_answer_notices(ladder), *answer_notices(ladder)] if ladder is not None else ()),
             *(element for element in elements if isinstance(element, Finding)),
-            *([Finding(Severity.WARNING, OF_ANOTHER, topic=Topic.SOURCE)] if stale else []),
         ],
-        [*ladder_cards(ladder), *uncertainty_cards(sampled)],
+        ladder_cards(ladder),
         [Section("comparison", "Models side by side", elements), rerun_section(first.attrs)],
         () if ladder is None else [*large_strain_lines(ladder), *basis_lines(ladder)],
     )

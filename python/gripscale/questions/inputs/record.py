@@ -336,14 +336,6 @@ class InputRecord:
         """What the fit of the Prony series found."""
         return self.text("prony_findings").splitlines()
 
-    @property
-    def digests(self) -> list[str] | None:
-        """Checksums of the files the prediction rests on; None where none were recorded."""
-        if "file_sha256" not in self.data:
-            return None
-        counted = self.data["file_role"].values != "measured"
-        return [str(digest) for digest in self.data["file_sha256"].values[counted]]
-
     def warnings(self) -> Iterator[Finding]:
         """Yield what is doubtful about load, conditions, rubber and surface."""
         yield from from_json(self.text("findings"))

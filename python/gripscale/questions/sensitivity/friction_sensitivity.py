@@ -32,7 +32,7 @@ from gripscale.experiment.design import (
 )
 from gripscale.experiment.task import Task
 from gripscale.half_space.location import contact_trace, trace_variables, with_traces
-from gripscale.half_space.model import CONDITION_ERRORS, DirectContact
+from gripscale.half_space.model import DirectContact
 from gripscale.half_space.sensitivity import TEXTS, contact_sensitivity
 from gripscale.model import STATUS
 from gripscale.questions.vary.friction_ratio import answer_with_contacts
@@ -44,8 +44,6 @@ if TYPE_CHECKING:
     from gripscale.surface import Surface
 
 STORAGE, LOSS = "d_ln_friction_d_ln_storage", "d_ln_friction_d_ln_loss"
-# Name of the errors that sources of uncertainty carry to "friction" or "contact_fraction".
-CARRIED = "source_{}_error"
 # End of the names of derivatives with the rubber's answer to the change.
 FEEDBACK = "_with_feedback"
 # Of the differences of whole solutions: ln v, ln p_0, and temperature [K]. The friction of a grid
@@ -157,8 +155,7 @@ def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
 def derivatives_of_answer(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
     names = [name for name in answer if name in _DERIVATIVES]
-    errors = [name for name in CONDITION_ERRORS if name in answer]
-    kept = answer[[*names, *errors, *trace_variables(answer)]]
+    kept = answer[[*names, *trace_variables(answer)]]
     numbers = surface_numbers(answer, task).assign(basis_numbers(answer))
     return numbers.assign(kept.variables)
 

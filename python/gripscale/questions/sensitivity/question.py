@@ -15,7 +15,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.charts import draw
-from gripscale.core import Finding, InputError, Quantity, Severity, Topic, checks, doubt
+from gripscale.core import Array, Finding, InputError, Quantity, Severity, Topic, checks, doubt
 from gripscale.core.units import display_unit_of
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
@@ -28,7 +28,6 @@ from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
 from gripscale.questions.sensitivity import charts
 from gripscale.questions.sensitivity.friction_sensitivity import (
-    CARRIED,
     FEEDBACK,
     LOSS,
     RULE_FREQUENCY,
@@ -37,14 +36,7 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
     derivatives_of_answer,
     with_rules_of_thumb,
 )
-from gripscale.questions.sensitivity.next_measurement import (
-    carried_table,
-    frequencies_of,
-    next_measurements,
-)
-from gripscale.questions.uncertainty.first_order import CARRIED_QUANTITIES, first_order
 from gripscale.questions.uncertainty.page import as_elements
-from gripscale.questions.uncertainty.sampling import stated_options
 from gripscale.questions.vary.axis import axes_of, points
 from gripscale.questions.vary.inputs import reading_notes
 from gripscale.questions.vary.study import Study, coordinates
@@ -83,6 +75,13 @@ def effect_sentence(data: xr.Dataset) -> str:
         f"1 % more E″ gives {least_to_most(loss, digits(2))} % more friction; 1 % less E′ gives "
         f"{least_to_most(-storage, digits(2))} % more"
     )
+
+
+def frequencies_of(effect: xr.DataArray, share: float) -> Array:
+    """Return the frequencies between which a share of an effect lies, in its middle [rad/s]."""
+    within = (np.cumsum(effect.values) - 0.5 * effect.values) / effect.values.sum()
+    ends = np.interp([0.5 - 0.5 * share, 0.5 + 0.5 * share], within, np.log(effect.frequency))
+    return np.asarray(np.exp(ends))
 
 
 class Sensitivity(Result):
@@ -129,10 +128,6 @@ class Sensitivity(Result):
             title = "The same where strain and temperature of the rubber follow the change"
             yield Table("feedback", columns, title, keys=1)
         yield self.decades_table()
-        if CARRIED.format("friction") in self.data:
-            yield carried_table(self.data)
-            if (table := next_measurements(self.data)) is not None:
-                yield table
         if "rule" not in self.data.dims:
             yield (
                 "The rubber has no temperature shift: tan δ at 0 °C and 60 °C has no known place "
@@ -300,10 +295,8 @@ def sensitivity(
         `_with_feedback` hold the answer of softening and heat. `storage_modulus` and
         `loss_modulus` [Pa] of the master curve over `modulus_frequency` [rad/s]; with a shift, over
         `rule`, the frequency that each rule of thumb stands for, and the share of the effect of E''
-        within half a decade of it. Where nothing is varied, `source_friction_error` and
-        `source_contact_fraction_error` over `source`: the relative standard errors that unknown
-        inputs carry to friction and contact area (`first_order`), and the derivatives by height in
-        the traces of the profiles (`gripscale.half_space.location.traces_of`).
+        within half a decade of it. Where nothing is varied, the derivatives by height in the traces
+        of the profiles (`gripscale.half_space.location.traces_of`).
     xarray.Dataset
         Of a contact, see `gripscale.half_space.contact_sensitivity`.
     """
@@ -330,17 +323,12 @@ def sensitivity(
         contact_fraction=contact_fraction,
         with_feedback=with_feedback,
         traces=vary is None,
-        alternatives=vary is None,
     )
     study = Study(case, axes, model=model)
     with bench_in(folder, workers, None, on_task) as bench:
         data = solve_design(study.design, bench, derivatives_of_answer)
     data = data.assign_coords(coordinates(study.axes, case.units))
     if STORAGE in data:
-        if vary is None:
-            errors = first_order(case, seed=stated_options(case).seed)
-            named = {f"{name}_error": CARRIED.format(name) for name in CARRIED_QUANTITIES}
-            data = data.assign(errors.rename(named).variables)
         data = with_rules_of_thumb(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
     attrs = {
         "title": "What decides the friction of a case",

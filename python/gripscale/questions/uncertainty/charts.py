@@ -11,10 +11,9 @@ import xarray as xr
 from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
-from gripscale.charts.style import BLUE, COLOURS, GREY, INK, ORANGE
+from gripscale.charts.style import BLUE, COLOURS, INK, ORANGE
 from gripscale.questions.answer.reliance import answer_number
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
-from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import MODELS
 from gripscale.questions.vary.charts import varied_axis
 from gripscale.questions.words import ANSWER, AXIS_TITLES, believed
@@ -60,16 +59,6 @@ def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
         "the inputs as stated, and the answer.",
         "Histograms of the samples, a row for each model.",
     )
-    for name in data.model.values:
-        samples = data.sel(model=name)
-        if np.isfinite(samples.friction_share).any():
-            yield Picture(
-                f"tornado_{name}",
-                tornado_figure(samples),
-                f"What each source does alone to the friction of the model {name}, and its share "
-                "of the variance.",
-                "Bars for each source, the most important on top.",
-            )
 
 
 def parts_figure(data: xr.Dataset) -> Figure:
@@ -148,45 +137,6 @@ def _distribution(
         label = ANSWER if np.isfinite(low) else "answer"
         yield Series([best], [1.29 * top], INK, label, "", marker="*", size=8.0, low=[low],
                      high=[high], level_bars=True, clip=False)  # fmt: skip
-
-
-def tornado_figure(data: xr.Dataset) -> Figure:
-    """Draw what each source does to the friction of one model at one load, most on top.
-
-    Bars go from 5 to 95 % of what a source does alone. Beside them is its share of the variance;
-    grey is an effect that is not significant with so many samples.
-    """
-    data = data.isel(source=np.argsort(data.friction_share.values, kind="stable"))
-    shares, errors = data.friction_share.values, data.friction_share_error.values
-    middle = float(np.exp(np.nanmean(np.log(data.friction.values))))
-    bars: list[Mark] = []
-    dots: list[Mark] = []
-    for row, (share, error) in enumerate(zip(shares, errors, strict=True)):
-        seen = share > SIGNIFICANCE * error
-        for end, colour in zip(data.friction_end.values[row], (BLUE, ORANGE), strict=True):
-            low, high = sorted((middle, end))
-            bars.append(Bars(low, high, row - 0.3, row + 0.3, colour if seen else GREY))
-        dots.append(Series([share], [row], INK if seen else GREY, dash="", marker="o", size=4.0,
-                           low=[share - error], high=[share + error], level_bars=True))  # fmt: skip
-    rows = PlotAxis(ticks={float(row): str(label) for row, label in enumerate(data.label.values)})
-    title = f"{data.model.item()}: what each does alone"
-    panels = [
-        Panel(
-            PlotAxis(_TOTALS["friction"]),
-            rows,
-            [*bars, CrossLine(middle, INK, upright=True)],
-            title,
-        ),
-        Panel(
-            PlotAxis("share of the variance of $\\ln\\mu$ [-]"),
-            rows,
-            [*dots, CrossLine(0.0, INK, upright=True)],
-        ),
-    ]
-    words = {"to 5 %": BLUE, "to 95 %": ORANGE, "not significant": GREY}
-    keys = [Bars(0, 0, 0, 0, colour, label) for label, colour in words.items()]
-    height = 1.3 + 0.34 * len(shares)
-    return Sheet(panels, height=height, keys=keys, gap=0.03, layout={"sharey": True}).on_paper()
 
 
 def band_figure(data: xr.Dataset, axis: str) -> Figure:

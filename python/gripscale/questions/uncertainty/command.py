@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
-from gripscale.core.errors import InputError
 from gripscale.questions import terminal
 
 if TYPE_CHECKING:
@@ -88,13 +86,13 @@ def uncertainty_command(
     from gripscale.questions.uncertainty.sampled_inputs import length
     from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
     from gripscale.questions.uncertainty.sources import BOTH
-    from gripscale.questions.vary.axis import parse_vary
+    from gripscale.questions.vary.axis import parse_axes, values_by_name
 
     models = () if model is None else BOTH[checks.one_of("model", model, BOTH)]
-    axes = None if vary is None else dict([parse_vary(vary, SAMPLED_OVER)])
+    axes = None if vary is None else parse_axes([vary], SAMPLED_OVER)
     options: dict[str, Any] = {
         "without": without or None,
-        "ranges": _values_by_source(ranges or ()),
+        "ranges": values_by_name(ranges or (), "range", "cut_off=50 um:200 um"),
         "block_length": None if block_length is None else length(block_length),
     }
     work = terminal.CaseCommand(case)
@@ -124,16 +122,3 @@ def uncertainty_command(
         **work.solving(workers),
     )
     work.finish(result, "tables and figures")
-
-
-def _values_by_source(ranges: Sequence[str]) -> dict[str, str]:
-    """Return the values of `NAME=VALUES` by name; raise `InputError` for anything else."""
-    values: dict[str, str] = {}
-    for text in ranges:
-        name, separator, value = (part.strip() for part in text.partition("="))
-        if not separator or not value:
-            raise InputError(f'range must be such as "cut_off=50 um:200 um"; got {text!r}')
-        if name in values:
-            raise InputError(f"range must name different sources; got {name} twice")
-        values[name] = value
-    return values

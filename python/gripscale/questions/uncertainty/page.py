@@ -6,7 +6,6 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from itertools import pairwise
 
 import numpy as np
 import xarray as xr
@@ -20,35 +19,30 @@ from gripscale.questions.answer.intervals import LEVEL, UPPER_LIMITS, interval_e
 from gripscale.questions.answer.reliance import (
     AnswerNumber,
     has_answer,
-    headline,
     headline_name,
     is_measured,
     is_moving,
 )
 from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
+from gripscale.questions.uncertainty.next_measurement import next_measurements
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.questions.vary.axis import name_of
 from gripscale.questions.words import SYMBOLS, believed
 from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Element, Page, Section, Text
+from gripscale.report.elements import Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained, failures_in
 
 # Symbols of the quantities, in their order.
 HEADS = {name: SYMBOLS[name] for name in propagation.PROPAGATED_QUANTITIES}
-OF_ANOTHER = (
-    "The uncertainty in this folder belongs to another case and is left out; run `gripscale "
-    "uncertainty` again."
-)
 UNCERTAINTY = (
     "The case was solved many times, each time with other values of the inputs that are not known "
     "exactly. 90 % of the samples of a model lie between its quantiles of 5 and 95 %."
 )
 # Share of the samples of a model without an answer up to which the others stand for all.
 MOST_FAILED = 0.25
-SUMMARY = (0.05, 0.5, 0.95)  # quantiles in the summaries of other reports
 
 
 def model_places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
@@ -113,11 +107,17 @@ def not_stated(data: xr.Dataset) -> list[str]:
 
 
 def part_tables(data: xr.Dataset) -> Iterator[Table]:
-    """Yield what the interval of the answer is made of, at each load, most first."""
+    """Yield what the interval of the answer is made of, at each load, most first.
+
+    At a single load what to measure next stands below.
+    """
     for label, part in loads_of(data):
         if has_answer(part) and part.sizes["part"]:
-            title = f"What matters most to the answer{f' ({label})' if label else ''}"
-            yield part_table(part, title)
+            yield part_table(
+                part, f"What matters most to the answer{f' ({label})' if label else ''}"
+            )
+            if not label and is_moving(part) and (table := next_measurements(part)):
+                yield table
 
 
 def part_table(part: xr.Dataset, title: str) -> Table:
@@ -196,58 +196,18 @@ def quantile_table(data: xr.Dataset) -> Table:
 
 
 def share_table(part: xr.Dataset, title: str) -> Table:
-    """Return what each source does to friction and contact fraction at one load, most first.
-
-    From and to: 5 and 95 % of what it does alone. Notes name the shares in friction that are not
-    significant, and those that do not differ.
-    """
-    ranked = np.argsort(-part.friction_share.values, kind="stable")
-    part = part.isel(source=ranked, other_source=ranked)
-    labels, whole = part.label.values.tolist(), "{:.0%}".format
-    columns = [Column("source", [*labels, NOT_ALONE])]
+    """Return the share of each source in the samples of one model at one load, most first."""
+    part = part.isel(source=np.argsort(-part.friction_share.values, kind="stable"))
+    columns, whole = [Column("source", [*part.label.values.tolist(), NOT_ALONE])], "{:.0%}".format
     for name, symbol in HEADS.items():
-        ends = np.array([*part[f"{name}_end"].values, [np.nan, np.nan]])
-        share = [*part[f"{name}_share"].values, float(part[f"{name}_unexplained"])]
+        share = part[f"{name}_share"].values
+        every = np.maximum([*share, 1.0 - share.sum()], 0.0)
         error = [*part[f"{name}_share_error"].values, np.nan]
         columns += [
-            Column(f"{name}_end", ends, "from to", group=symbol),
-            Column(f"{name}_share", np.maximum(share, 0.0), "share of variance", group=symbol,
-                   format=whole),
+            Column(f"{name}_share", every, "share of variance", group=symbol, format=whole),
             Column(f"{name}_share_error", error, "±", group=symbol, format=whole),
-        ]  # fmt: skip
-    shares = part.friction_share.values
-    seen = shares > SIGNIFICANCE * part.friction_share_error.values
-    apart = SIGNIFICANCE * part.friction_share_difference_error.values
-    close = [
-        f"{labels[a]} and {labels[b]}"
-        for a, b in pairwise(np.flatnonzero(seen))
-        if shares[a] - shares[b] < apart[a, b]
-    ]
-    count, notes = int(np.isfinite(part.friction).sum()), []
-    if close:
-        notes.append(f"The order is not significant with {count} samples: {'; '.join(close)}.")
-    if not seen.all():
-        unseen = ", ".join(labels[k] for k in np.flatnonzero(~seen))
-        notes.append(f"No significant effect with {count} samples: {unseen}.")
-    return Table("shares", columns, f"What matters most ({title})", notes)
-
-
-def grid_sentences(data: xr.Dataset) -> Iterator[str]:
-    """Yield the estimated errors of the grids of the direct contact, if it was sampled."""
-    drawn = "drawn" if "grid" in data.source.values else "not"
-    for name in data.model.values:
-        errors = {head: data[f"{key}_grid_error"].sel(model=name) for key, head in HEADS.items()}
-        texts = [
-            f"{100.0 * float(error.median()):.2g} % in {head}"
-            for head, error in errors.items()
-            if error.notnull().any()
         ]
-        if texts:
-            yield (
-                f"{name}: the estimated error of the grid of a sample is {' and '.join(texts)} "
-                f"(median), {drawn} in its quantiles; the grid of the answer is finer. --tolerance "
-                "makes it smaller."
-            )
+    return Table("shares", columns, f"What matters most ({title})")
 
 
 def sampling_failure(data: xr.Dataset) -> Failure | None:
@@ -273,64 +233,6 @@ def too_many_failed(data: xr.Dataset) -> bool:
     )
 
 
-def uncertainty_lines(
-    data: xr.Dataset | None, text: str, digests: Iterable[str] | None = None
-) -> list[str]:
-    """Return the quantiles of friction and area by model, or that they are of another case.
-
-    `text` and `digests` are of the case of the report, see `gripscale.questions.of_same_inputs`.
-    """
-    if data is None:
-        return []
-    if not propagation.of_same_inputs(data, text, digests):
-        return [OF_ANOTHER]
-    if axis := axis_of(data):
-        return [f"The uncertainty of this case was sampled over {axis}: see uncertainty.txt."]
-    lines = []
-    if answered := [f"{head} = {headline(data, name)}" for name, head in _widened(data)]:
-        count = _samples(data.isel(model=0))
-        lines.append(f"With the errors of the inputs, {count}: {', '.join(answered)}")
-    for name, part in model_places(data):
-        numbers = "; ".join(f"{head} = {', '.join(values)}" for head, values in _quantiles(part))
-        lines.append(f"Uncertainty, {name}, 5, 50 and 95 % of {_samples(part)}: {numbers}")
-    return lines
-
-
-def uncertainty_cards(data: xr.Dataset | None) -> list[Card]:
-    """Return the interval of the answer with errors of the inputs, or quantiles of each model."""
-    if data is None or axis_of(data):
-        return []
-    count = _samples(data.isel(model=0))
-    detail = f"{100.0 * LEVEL:.0f} % interval of the answer; {count}"
-    cards = [
-        Card(f"{head}, inputs sampled", headline(data, name).interval, detail)
-        for name, head in _widened(data)
-    ]
-    return cards or [
-        Card(f"{head}, 5 to 95 %", f"{low} to {high}", f"{name}: median {median}; {_samples(part)}")
-        for name, part in model_places(data)
-        for head, (low, median, high) in _quantiles(part)
-    ]
-
-
-def _widened(data: xr.Dataset) -> Iterator[tuple[str, str]]:
-    """Yield name and symbol of each number whose interval holds errors of the inputs."""
-    if has_answer(data) and (DIRECT in data.model.values or not is_measured(data)):
-        yield from (pair for pair in HEADS.items() if headline(data, pair[0]).interval)
-
-
-def _quantiles(part: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
-    for name, head in HEADS.items():
-        values = part[f"{name}_quantile"].sel(quantile=list(SUMMARY)).values
-        if np.isfinite(values).all():
-            yield head, [f"{value:#.2g}" for value in values]
-
-
-def _samples(part: xr.Dataset) -> str:
-    failed, count = int(part.failed), part.sizes["sample"]
-    return f"{count} samples" if not failed else f"{count - failed} of {count} samples"
-
-
 def page_notices(data: xr.Dataset) -> list[Finding]:
     """Return failures: an error where too many failed."""
     failed = sampling_failure(data)
@@ -350,14 +252,13 @@ def uncertainty_page(data: xr.Dataset) -> Page:
     axis, parts = axis_of(data), list(part_tables(data))
     head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]
     held, title = interval_sentence(data), "What matters most"
-    samples: list[str | Table] = [UNCERTAINTY, quantile_table(data)]
-    samples += [*grid_sentences(data), *left_out_sentences(data)]
+    samples = [UNCERTAINTY, quantile_table(data), *left_out_sentences(data)]
     answered = not axis and has_answer(data)
     return Page.of(
         f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",
         f"{data.sizes['sample']} samples; {models}",
         page_notices(data),
-        answer.answer_cards(data) if answered else uncertainty_cards(data),
+        answer.answer_cards(data) if answered else [],
         [
             Section(
                 "answer",

@@ -7,9 +7,8 @@ All sources are drawn at once for each sample, and each sample is a task of
 from __future__ import annotations
 
 import json
-import tomllib
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -25,7 +24,6 @@ from gripscale.core.provenance import software
 from gripscale.experiment import design as designs
 from gripscale.experiment.design import CONVERGED, Design, Point
 from gripscale.experiment.solve import Bench, OnTask, bench_in
-from gripscale.experiment.task import load_stored
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import Doubtful, Load, Model, input_doubts
@@ -37,7 +35,7 @@ from gripscale.questions.uncertainty.sampled_answer import chain_answer, measure
 from gripscale.questions.uncertainty.sampled_inputs import Inputs
 from gripscale.questions.uncertainty.sampling import SampledInputs, SampleSet, Uncertainty
 from gripscale.questions.uncertainty.sources import BOTH, GRID_PLACE, SOURCES
-from gripscale.questions.uncertainty.variance_shares import shares
+from gripscale.questions.uncertainty.variance_shares import Shares, shares
 from gripscale.questions.vary.axis import Axis, axes_of
 from gripscale.questions.vary.study import coordinates
 from gripscale.uncertainty_options import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
@@ -72,19 +70,6 @@ _NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
 }
 
 
-# What is kept of the shares of the sources in a variance: dimensions and meaning.
-_SHARES = {
-    "share": (["source"], "share of each source in the variance of the logarithm of {}"),
-    "share_error": (["source"], "standard error of the share"),
-    "share_difference_error": (
-        ["source", "other_source"],
-        "standard error of the difference of two shares",
-    ),
-    "end": (["source", "end"], "{}, at 5 and 95 % of what a source alone does"),
-    "unexplained": ([], "share of no source in the variance of the logarithm of {}"),
-}
-
-
 def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     """Return all samples with their quantiles and shares; the first of `solved` is the case.
 
@@ -92,19 +77,15 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     it that was drawn.
     """
     sources, logarithms = drawn.chosen.sources, drawn.logarithms
-    sizes = {"source": len(sources), "other_source": len(sources), "end": 2}
     data: dict[str, xr.DataArray] = {}
 
     def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
         data[name] = values.drop_attrs().assign_attrs(units=unit, long_name=long_name)
 
-    def share_numbers(values: Array) -> tuple[Any, ...]:
-        """Return the numbers of `_SHARES` in their order."""
-        fit = shares(values, logarithms)
-        if fit is None:
-            return tuple(np.full([sizes[n] for n in dims], np.nan) for dims, _ in _SHARES.values())
-        ends = np.stack([fit.low, fit.high], axis=-1)
-        return fit.share, fit.error, fit.apart, ends, fit.unexplained
+    def known_shares(values: Array) -> Shares:
+        """Return shares and their errors, NaN where the samples cannot tell."""
+        nothing = np.full(len(sources), np.nan)
+        return shares(values, logarithms) or Shares(nothing, nothing)
 
     solved = solved.rename({model.FRICTION_OUTSIDE_BAND: "outside_band"})
     case, samples = solved.isel(sample=0), solved.isel(sample=slice(1, None))
@@ -127,15 +108,16 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
         values = data[name] * np.exp(error.fillna(0.0) * xr.DataArray(in_error))
         add(name, values.transpose(*data[name].dims), text)
         add(f"{name}_quantile", quantiles(data[name]), text)
-        parts = xr.apply_ufunc(
-            share_numbers,
+        share, share_error = xr.apply_ufunc(
+            known_shares,
             data[name],
             input_core_dims=[["sample"]],
-            output_core_dims=[dims for dims, _ in _SHARES.values()],
+            output_core_dims=[["source"], ["source"]],
             vectorize=True,
         )
-        for (part, (_, meaning)), values in zip(_SHARES.items(), parts, strict=True):
-            add(f"{name}_{part}", values, meaning.format(text))
+        about = f"share of each source in the variance of the logarithm of {text}"
+        add(f"{name}_share", share, about)
+        add(f"{name}_share_error", share_error, "standard error of the share")
     labels = [source.label for source in sources]
     return xr.Dataset(
         data,
@@ -143,7 +125,6 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
             "quantile": ("quantile", list(LEVELS), designs.variable_attributes("share below")),
             "source": ("source", list(logarithms), {"long_name": "source"}),
             "label": ("source", labels, {"long_name": "source in words"}),
-            "end": ("end", ["low", "high"]),
             **drawn.coordinates,
         },
         {
@@ -153,35 +134,7 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     )
 
 
-FOLDER, _RESULT = "uncertainty", "uncertainty.nc"  # where it is in the results folder of the case
-# Tables of a case that change no prediction of it.
-NO_INPUTS = ("uncertainty", "measured", "output", "compare")
-_FILES = "file_sha256"  # attribute of the result: digests of the files the case names, as JSON
-
-
-def stored_uncertainty(results: Path) -> xr.Dataset | None:
-    """Return the uncertainty in the results folder of a case, or None without a whole one."""
-    return load_stored(results / FOLDER / _RESULT)
-
-
-def of_same_inputs(data: xr.Dataset, text: str, digests: Iterable[str] | None = None) -> bool:
-    """Return whether uncertainty `data` of `propagate` is of a case file with this text.
-
-    `digests` are those of the files it names; None where they are not known.
-    """
-
-    def inputs(case: str) -> dict[str, Any] | None:
-        try:
-            tables = tomllib.loads(case)
-        except tomllib.TOMLDecodeError:
-            return None
-        return {name: table for name, table in tables.items() if name not in NO_INPUTS}
-
-    if inputs(str(data.attrs.get("case", ""))) != inputs(text):
-        return False
-    return digests is None or sorted(json.loads(data.attrs.get(_FILES, "[]"))) == sorted(digests)
-
-
+_RESULT = "uncertainty.nc"  # in the folder of the samples
 # Inputs that may be varied beside the samples: those of the load, the same samples at each.
 SAMPLED_OVER = ("speed", "pressure")
 
@@ -342,7 +295,6 @@ def solve_samples(
     inputs: list[Doubtful] = [case.surface, case.measured_rubber]
     return data.assign(answer.drop_attrs(deep=False).data_vars).assign_attrs(
         case.attributes | input_doubts(inputs, loads, case.units, case.softening_doubts),
-        **{_FILES: json.dumps(case.origin.digests)},
         seed=plan.seed,
         software=software(),
     )

@@ -53,7 +53,6 @@ class SampledAnswer(NumbersWithIntervals):
         yield from page.part_tables(self.data)
         yield page.quantile_table(self.data)
         yield from page.share_parts(self.data)
-        yield from page.grid_sentences(self.data)
         yield from page.left_out_sentences(self.data)
         yield from map(str, filter(None, [page.sampling_failure(self.data)]))
 

@@ -78,8 +78,8 @@ def sampled_error(
     if fit is not None:
         explained = np.maximum(fit.share, 0.0)
         explained /= max(float(explained.sum()), 1.0)
-        variance = dict(zip(fit.names, (explained * scatter).tolist(), strict=True))
-        share_error = dict(zip(fit.names, (fit.error * scatter).tolist(), strict=True))
+        variance = dict(zip(logarithms, (explained * scatter).tolist(), strict=True))
+        share_error = dict(zip(logarithms, (fit.error * scatter).tolist(), strict=True))
     variance[REST] = max(square - sum(variance.values()), 0.0)
     by_freedom: dict[float, float] = {}
     of_rest = min(freedom.values(), default=math.inf)

@@ -103,11 +103,10 @@ class Uncertainty:
         length = options.block_length if block_length is None else block_length
         return cls(tuple(without), merged | now, length)
 
-    def of(self, case: Case, models: Sequence[str], *, any_number: bool = False) -> Chosen:
+    def of(self, case: Case, models: Sequence[str]) -> Chosen:
         """Return the sources of a case that have an effect on one of `models`.
 
-        Raises `InputError` if a source that is given has nothing to draw, or, unless `any_number`
-        will do, none is left.
+        Raises `InputError` if a source that is given has nothing to draw, or none is left.
         """
         chosen = Chosen([], [])
         for name, source in SOURCES.items():
@@ -123,7 +122,7 @@ class Uncertainty:
                 if name in self.ranges:
                     raise InputError(f"{name} is given and has nothing to draw: {why}") from None
                 chosen.left_out.append(f"{source.label}: {why}")
-        if not chosen.sources and not any_number:
+        if not chosen.sources:
             raise InputError(f"no source of uncertainty is left; {'; '.join(chosen.left_out)}")
         return chosen
 

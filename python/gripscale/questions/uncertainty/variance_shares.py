@@ -13,57 +13,35 @@ where s^2 is the variance of the rest and s^2 tr_k what f_k has of it by chance:
 without effect would get its number of terms over the number of samples. The variance of y is taken
 as the sum, which it is of independent sources: of few samples they go together by chance. One fit
 of all sources, and not a mean over x_k alone, leaves only the rest as noise. What it cannot see
-(steps, interactions, anything the coordinates of a draw do not tell) is the `unexplained` share.
+(steps, interactions, anything the coordinates of a draw do not tell) is the share of none.
 
 Errors are those of the jackknife (B. Efron & C. Stein, Ann. Stat. 9 (1981) 586,
-doi:10.1214/aos/1176345462) for independent samples, too large for evenly spread ones; with their
-covariance it tells whether the order of two sources is known.
+doi:10.1214/aos/1176345462) for independent samples, too large for evenly spread ones.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.core.arrays import Array
 
-# Standard errors by which a share must exceed zero, or another share: 95 %, one side.
+# Standard errors by which a share must exceed zero: 95 %, one side.
 SIGNIFICANCE = 1.645
 SAMPLES_PER_TERM = 3  # samples there must be for each term of the fit
-SWING = (0.05, 0.95)  # quantiles of the effect of a source that tables and figures show
 
 
-@dataclass(frozen=True, eq=False)
-class Shares:
+class Shares(NamedTuple):
     """Shares of the variance of an answer, source by source; arrays of shape (sources,)."""
 
-    names: tuple[str, ...]
-    """The sources."""
     share: Array
     """S_k [-]; below zero by chance."""
-    covariance: Array
-    """Of their errors, shape (sources, sources)."""
-    low: Array
-    """The answer at 5 % of what a source alone does to it, all others in their middle."""
-    high: Array
-    """The same at 95 %."""
-    unexplained: float
-    """Share of none."""
-
-    @property
-    def error(self) -> Array:
-        """Standard errors of the shares [-]."""
-        return np.sqrt(np.diag(self.covariance))
-
-    @property
-    def apart(self) -> Array:
-        """Standard errors of the differences between shares [-], shape (sources, sources)."""
-        variance = np.diag(self.covariance)
-        return np.sqrt(np.maximum(variance[:, None] + variance - 2.0 * self.covariance, 0.0))
+    error: Array
+    """Their standard errors [-]."""
 
 
 def shares(answer: Array, coordinates: Mapping[str, Array]) -> Shares | None:
@@ -89,18 +67,13 @@ def shares(answer: Array, coordinates: Mapping[str, Array]) -> Shares | None:
         return None
     y = np.log(y)
     matrix, ends = np.hstack(blocks), np.cumsum([0, *widths])
-    variances, parts = _fit(matrix, y, ends)
-    share = variances[:-1] / variances.sum()
+    variances = _fit(matrix, y, ends)
     rest = np.arange(len(y))
-    others = np.array([_fit(matrix[rest != i], y[rest != i], ends)[0] for i in rest])
+    others = np.array([_fit(matrix[rest != i], y[rest != i], ends) for i in rest])
     others = (others / others.sum(axis=1, keepdims=True))[:, :-1]
     away = others - others.mean(axis=0)
     covariance = (len(y) - 1) / len(y) * away.T @ away
-    moved = np.quantile(parts, SWING, axis=0) * np.sqrt(
-        np.maximum(variances[:-1], 0.0) / np.maximum(parts.var(axis=0), np.finfo(float).tiny)
-    )
-    low, high = np.exp(y.mean() + moved)
-    return Shares(tuple(coordinates), share, covariance, low, high, float(1.0 - share.sum()))
+    return Shares(variances[:-1] / variances.sum(), np.sqrt(np.diag(covariance)))
 
 
 def _terms(values: Array) -> Array:
@@ -116,8 +89,8 @@ def _standard(values: Array) -> Array:
     return np.asarray((values - values.mean(axis=0)) / values.std(axis=0))
 
 
-def _fit(matrix: Array, y: Array, ends: NDArray[np.intp]) -> tuple[Array, Array]:
-    """Return the variances V_k, last that of the rest, and f_k in each sample, of mean zero."""
+def _fit(matrix: Array, y: Array, ends: NDArray[np.intp]) -> Array:
+    """Return the variances V_k, last that of the rest."""
     centred, about = matrix - matrix.mean(axis=0), y - y.mean()
     inverse = np.linalg.pinv(centred.T @ centred)
     factors = inverse @ (centred.T @ about)
@@ -128,4 +101,4 @@ def _fit(matrix: Array, y: Array, ends: NDArray[np.intp]) -> tuple[Array, Array]
         columns = centred[:, first:end]
         parts[:, k] = columns @ factors[first:end]
         by_chance[k] = np.sum(inverse[first:end, first:end] * (columns.T @ columns)) / len(y)
-    return np.append(parts.var(axis=0) - noise * by_chance, noise), parts
+    return np.append(parts.var(axis=0) - noise * by_chance, noise)

@@ -220,26 +220,29 @@ def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
     return tuple(Axis.of(name, values) for name, values in vary.items())
 
 
-def parse_vary(text: str, names: Iterable[str] = VARIED_INPUTS) -> tuple[str, str]:
-    """Return name and values of `name=values`, with one of `names`.
+def values_by_name(texts: Iterable[str], option: str, example: str) -> dict[str, str]:
+    """Return the values of texts `name=values` by name.
 
-    Raises `InputError` if it is not that.
+    Raises `InputError` that calls them `option` if one is no such text, or two have one name.
     """
-    name, separator, values = text.partition("=")
-    if not separator or not values.strip():
-        raise InputError(f'vary must be such as "speed=0.003:30:log9"; got {text!r}')
-    return checks.one_of("vary", name.strip(), [*names]), values
+    values: dict[str, str] = {}
+    for text in texts:
+        name, separator, value = (part.strip() for part in text.partition("="))
+        if not separator or not value:
+            raise InputError(f'{option} must be such as "{example}"; got {text!r}')
+        if name in values:
+            raise InputError(f"{option} must name different inputs; got {name} twice")
+        values[name] = value
+    return values
 
 
-def parse_axes(texts: Sequence[str], names: Iterable[str] = VARIED_INPUTS) -> dict[str, Any]:
-    """Return the values of inputs by name from texts such as `speed=0.1,1`.
+def parse_axes(texts: Sequence[str], names: Iterable[str] = VARIED_INPUTS) -> dict[str, str]:
+    """Return the values of inputs, each one of `names`, from texts such as `speed=0.1,1`.
 
     Raises `InputError` if two texts name one input, or one is no such text.
     """
-    pairs = [parse_vary(text, names) for text in texts]
-    if len(dict(pairs)) < len(pairs):
-        raise InputError(f"vary must name different inputs; got {', '.join(n for n, _ in pairs)}")
-    return dict(pairs)
+    values, known = values_by_name(texts, "vary", "speed=0.003:30:log9"), [*names]
+    return {checks.one_of("vary", name, known): value for name, value in values.items()}
 
 
 def _label(name: str, value: Any, unit: str) -> str:
