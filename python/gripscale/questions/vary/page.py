@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from gripscale.charts.draw import image
 from gripscale.core.arrays import Array
 from gripscale.core.finding import Finding, Severity, Topic, sentences
 from gripscale.core.units import MILLI, display_unit_of
@@ -38,11 +39,8 @@ from gripscale.questions.vary.axis import (
     of_points,
     places,
 )
-from gripscale.questions.vary.charts import study_charts
+from gripscale.questions.vary.charts import study_pictures
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
-from gripscale.questions.vary.schema import (
-    label_of,
-)
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
 from gripscale.questions.words import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.report.again import case_title, rerun_section
@@ -305,7 +303,7 @@ def study_findings(data: xr.Dataset) -> Iterator[Finding]:
 
 def study_page(data: xr.Dataset) -> Page:
     """Return the page of a study: answer, predictions and curves, then the inputs."""
-    labels = [label_of(data, axis) for axis in dimensions(data)]
+    labels = [axis.replace("_", " ") for axis in dimensions(data)]
     failed, count = len(list(study_failures(data))), len(list(places(data)))
     counts = [
         Card("Predictions", str(count), " × ".join(labels)),
@@ -318,7 +316,7 @@ def study_page(data: xr.Dataset) -> Page:
         [*study_cards(data), *counts],
         [
             Section("predictions", "Predictions", [study_table(data, count)]),
-            Section("curves", "Curves", study_charts(data)),
+            Section("curves", "Curves", [*map(image, study_pictures(data))]),
             *input_sections(data),
             method_section(json.loads(data.attrs.get(METHOD, "[]"))),
             rerun_section(data.attrs),
