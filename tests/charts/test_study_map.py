@@ -101,5 +101,5 @@ def test_both_are_among_the_figures_of_a_study(study: xr.Dataset) -> None:
 
 def test_page_shows_celsius_and_reduced_speed(study: xr.Dataset, tmp_path: Path) -> None:
     page = Variation(study).page(tmp_path / "page.html").read_text(encoding="utf-8")
-    assert "40 °C lies beyond the temperatures of the shift" in page
+    assert "25 of 75 predictions lie beyond the temperatures of the shift" in page
     assert 'id="figure-friction-master-curve"' in page
