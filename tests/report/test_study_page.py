@@ -15,7 +15,7 @@ from gripscale.questions import Study, Variation
 from gripscale.questions import page_of_folder as results
 from gripscale.questions.inputs.page import input_sections
 from gripscale.questions.page_of_folder import write_report
-from gripscale.questions.vary.charts import stacked_panels, study_charts
+from gripscale.questions.vary.charts import stacked_panels, study_pictures
 from gripscale.report.elements import Facts
 from tests.samples import EXAMPLES
 
@@ -44,15 +44,9 @@ def test_failed_prediction_is_loud(page: Page) -> None:
     assert marked.count("td") == len(page.body("study")[0]) - 1
 
 
-def test_curves_over_the_numeric_axis_and_the_waves(page: Page) -> None:
+def test_curves_over_the_numeric_axis(page: Page) -> None:
     names = {a["id"] for _, a in page.tags if (a.get("id") or "").startswith("figure-")}
-    assert names == {
-        "figure-total_contact_fraction-over-speed",
-        "figure-total_friction-over-speed",
-        "figure-running_contact_fraction-per-wave",
-        "figure-running_friction-per-wave",
-        "figure-contact_fraction-per-wave",
-    }
+    assert names == {"figure-totals"}
 
 
 def test_page_speaks_in_words_and_has_its_inputs(page: Page) -> None:
@@ -94,8 +88,7 @@ def test_parts_of_friction_are_stacked_to_the_whole(solved: Path) -> None:
         assert len(bands) > 1
         assert all((band.high >= band.low).all() for band in bands)
         np.testing.assert_allclose(total.y, whole + 0.0 * data.total_friction, rtol=1e-9)
-    names = {chart.name for chart in study_charts(data)}
-    assert {"friction_by_decade-over-speed", "octave_friction-over-speed"} <= names
+    assert {"stacked", "decades"} <= {picture.name for picture in study_pictures(data)}
 
 
 def test_folder_of_a_study_is_found(study_file: Path) -> None:

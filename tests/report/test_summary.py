@@ -38,8 +38,8 @@ def study(**attributes: object) -> xr.Dataset:
     )
 
 
-def rows(*results: xr.Dataset) -> list[dict[str, object]]:
-    table = summary_table(results)
+def rows(result: xr.Dataset) -> list[dict[str, object]]:
+    table = summary_table(result)
     return [dict(zip(table.titles, row, strict=True)) for row in table.rows()]
 
 
@@ -71,24 +71,6 @@ def test_doubts_stand_in_each_row() -> None:
     assert "not_to_rely_on" not in rows(study())[0]
 
 
-def test_several_results_share_their_columns_and_files() -> None:
-    direct, chain = (
-        xr.Dataset(
-            {"prediction_status": ((), "converged"), name: ((), 0.5, UNIT)},
-            attrs={"model": model, **files},
-        )
-        for name, model, files in (
-            ("answer_friction", "direct", {}),
-            ("total_friction", "chain", {"case_file": "case.toml"}),
-        )
-    )
-    first, second = rows(direct, chain)
-    assert (first["model"], second["model"]) == ("direct", "chain")
-    assert (first["answer_friction [-]"], second["answer_friction [-]"]) == (0.5, None)
-    assert (first["total_friction [-]"], second["total_friction [-]"]) == (None, 0.5)
-    assert first["case_file"] == second["case_file"] == "case.toml"
-
-
 def test_models_of_a_comparison_and_points_of_a_design_are_rows() -> None:
     words = np.array(["converged", "none"], dtype=object)
     comparison = xr.Dataset({"status": ("model", words)}, {"model": ["chain", "direct"]})
@@ -115,8 +97,8 @@ def test_the_answer_stands_beside_the_direct_contact() -> None:
 
 
 def test_rubber_at_rest_has_no_friction() -> None:
-    moving, rest = (
+    results = (
         xr.Dataset({"prediction_status": "converged", "nominal_speed": v, "total_friction": 0.0})
         for v in (1.0, 0.0)
     )
-    assert [row["total_friction"] for row in rows(moving, rest)] == [0.0, None]
+    assert [row["total_friction"] for result in results for row in rows(result)] == [0.0, None]

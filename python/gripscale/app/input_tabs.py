@@ -68,7 +68,6 @@ def surface_elements(file: case_file.CaseFile) -> list[AppElement]:
         return [*notes, Text("The case states the sine waves; no surface is measured.")]
     return [
         *notes,
-        Text(f"{page.sines_line(case.surface.sines)}."),
         *correlation_charts(inputs),
         *page.surface_facts(InputRecord(inputs), len(case.surface.sines)),
         *page.cleaning_tables(InputRecord(inputs)),

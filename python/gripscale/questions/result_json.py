@@ -46,7 +46,7 @@ def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = 
         "findings": findings,
         "failure": result.failure,
         "table": _table(result.table()),
-        "summary": _table(summary_table([data])),
+        "summary": _table(summary_table(data)),
         "inputs": [asdict(file) for file in files],
     }
     return json.dumps(_plain(content), ensure_ascii=False, indent=1, allow_nan=False)

@@ -1,4 +1,4 @@
-"""The answers of a question as one flat table: a row for each, all its numbers in it.
+"""The answers of a result as one flat table: a row for each, all its numbers in it.
 
 A row is a place on the dimensions of the status of a result: a prediction, a model of a comparison,
 a point of a study. What holds for several rows stands in each of them; of models side by side, the
@@ -6,9 +6,6 @@ answer in that of the direct contact.
 """
 
 from __future__ import annotations
-
-from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -30,7 +27,7 @@ FIRST = (
     *("total_friction", "total_contact_fraction", STATUS, DOUBTS, "nominal_pressure"),
     *("nominal_speed", "footprint"),
 )
-# Attributes of results that are columns, of a result without them those of the others.
+# Attributes of a result that are columns.
 ABOUT = (
     *("model", "nominal_pressure", "nominal_speed", "footprint", "conditions", "rubber"),
     *("rubber_source", "surface_source", "rubbers", "surfaces", "case_file", "command"),
@@ -39,37 +36,13 @@ _UNITS = {"nominal_pressure": "Pa", "nominal_speed": "m/s", "footprint": "m"}
 LEFT_OUT = ("prediction_key", "seconds")
 
 
-def summary_table(results: Sequence[xr.Dataset]) -> Table:
-    """Return the answers of results as one table, with units in its headings."""
-    about = {name: value for data in reversed(results) for name, value in data.attrs.items()}
-    about.pop("model", None)
-    parts = [_columns(data, about) for data in results]
-    counts = [next(iter(part.values())).values.size for part in parts]
-    columns = {name: column for part in parts for name, column in part.items()}
-    places = [str(dim) for data in results for dim in _rows(data).dims]
-    order = {name: at for at, name in reversed([*enumerate([*places, *FIRST])])}
-    table = []
-    for name in sorted(columns, key=lambda name: order.get(name, len(order))):
-        values = [
-            part[name].values if name in part else np.full(count, None)
-            for part, count in zip(parts, counts, strict=True)
-        ]
-        table.append(columns[name].of(np.concatenate(values)))
-    return Table("summary", table)
-
-
-def _rows(data: xr.Dataset) -> xr.DataArray:
-    """Return the number of a result of which each value is a row."""
-    return data[next(name for name in ROWS if name in data)]
-
-
-def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
-    """Return the columns of a result by name; `about` holds attributes that it may lack.
+def summary_table(data: xr.Dataset) -> Table:
+    """Return the answers of a result as one table, with units in its headings.
 
     Rubber at rest has no friction. An answer is made of the direct contact: it stands in its row,
     not in that of each model.
     """
-    rows = _rows(data)
+    rows = data[next(name for name in ROWS if name in data)]  # each of its values is a row
     numbered = {dim: np.arange(n) for dim, n in rows.sizes.items() if dim not in data.coords}
     full, speed = data.assign_coords(numbered), data.get("nominal_speed")
     columns = {}
@@ -85,11 +58,12 @@ def _columns(data: xr.Dataset, about: dict[str, Any]) -> dict[str, Column]:
         unit = str(number.attrs.get("units", "")) if number.dtype.kind in "fiu" else ""
         of_rows = values.transpose(*rows.dims).values.astype(object).ravel()
         columns[name] = Column(name, of_rows, unit=unit)
-    texts = {name: data.attrs.get(name, about.get(name)) for name in ABOUT}
+    texts = {name: data.attrs.get(name) for name in ABOUT}
     texts[DOUBTS] = no_answer(data) if has_answer(data) else sentences(input_doubts_of(data))
     for name, value in texts.items():
         varied = {name, name.removeprefix("nominal_")} & columns.keys()
         if not varied and value not in (None, "", "null"):
             everywhere = np.full(rows.size, value, object)
             columns[name] = Column(name, everywhere, unit=_UNITS.get(name, ""))
-    return columns
+    order = {name: at for at, name in reversed([*enumerate([*map(str, rows.dims), *FIRST])])}
+    return Table("summary", sorted(columns.values(), key=lambda c: order.get(c.name, len(order))))

@@ -159,7 +159,7 @@ class Answer(NumbersWithIntervals):
         """Return friction, contact area and all that qualifies them as one row."""
         from gripscale.questions.summary_table import summary_table
 
-        return summary_table([self.data])
+        return summary_table(self.data)
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
         for name, trace in named_traces(self.data, self.inputs)[:1]:

@@ -67,10 +67,7 @@ def design_command(
     output: OwnFolder = None,
     workers: Workers = None,
 ) -> None:
-    """Design a compound: most friction on the surface of a case for each rolling resistance.
-
-    Resumes where it was stopped.
-    """
+    """Design a compound: most friction on the surface of a case for each rolling resistance."""
     from gripscale.case_file import folder
     from gripscale.case_file.named_inputs import names_of, read_rubber, read_surface
     from gripscale.questions.design.compound_limits import CompoundLimits

@@ -6,13 +6,10 @@ levels rise, and each is sought from today's compound and from the point before,
 too: ln mu need not be concave, and the better of the two ends counts. Friction and gain of a point
 are those of contacts solved anew, to the tolerance of a comparison (`compound_gain`). A level
 without more friction than the one below is no point: the compound below is admissible there, too.
-The result is written after each point.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -23,10 +20,10 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.core import ZERO_CELSIUS, Array, InputError, checks, provenance
+from gripscale.core import ZERO_CELSIUS, Array, InputError, checks
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.experiment.task import Task, canonical_json, load_stored
+from gripscale.experiment.task import Task
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
 from gripscale.questions.design.compound_gain import DESIGN_TOLERANCE, Gain, SolvedCompound, gain
@@ -271,37 +268,6 @@ def other_compounds(
         parts.append(xr.Dataset(variables(numbers, "compound_")))
     names = np.array(list(rubbers), dtype=object)
     return xr.concat(parts, "compound").assign_coords(compound=("compound", names)), notes
-
-
-def design_key(
-    case: Case, problem: DesignProblem, levels: Sequence[float], rubbers: Mapping[str, Any]
-) -> str:
-    """Return what a design depends on, but for the number of threads, as one word."""
-    roads = {goal.road for goal in problem.friction.goals}
-    inputs = [
-        provenance.software(),
-        [case.key, case.origin.text],
-        canonical_json(list(problem.friction.goals)),
-        canonical_json(problem.limits),
-        canonical_json([float(level) for level in levels]),
-        {road: canonical_json(problem.roads[road]) for road in sorted(roads)},
-        {name: canonical_json(value) for name, value in rubbers.items()},
-    ]
-    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:32]
-
-
-def stored_points(folder: Path | None, key: str) -> tuple[dict[float, xr.Dataset], set[float]]:
-    """Return the points of an earlier run of the same design by level, and levels without one."""
-    stored = None if folder is None else load_stored(folder / DESIGN_FILE)
-    if stored is None or stored.attrs.get("design_key") != key:
-        return {}, set()
-    names = [name for name, variable in stored.data_vars.items() if "point" in variable.dims]
-    points = stored[names].drop_vars(list(stored.coords))
-    by_level = {
-        float(level): points.isel(point=at)
-        for at, level in enumerate(stored.rolling_level.values.tolist())
-    }
-    return by_level, set(json.loads(stored.attrs.get(FRUITLESS, "[]")))
 
 
 def rising_levels(levels: Sequence[float], problem: DesignProblem) -> list[float]:

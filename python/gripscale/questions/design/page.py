@@ -84,13 +84,6 @@ def design_lines(data: xr.Dataset) -> Iterator[str]:
         f"worst of them; today tan δ is {significant(tangent)} at "
         f"{attrs['rolling_condition']}."
     )
-    yield f"  {_what_changes(data, chosen)}"
-    count = round(float(chosen.limited_share) * chosen.sizes["term"])
-    yield (
-        f"  {count} of {chosen.sizes['term']} moduli are at the largest factor "
-        f"({attrs['largest_factor']:g}) or as far from a neighbour as they may be (a factor "
-        f"of {attrs['factor_per_decade']:g} a decade)."
-    )
     relaxed = [f"{name}, {_percent(worth)}" for name, worth in worths.items()]
     yield f"  A limit relaxed by a tenth gives, to first order: {'; '.join(relaxed)}."
     yield f"  {_interval_sources(chosen)}"
@@ -123,26 +116,6 @@ def _at_rolling(point: xr.Dataset) -> str:
 
 def _percent(value: float) -> str:
     return f"{100.0 * value:+.0f} %" if abs(value) > 0.0995 else f"{100.0 * value:+z.1f} %"
-
-
-def _what_changes(data: xr.Dataset, point: xr.Dataset) -> str:
-    """Return where the largest changes of E' and E'' are."""
-    texts = []
-    for name, symbol in (("storage", "E'"), ("loss", "E''")):
-        ratio = (point[name] / data[f"today_{name}"]).values
-        for at in sorted({int(np.argmin(ratio)), int(np.argmax(ratio))}):
-            if abs(ratio[at] - 1.0) > LEAST_CHANGE:
-                texts.append(
-                    f"{symbol} × {ratio[at]:.2f} at {significant(data.frequency.values[at], 2)} Hz"
-                )
-    ends = [
-        dict.fromkeys(significant(hertz, 2) for hertz in band)
-        for band in changed_frequencies(data, point)
-    ]
-    if not ends:
-        return "The master curve stays within 20 % of today's."
-    bands = ", ".join(" to ".join(band) for band in ends)
-    return f"The master curve changes by more than 20 % at {bands} Hz: {', '.join(texts)}."
 
 
 def _interval_sources(point: xr.Dataset) -> str:

@@ -27,12 +27,10 @@ from gripscale.questions.design.charts import design_picture
 from gripscale.questions.design.compound_design import (
     DESIGN_FILE,
     FRUITLESS,
-    design_key,
     left_out,
     other_compounds,
     rising_levels,
     solved_point,
-    stored_points,
     todays_answers,
     todays_compound,
 )
@@ -179,11 +177,11 @@ def design(
     roads : mapping, optional
         Surfaces of the goals by the names that the goals use.
     folder : path, optional
-        Keeps `design.nc` after each point: what was interrupted resumes.
+        Keeps the result as `design.nc`.
     workers : int, optional
         Threads; one per core by default.
     on_point : callable, optional
-        Called with the Dataset of each point as it is solved or read.
+        Called with the Dataset of each point as it is solved.
     on_task : callable, optional
         Called with today's answer at each goal, as for `gripscale.experiment.Bench`.
     """
@@ -193,8 +191,6 @@ def design(
     problem = design_problem(case, goals, limits, workers, roads)
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
     named = rubbers or {}
-    key = design_key(case, problem, wanted, named)
-    stored, fruitless = stored_points(target, key)
     now = todays_answers(case, problem, target, on_task)
     problem.friction.log_friction(problem.unchanged)  # all contacts start from these
     reference = SolvedCompound.of(problem.friction, problem.rubber, problem.rubber)
@@ -205,7 +201,6 @@ def design(
     base = base.assign_attrs(
         case.attributes,
         kind=CompoundDesign.kind,
-        design_key=key,
         rubber_parameters=json.dumps(problem.rubber.to_dict()),
         notes="\n".join(notes),
         left_out=left_out(case),
@@ -218,27 +213,24 @@ def design(
     of_compounds += [d.about(name) for name, each in compounds.items() for d in each.doubts]
     inputs = record.inputs(case, problem.roads.values(), loads, of_compounds)
     points: list[xr.Dataset] = []
+    fruitless: set[float] = set()
     rising = rising_levels(wanted, problem)
     for level in rising:
-        if level in fruitless:
-            continue
-        point = stored.get(level)
-        if point is None:
-            point = solved_point(problem, reference, level, points[-1:])
-            answers = base.today_answer_friction * (point.friction / base.today_friction)
-            text = "friction of the answer with the design"
-            point["answer_friction"] = answers.assign_attrs(variable_attributes(text))
-        rises = not points or float(point.gain - points[-1].gain) > PRECISION
-        if rises:
+        point = solved_point(problem, reference, level, points[-1:])
+        answers = base.today_answer_friction * (point.friction / base.today_friction)
+        text = "friction of the answer with the design"
+        point["answer_friction"] = answers.assign_attrs(variable_attributes(text))
+        if not points or float(point.gain - points[-1].gain) > PRECISION:
             points.append(point)
+            if on_point is not None:
+                on_point(point)
         else:
             fruitless.add(level)
         if not bool(point.rolling_reached):
             fruitless |= {higher for higher in rising if higher > level}
-        data = base.merge(xr.concat(points, "point", combine_attrs="override"))
-        data.attrs[FRUITLESS] = json.dumps(sorted(fruitless))
-        if target is not None:
-            netcdf.save(data, target / DESIGN_FILE, {"inputs": inputs})
-        if rises and on_point is not None:
-            on_point(point)
+            break
+    data = base.merge(xr.concat(points, "point", combine_attrs="override"))
+    data.attrs[FRUITLESS] = json.dumps(sorted(fruitless))
+    if target is not None:
+        netcdf.save(data, target / DESIGN_FILE, {"inputs": inputs})
     return CompoundDesign(data, inputs)

@@ -282,8 +282,5 @@ def surface_figures(prepared: Surface, figures: FigureFolder) -> None:
             wavelength_axis(lengths),
             PlotAxis("texture level re 1 µm [dB]"),
             [Series(lengths, levels.level.values, BLUE, marker="o", size=3.5)],
-            name="texture-levels",
-            caption="Third-octave texture levels, ISO 13473-4.",
-            alt="Texture level in decibels against texture wavelength.",
         )
         figures.save(Sheet([panel], 1, NARROW, 3.4), "texture_levels")

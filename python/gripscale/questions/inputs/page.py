@@ -23,7 +23,7 @@ from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of, in_
 from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole_number
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
-from gripscale.questions.inputs.record import InputRecord
+from gripscale.questions.inputs.record import InputRecord, rubber_variables
 from gripscale.questions.vary.axis import dimensions
 from gripscale.report.elements import Element, Facts, Section, Text, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
@@ -401,7 +401,7 @@ def rubber_facts(record: InputRecord) -> Facts:
         left_out = record.data["master_frequency"].values[record.data["master_left_out"].values > 0]
         texts = ", ".join(number_text(frequency) for frequency in left_out)
         pairs.append(("Rows left out as outliers", f"{texts} Hz" if texts else "none"))
-    return Facts("Rubber", pairs)
+    return Facts(record.text("rubber_name") or "Rubber", pairs)
 
 
 # Keys of [load]: attribute of a study, and what they are called.
@@ -445,7 +445,7 @@ def input_sections(data: xr.Dataset) -> list[Section]:
         )
         if (length == length[0]).all() and (height == height[0]).all():  # of all predictions
             waves.append(waves_table(length[0], height[0]))
-    rubbers = [_facts_of(rubber, f"Rubber {i}") for i, rubber in enumerate(rubbers_of(data), 1)]
+    rubbers = [_facts_of(rubber) for rubber in rubbers_of(data)]
     return [
         Section("inputs", "Inputs and their origin", [load]),
         Section("surface", "Surface", waves),
@@ -458,21 +458,11 @@ def rubbers_of(data: xr.Dataset) -> list[Rubber]:
     return list(map(Rubber.from_dict, json.loads(data.attrs.get("rubber_parameters", "[]"))))
 
 
-def _facts_of(rubber: Rubber, name: str) -> Facts:
-    relaxed, glassy = rubber.equilibrium_modulus, rubber.glassy_modulus
-    pairs = [
-        ("Relaxed modulus of the series", f"{number_text(relaxed, MEGA)} MPa"),
-        ("Glassy modulus of the series", f"{number_text(glassy, MEGA)} MPa"),
-        ("Bulk modulus", f"{number_text(rubber.bulk_modulus, GIGA)} GPa"),
-        ("Maxwell elements", str(len(rubber.moduli))),
-    ]
-    if rubber.valid_band:
-        low, high = map(number_text, rubber.valid_band)
-        pairs.append(("Measured band", f"{low} to {high} rad/s"))
-    if rubber.reference_temperature:
-        celsius = rubber.reference_temperature - ZERO_CELSIUS
-        pairs.append(("Temperature", f"{number_text(celsius)} °C"))
-    return Facts(rubber.name or name, pairs)
+def _facts_of(rubber: Rubber) -> Facts:
+    variables, attrs = rubber_variables(rubber, None, None, np.zeros(0))
+    if rubber.reference_temperature is not None:
+        attrs["reference_temperature_K"] = rubber.reference_temperature
+    return rubber_facts(InputRecord(xr.Dataset(variables, attrs=attrs)))
 
 
 def surface_section(record: InputRecord, waves: SineStack | None = None) -> list[Element]:

@@ -8,17 +8,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import chart, draw, style
+from gripscale.charts import chart, style
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Chart
+from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
@@ -34,22 +33,14 @@ from gripscale.questions.vary.axis import (
     of_numbers,
     several,
 )
-from gripscale.questions.vary.schema import (
-    PER_WAVE,
-    VARIABLES,
-    label_of,
-    variable_of,
-)
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
 from gripscale.questions.words import AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# Curves of a chart of the page, evenly spaced among more; and names in a legend on paper.
-_MOST_CURVES = 12
+_MOST_NAMES = 12  # names in a legend of curves, evenly spaced among more
 MOST_BANDS = 3  # curves beyond which intervals would cover each other, and are not drawn
-_ESTIMATED = (*AXIS_TITLES, "adhesive_friction")
 INTERVAL = "90 % interval"
 
 
@@ -61,34 +52,9 @@ def varied_axis(data: xr.Dataset, name: str) -> tuple[PlotAxis, Array]:
     return PlotAxis(axis_label(data, name), log=low > 0.0 and high > 8.0 * low, **limits), x
 
 
-def study_charts(data: xr.Dataset) -> list[Chart]:
-    """Return a chart of area and friction over each numeric axis, and for each number per wave."""
-    axes = [axis for axis in several(data) if of_numbers(data, axis)]
-    best = [name for name in map(partial(believed, data), _ESTIMATED) if name in data]
-    totals = [name for name in best if np.nan_to_num(data[name].values).any()]
-    panels = [
-        _total_panel(data, name, axis)
-        for axis in axes
-        for name in totals
-        if axis in data[name].dims
-    ]
-    panels += stacked_panels(data).values()
-    if REDUCED_SPEED in data.coords:
-        panels += _reduced_panels(data)
-    for name in PER_WAVE if "wavelength" in data else ():
-        if name in data and "scale" in data[name].dims and np.isfinite(data[name].values).any():
-            panels.append(_wave_panel(data, name, thinned=True))
-    return draw.panels_on_page(panels)
-
-
-def _curves(
-    data: xr.Dataset, over: list[str], *, thinned: bool = True
-) -> Iterator[tuple[dict[str, int], str, str]]:
-    """Yield the points of the axes `over`, with colour and name; evenly spaced ones of many."""
+def _curves(data: xr.Dataset, over: list[str]) -> Iterator[tuple[dict[str, int], str, str]]:
+    """Yield the points of the axes `over`, with colour and name."""
     points = list(product(*(range(data.sizes[name]) for name in over)))
-    if thinned and len(points) > _MOST_CURVES:
-        chosen = np.linspace(0, len(points) - 1, _MOST_CURVES).round().astype(int)
-        points = [points[i] for i in chosen]
     colours = style.colours(len(points), ordered=len(over) == 1 and over[0] in numeric(data))
     if over == ["temperature"]:
         colours = style.shades(len(points), "Plasma")
@@ -104,23 +70,16 @@ def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
     return xr.broadcast(flags if covered else xr.DataArray(False), variable)[0]
 
 
-def _ordinate(data: xr.Dataset, name: str) -> PlotAxis:
-    """Return the axis of a number of a study: of areas logarithmic, of friction from zero."""
-    variable = variable_of(data, name)
-    words = AXIS_TITLES.get(variable.measures if name in VARIABLES else "", variable.label)
-    low = 0.0 if variable.measures == "friction" else None
-    return PlotAxis(f"{words} [-]", log=variable.measures == "contact_fraction", low=low)
+def _ordinate(quantity: str) -> PlotAxis:
+    """Return the axis of a number of an answer: of areas logarithmic, of friction from zero."""
+    area = quantity == "contact_fraction"
+    return PlotAxis(f"{AXIS_TITLES[quantity]} [-]", log=area, low=None if area else 0.0)
 
 
-def _sentence(data: xr.Dataset, name: str) -> str:
-    """Return what a variable means, with a capital unless a letter of an equation comes first."""
-    text = str(data[name].attrs.get("long_name", label_of(data, name)))
-    return text if text[1:2] == " " else text[:1].upper() + text[1:]
-
-
-def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
+def _total_panel(data: xr.Dataset, quantity: str, axis: str) -> Panel:
     """Return a total over an axis, a curve for each point of the others; names are points."""
-    variable, numbers = data[name], of_numbers(data, axis)
+    name, numbers = believed(data, quantity), of_numbers(data, axis)
+    variable = data[name]
     flags = _beyond(data, variable)
     if numbers:
         abscissa, x = varied_axis(data, axis)
@@ -138,7 +97,7 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
     if numbers:
         drawn = {"dash": "solid", "size": 3.0, "clip": False}
     marks: list[Mark] = []
-    curves = list(_curves(data, others, thinned=numbers and len(others) > 1))
+    curves = list(_curves(data, others))
     for at, colour, label in curves:
         only = colour if others else BLUE
         y, beyond, *interval = (
@@ -155,15 +114,7 @@ def _total_panel(data: xr.Dataset, name: str, axis: str) -> Panel:
             Series(x, y, only, label or "sliding", marker="o", beyond=numbers & beyond, **drawn,
                    **bars)
         )  # fmt: skip
-    words, over = label_of(data, name), label_of(data, axis)
-    return Panel(
-        abscissa,
-        _ordinate(data, name),
-        marks,
-        name=f"{name}-over-{axis}",
-        caption=f"{_sentence(data, name)}, over {over}.",
-        alt=f"{words} against {over}.",
-    )
+    return Panel(abscissa, _ordinate(quantity), marks)
 
 
 def totals_figure(result: xr.Dataset) -> Figure:
@@ -176,7 +127,7 @@ def totals_figure(result: xr.Dataset) -> Figure:
     """
     names = dimensions(result)
     axis = (numeric(result) or names)[0]
-    area, friction = (_total_panel(result, believed(result, name), axis) for name in AXIS_TITLES)
+    area, friction = (_total_panel(result, name, axis) for name in AXIS_TITLES)
     keys = []
     if any(name.endswith(" *") for name in (area.x.ticks or {}).values()):
         keys.append(Series([], [], GREY, BEYOND_LABEL, dash="", marker="$*$"))
@@ -186,32 +137,23 @@ def totals_figure(result: xr.Dataset) -> Figure:
     return Sheet([area, friction], legend=legend, legend_columns=4, keys=keys).on_paper()
 
 
-def _wave_panel(data: xr.Dataset, name: str, *, thinned: bool) -> Panel:
-    """Return a number of each wave against wavelength, a curve for each prediction."""
-    variable = variable_of(data, name)
+def _wave_panel(data: xr.Dataset, quantity: str) -> Panel:
+    """Return a number down to each wave against wavelength, a curve for each prediction."""
     flags = data["wavelength"].copy(data=style.waves_beyond(data))
-    values, lengths, flags = xr.broadcast(data[name], data["wavelength"] / MILLI, flags)
-    over = [str(dim) for dim in values.dims if dim != "scale"]
-    curves = list(_curves(data, over, thinned=thinned))
-    every = -(-len(curves) // _MOST_CURVES)
+    values, lengths, flags = xr.broadcast(
+        data[f"running_{quantity}"], data["wavelength"] / MILLI, flags
+    )
+    curves = list(_curves(data, [str(dim) for dim in values.dims if dim != "scale"]))
+    every = -(-len(curves) // _MOST_NAMES)
     marks: list[Mark] = []
     for i, (at, colour, label) in enumerate(curves):
         x, y, beyond = (part.isel(at).values for part in (lengths, values, flags))
-        beyond = style.down_to(beyond) if variable.running else beyond
-        marks.append(Series(x, y, colour, label or label_of(data, name), marker="o", size=3.0,
-                            beyond=beyond, listed=i % every == 0))  # fmt: skip
-    area = variable.measures == "contact_fraction"
-    down = " down to each wave" if variable.running else " of each wave"
-    label = f"{_AREA if area else 'friction coefficient'}{down} [-]"
-    return Panel(
-        chart.wavelength_axis(lengths.values),
-        PlotAxis(label, log=area, low=None if area else 0.0, high=1.15 if area else None),
-        marks,
-        name=f"{name}-per-wave",
-        caption=f"{_sentence(data, name)}, against wavelength.",
-        alt=f"{label_of(data, name)} against wavelength, which falls to the right.",
-        height=400,
-    )
+        marks.append(Series(x, y, colour, label, marker="o", size=3.0,
+                            beyond=style.down_to(beyond), listed=i % every == 0))  # fmt: skip
+    area = quantity == "contact_fraction"
+    label = f"{_AREA if area else 'friction coefficient'} down to each wave [-]"
+    ordinate = PlotAxis(label, log=area, low=None if area else 0.0, high=1.15 if area else None)
+    return Panel(chart.wavelength_axis(lengths.values), ordinate, marks)
 
 
 _AREA = "real contact area $A_r/A_0$"
@@ -239,15 +181,7 @@ def _stacked(
     ]
     total = Series(x, upper[-1], INK, width=1.2, clip=False,
                    beyond=style.predictions_beyond(result))  # fmt: skip
-    words = label_of(result, str(parts.name))
-    return Panel(
-        abscissa,
-        ordinate,
-        [*bands[::-1], total],
-        name=f"{parts.name}-over-{axis}",
-        caption=f"{words}, stacked.",
-        alt=f"{words}, stacked against {label_of(result, axis)}.",
-    )
+    return Panel(abscissa, ordinate, [*bands[::-1], total])
 
 
 def map_figure(result: xr.Dataset) -> Figure:
@@ -277,31 +211,12 @@ def map_figure(result: xr.Dataset) -> Figure:
         if rows.any()
     ]  # fmt: skip
     panels = []
-    for name in (believed(result, quantity) for quantity in reversed(AXIS_TITLES)):
-        fine = _finer(abscissa.log, speeds, celsius, result[name].values)
-        values = chart.ValueMap(*fine, _ordinate(result, name).label, levels=9)
+    for quantity, title in reversed(AXIS_TITLES.items()):
+        solved_there = result[believed(result, quantity)].values
+        values = chart.ValueMap(speeds, celsius, solved_there, f"{title} [-]", levels=9)
         frame = replace(abscissa, grid=False), replace(ordinate, grid=False)
         panels.append(Panel(*frame, [values, *points]))
     return Sheet(panels, height=3.3, layout={"sharey": True}).on_paper()
-
-
-_FINE = 120  # points along each side of a map between those that were solved
-
-
-def _finer(log: bool, x: Array, y: Array, values: Array) -> tuple[Array, Array, Array]:
-    """Return a map at more points, without new extremes; as it is where points are missing or few.
-
-    Monotone cubics along one side, then the other: F. N. Fritsch & J. Butland, SIAM J. Sci. Stat.
-    Comput. 5 (1984) 300, doi:10.1137/0905021.
-    """
-    if min(values.shape) < 2 or not np.isfinite(values).all():
-        return x, y, values
-    from scipy.interpolate import PchipInterpolator
-
-    along = np.log(x) if log else x
-    fine_x, fine_y = (np.linspace(ends[0], ends[-1], _FINE) for ends in (along, y))
-    across = PchipInterpolator(along, values, axis=1)(fine_x)
-    return np.exp(fine_x) if log else fine_x, fine_y, PchipInterpolator(y, across)(fine_y)
 
 
 def friction_master_figure(result: xr.Dataset) -> Figure:
@@ -323,7 +238,8 @@ def _reduced_panels(data: xr.Dataset) -> list[Panel]:
     shares = (celsius - celsius.min()) / max(float(np.ptp(celsius)), 1e-9)
     scale = style.shades(256, "Plasma")
     panels = []
-    for name in (believed(data, quantity) for quantity in reversed(AXIS_TITLES)):
+    for quantity in reversed(AXIS_TITLES):
+        name = believed(data, quantity)
         flags = _beyond(data, data[name])
         marks: list[Mark] = []
         for i, share in enumerate(shares):
@@ -333,18 +249,8 @@ def _reduced_panels(data: xr.Dataset) -> list[Panel]:
             marks.append(Series(speeds.of(x), y, scale[round(255 * float(share))],
                                 name_of(data, "temperature", i), width=1.0, marker="o", size=2.6,
                                 beyond=beyond, listed=False))  # fmt: skip
-        words = label_of(data, name)
-        panels.append(
-            Panel(
-                PlotAxis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7),
-                _ordinate(data, name),
-                marks,
-                name=f"{name}-over-{REDUCED_SPEED}",
-                caption=f"{words}, over the reduced speed a_T v: one curve where temperature does "
-                "nothing but shift the relaxation times of the rubber.",
-                alt=f"{words} against a_T v at every temperature.",
-            )
-        )
+        abscissa = PlotAxis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7)
+        panels.append(Panel(abscissa, _ordinate(quantity), marks))
     return panels
 
 
@@ -369,20 +275,44 @@ def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
     return panels
 
 
-def study_figures(result: xr.Dataset) -> Iterator[tuple[str, Figure]]:
-    """Yield totals and, over a single axis, what makes them; over two axes the page does."""
-    yield "totals", totals_figure(result)
+def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
+    """Yield totals and, over a single axis, what makes them; maps of speed and temperature."""
+    yield Picture(
+        "totals",
+        totals_figure(result),
+        "Contact area and friction over what was varied, dashed where they rest on the rubber "
+        "beyond its measured band.",
+        "Two panels of curves, one for each value of the second axis.",
+    )
     if REDUCED_SPEED in result.coords and np.isfinite(result.total_friction.values).any():
-        yield "friction_master_curve", friction_master_figure(result)
+        yield Picture(
+            "friction_master_curve",
+            friction_master_figure(result),
+            "Friction and contact area over the reduced speed a_T v: one curve where temperature "
+            "does nothing but shift the relaxation times of the rubber.",
+            "Two panels of curves against a_T v, one for each temperature.",
+        )
         if min(result.sizes["speed"], result.sizes["temperature"]) > 1:
-            yield "map", map_figure(result)
+            yield Picture(
+                "map",
+                map_figure(result),
+                "Friction and contact area over speed and temperature.",
+                "Two maps over speed and temperature with a dot for each prediction.",
+            )
     axes = several(result)
     if not (result.prediction_status == "converged").any():
         return
     if len(axes) == 1 and "wavelength" in result:
         alone = result.isel({name: 0 for name in dimensions(result) if name not in axes})
-        running = [name for name, variable in PER_WAVE.items() if variable.running]
-        panels = [_wave_panel(alone, name, thinned=False) for name in running]
-        yield "wavelength", Sheet(panels, legend="beside").on_paper()
+        panels = [_wave_panel(alone, quantity) for quantity in AXIS_TITLES]
+        yield Picture(
+            "wavelength",
+            Sheet(panels, legend="beside").on_paper(),
+            "Contact area and friction of each wave and all longer ones.",
+            "Two panels of curves against wavelength, which falls to the right.",
+        )
     for name, panel in stacked_panels(result).items():
-        yield name, Sheet([panel], 1, NARROW, 3.6, gap=0.02, legend="beside").on_paper()
+        figure = Sheet([panel], 1, NARROW, 3.6, gap=0.02, legend="beside").on_paper()
+        parts = "octaves of wavelength" if name == "stacked" else "relaxation times"
+        over = axes[0].replace("_", " ")
+        yield Picture(name, figure, f"Friction by {parts}, stacked.", f"Bands against {over}.")

@@ -5,15 +5,15 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Iterator
-from functools import partial
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from gripscale.charts.draw import image
 from gripscale.core.arrays import Array
 from gripscale.core.finding import Finding, Severity, Topic, sentences
-from gripscale.core.units import MILLI, display_unit_of
+from gripscale.core.units import display_unit_of
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import NONE, Column, Table, least_to_most, percent, significant
 from gripscale.model import (
@@ -30,19 +30,14 @@ from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page import input_sections
 from gripscale.questions.vary.axis import (
-    axis_shown,
     dimensions,
     name_of,
     names_at,
-    of_numbers,
     of_points,
     places,
 )
-from gripscale.questions.vary.charts import study_charts
+from gripscale.questions.vary.charts import study_pictures
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
-from gripscale.questions.vary.schema import (
-    label_of,
-)
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
 from gripscale.questions.words import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.report.again import case_title, rerun_section
@@ -107,15 +102,6 @@ def study_basis(data: xr.Dataset) -> Iterator[str]:
 
 def study_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield the range of friction and contact area over a study."""
-    reaches = []  # ends of axes of numbers, or how many names there are
-    for axis in dimensions(data):
-        text = f"{data.sizes[axis]} {axis.replace('_', ' ')}"
-        if of_numbers(data, axis):
-            unit = axis_shown(data, axis)
-            text = least_to_most(data[axis].values, partial(unit.text, digits=3))
-        elif data.sizes[axis] > 1 and axis != "effects":
-            text += "s"
-        reaches.append(text)
     for name in reversed(SYMBOLS):
         values = data[believed(data, name)].values
         if not (values > 0.0).any():
@@ -125,7 +111,7 @@ def study_cards(data: xr.Dataset) -> Iterator[Card]:
             width = float(data[f"answer_{name}_half_width"].max())
             detail = f"answer; ± {percent_text(width)} (90 %)" if math.isfinite(width) else "answer"
         title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
-        yield Card(title, least_to_most(values), f"{detail}; {' × '.join(reaches)}")
+        yield Card(title, least_to_most(values), detail)
 
 
 def course(data: xr.Dataset, name: str) -> str:
@@ -225,17 +211,6 @@ def study_table(data: xr.Dataset, most: int = _MOST_ROWS) -> Table:
         else:
             total = term + each("total_friction")
             columns += [area_term, Column("friction_with_area_term", total, "μ", "with it")]
-    if {"wavelength", "friction"} <= set(data):
-        rows = (data.isel(at) for at in shown_places)
-        largest = [
-            float(row.wavelength[int(np.nanargmax(row.friction.values))]) if sliding else math.nan
-            for row, sliding in zip(rows, each("total_friction") > 1e-9, strict=True)
-        ]
-        if np.isfinite(largest).any():
-            text = "{:.3g}".format
-            columns.append(
-                Column("largest_wave", largest, "largest μ of", "mm", MILLI, format=text)
-            )
     if study_sentence(data):
         shares = each(FRICTION_OUTSIDE_BAND)
         columns.append(Column("outside_band", shares, "μ", "beyond band", format=percent))
@@ -263,15 +238,9 @@ def shift_sentence(data: xr.Dataset) -> str:
     """Return which temperatures lie beyond the shift; empty if none does."""
     if BEYOND_SHIFT not in data or not bool(data[BEYOND_SHIFT].any()):
         return ""
-    flags = data[BEYOND_SHIFT]
-    if "temperature" in flags.dims:
-        others = [dim for dim in flags.dims if dim != "temperature"]
-        which = np.flatnonzero(flags.any(dim=others).values)
-        names = ", ".join(name_of(data, "temperature", int(i)) for i in which)
-        text = f"{names} {'lie' if which.size > 1 else 'lies'}"
-    else:
-        text = f"{int(flags.sum())} of {flags.size} predictions lie"
-    return f"{text} beyond the temperatures of the shift of the rubber."
+    flags = of_points(data, BEYOND_SHIFT)
+    count = f"{int(flags.sum())} of {flags.size} predictions"
+    return f"{count} lie beyond the temperatures of the shift of the rubber."
 
 
 def study_failures(data: xr.Dataset) -> Iterator[Failure]:
@@ -305,7 +274,7 @@ def study_findings(data: xr.Dataset) -> Iterator[Finding]:
 
 def study_page(data: xr.Dataset) -> Page:
     """Return the page of a study: answer, predictions and curves, then the inputs."""
-    labels = [label_of(data, axis) for axis in dimensions(data)]
+    labels = [axis.replace("_", " ") for axis in dimensions(data)]
     failed, count = len(list(study_failures(data))), len(list(places(data)))
     counts = [
         Card("Predictions", str(count), " × ".join(labels)),
@@ -318,7 +287,7 @@ def study_page(data: xr.Dataset) -> Page:
         [*study_cards(data), *counts],
         [
             Section("predictions", "Predictions", [study_table(data, count)]),
-            Section("curves", "Curves", study_charts(data)),
+            Section("curves", "Curves", [*map(image, study_pictures(data))]),
             *input_sections(data),
             method_section(json.loads(data.attrs.get(METHOD, "[]"))),
             rerun_section(data.attrs),

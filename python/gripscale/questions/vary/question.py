@@ -56,9 +56,9 @@ class Variation(Result):
         return page.study_table(self.data)
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        from gripscale.questions.vary.charts import study_figures
+        from gripscale.questions.vary.charts import study_pictures
 
-        yield from study_figures(self.data)
+        yield from ((picture.name, picture.figure) for picture in study_pictures(self.data))
 
     def page_content(self) -> Page:
         return page.study_page(self.data)
