@@ -54,7 +54,8 @@ def next_measurements(answer: xr.Dataset) -> Table | None:
         return None
     listed = [at for at, label in enumerate(labels) if label in MEASUREMENTS]
     texts, shares = zip(*(MEASUREMENTS[labels[at]] for at in listed), strict=True)
-    widths = {name: _widths(answer, name, listed, np.array(shares)) for name in SYMBOLS}
+    both = ("friction", "contact_fraction")
+    widths = {name: _widths(answer, name, listed, np.array(shares)) for name in both}
     order = np.argsort(widths["friction"][1:], kind="stable")
     columns = [Column("measurement", ["none", *(texts[k] for k in order)])]
     for name, width in widths.items():

@@ -252,7 +252,7 @@ def uncertainty_page(data: xr.Dataset) -> Page:
     axis, parts = axis_of(data), list(part_tables(data))
     head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]
     held, title = interval_sentence(data), "What matters most"
-    samples = [UNCERTAINTY, quantile_table(data), *left_out_sentences(data)]
+    samples: list[str | Table] = [UNCERTAINTY, quantile_table(data), *left_out_sentences(data)]
     answered = not axis and has_answer(data)
     return Page.of(
         f"Friction and contact area, inputs sampled{f': {case}' if case else ''}",

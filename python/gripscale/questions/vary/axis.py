@@ -241,8 +241,8 @@ def parse_axes(texts: Sequence[str], names: Iterable[str] = VARIED_INPUTS) -> di
 
     Raises `InputError` if two texts name one input, or one is no such text.
     """
-    values, known = values_by_name(texts, "vary", "speed=0.003:30:log9"), [*names]
-    return {checks.one_of("vary", name, known): value for name, value in values.items()}
+    values, options = values_by_name(texts, "vary", "speed=0.003:30:log9"), [*names]
+    return {checks.one_of("vary", name, options): value for name, value in values.items()}
 
 
 def _label(name: str, value: Any, unit: str) -> str:
