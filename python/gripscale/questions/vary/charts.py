@@ -228,30 +228,25 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     celsius = axis_shown(result, "temperature").of(result.temperature)
     label = axis_label(result, "temperature")
     bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
-    return Sheet(_reduced_panels(result), height=3.3, colour_bar=bar).on_paper()
-
-
-def _reduced_panels(data: xr.Dataset) -> list[Panel]:
-    """Return friction and A_r/A_0 over the reduced speed, a curve for each temperature."""
-    speeds = axis_shown(data, "speed")
-    celsius = axis_shown(data, "temperature").of(data.temperature)
+    speeds = axis_shown(result, "speed")
     shares = (celsius - celsius.min()) / max(float(np.ptp(celsius)), 1e-9)
     scale = style.shades(256, "Plasma")
     panels = []
     for quantity in reversed(AXIS_TITLES):
-        name = believed(data, quantity)
-        flags = _beyond(data, data[name])
+        name = believed(result, quantity)
+        flags = _beyond(result, result[name])
         marks: list[Mark] = []
         for i, share in enumerate(shares):
             x, y, beyond = (
-                part.isel(temperature=i).values for part in (data[REDUCED_SPEED], data[name], flags)
+                part.isel(temperature=i).values
+                for part in (result[REDUCED_SPEED], result[name], flags)
             )
             marks.append(Series(speeds.of(x), y, scale[round(255 * float(share))],
-                                name_of(data, "temperature", i), width=1.0, marker="o", size=2.6,
+                                name_of(result, "temperature", i), width=1.0, marker="o", size=2.6,
                                 beyond=beyond, listed=False))  # fmt: skip
         abscissa = PlotAxis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7)
         panels.append(Panel(abscissa, _ordinate(quantity), marks))
-    return panels
+    return Sheet(panels, height=3.3, colour_bar=bar).on_paper()
 
 
 def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
