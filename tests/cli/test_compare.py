@@ -27,7 +27,7 @@ from gripscale.questions.answer.direct_contact import (
     solve_direct_contact,
 )
 from gripscale.questions.answer.samples import curve_at
-from gripscale.questions.chain.view import PredictionView
+from gripscale.questions.chain.page import judgement
 from gripscale.questions.compare.charts import (
     comparison_axis_figure,
     comparison_figure,
@@ -35,7 +35,7 @@ from gripscale.questions.compare.charts import (
 )
 from gripscale.questions.compare.charts_of_ladder import rows_of
 from gripscale.questions.compare.comparison import COMPARED_OVER
-from gripscale.questions.compare.page import Compared, comparison_table, judgement, remarks
+from gripscale.questions.compare.page import Compared, comparison_table, remarks
 from gripscale.questions.page_of_folder import page_of
 from gripscale.questions.terminal import PROGRESS_LINES
 from tests.samples import Shell
@@ -377,7 +377,7 @@ def test_a_run_says_what_its_chain_is_worth(shell: Shell, inputs: Path, tmp_path
     stored = netcdf.load_dataset(tmp_path / ANSWER_FILE)
     totals = direct_contact_totals(direct, results, results.load)
     xr.testing.assert_identical(stored.drop_attrs(deep=False), totals.drop_attrs(deep=False))
-    (judged,) = judgement(PredictionView(chain.to_dataset()), stored)
+    judged = judgement(chain.to_dataset(), stored)
     assert judged in " ".join(result.stdout.split())
     ratio = significant(chain.friction / float(stored.answer_friction), 2)
     assert f"{ratio} times that of the answer" in judged

@@ -146,7 +146,7 @@ def test_case_text_is_given_word_for_word(page: Page) -> None:
 
 def test_pictures_and_figures_have_texts(page: Page) -> None:
     pictures = [attrs for tag, attrs in page.tags if tag == "img"]
-    assert len(pictures) == 9  # equations
+    assert len(pictures) == 13  # equations of the direct contact and of the chain
     assert all(attrs.get("alt") for attrs in pictures)
     plots = [attrs for _, attrs in page.tags if attrs.get("class") == "plot"]
     assert len(plots) >= 12

@@ -163,8 +163,9 @@ def _profile_columns(
     ]
     numbered = [at for at in _titled(table, _INDEX_TITLE) if count > 2 and _counts(table, at)]
     rest = [at for at in range(count) if at not in (*x, *times, *numbered)]
-    if not x and not times and step is None and len(rest) > 1:
-        if len(rest) == 2 or (len(z) == 1 and len(rest) == 2):
+    # with a step, columns without titles are a table of heights
+    if not x and not times and len(rest) > 1 and (step is None or not table.names):
+        if len(rest) == 2 and step is None:
             x, rest = rest[:1], rest[1:]
         elif channel is None:
             raise FileError(

@@ -282,5 +282,5 @@ def ratio_changes(over: xr.Dataset, under: xr.Dataset) -> list[float]:
         for each in (over, under)
     )
     high, low = xr.align(high, low, join="outer", fill_value=0.0)
-    own = high.condition.isin([TREADS, SERIES])
-    return [*high[own].values, *low[own].values, *(high - low)[~own].values]
+    apart = high.condition.isin([TREADS, SERIES])
+    return [*high[apart].values, *low[apart].values, *(high - low)[~apart].values]
