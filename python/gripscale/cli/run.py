@@ -29,9 +29,11 @@ def run(
 ) -> None:
     """Answer with contact area and friction of a case; resumes where it was stopped."""
     from gripscale.cli.solve_run import solve_run
+    from gripscale.io.folders import require_writable
 
     work = terminal.CaseCommand(case)
     target = output or work.file.resolve(work.file.case.output.folder)
+    require_writable(target)  # before the files of the case are read
     solve_run(work, target, show_chain=chain)
 
 
