@@ -83,14 +83,14 @@ def _tables(group: str, data: xr.Dataset) -> Iterator[Table]:
     used = {dim for dims in by_dimensions for dim in dims}
     by_dimensions |= {(str(index),): [] for index in data.indexes if str(index) not in used}
     for dims in sorted(by_dimensions, key=len):
-        places = []  # of each row along each dimension: its coordinate, or a number from 0
-        shape = [data.sizes[dim] for dim in dims]
-        for axis, dim in enumerate(dims):
-            along = data.variables.get(dim)
-            values = np.arange(data.sizes[dim]) if along is None else along.values
-            ones = np.delete(np.arange(len(dims)), axis).tolist()
-            full = np.broadcast_to(np.expand_dims(values, ones), shape)
-            places.append(Column(dim, full.ravel(), unit="1" if along is None else _unit(along)))
+        along = [data[dim] for dim in dims]  # of a dimension without coordinate a number from 0
+        full = np.meshgrid(*along, indexing="ij")
+        places = [
+            Column(
+                str(axis.name), values.ravel(), unit=_unit(axis.variable) if axis.coords else "1"
+            )
+            for axis, values in zip(along, full, strict=True)
+        ]
         columns = []
         for name in by_dimensions[dims]:
             variable = data.variables[name]

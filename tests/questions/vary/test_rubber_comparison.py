@@ -187,7 +187,7 @@ def test_waves_by_hand_have_no_interval(tmp_path: Path) -> None:
 def test_their_page_has_ranking_figures_and_inputs(made: Compounds, tmp_path: Path) -> None:
     made.save(tmp_path / "compounds.nc")
     page = write_report(tmp_path).read_text()
-    for word in ("lossy", "Compounds by friction", "Compounds side by side", "Glassy modulus"):
+    for word in ("lossy", "Compounds by friction", "Compounds side by side", "Maxwell elements"):
         assert word in page
     assert page.index("friction μ ranks lossy") < page.index("Compounds by friction")
     ratios, running, decades = ranking_figure(made.data, "rubber").axes

@@ -381,7 +381,7 @@ def rubber_facts(record: InputRecord) -> Facts:
     pairs = [
         end("slow_end", "Relaxed modulus", "Slow end of the data, E′"),
         end("fast_end", "Glassy modulus", "Fast end of the data, E′"),
-        ("Bulk modulus", f"{number_text(record.bulk_modulus, GIGA)} GPa"),
+        ("Bulk modulus", record.quantity("bulk_modulus_Pa", "GPa", GIGA)),
         ("Maxwell elements", str(np.size(record.relaxation_times[0]))),
         ("Measured band", f"{low} to {high} rad/s ({slow} to {fast} Hz)"),
         ("Temperature", f"{number_text(kelvin)} K ({number_text(kelvin - ZERO_CELSIUS)} °C)"),

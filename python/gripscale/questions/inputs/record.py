@@ -320,11 +320,6 @@ class InputRecord:
         return "texture_of" in self.data and "map" in self.data["texture_of"].values
 
     @property
-    def bulk_modulus(self) -> float:
-        """Bulk modulus of the rubber [Pa]."""
-        return self.number("bulk_modulus_Pa")
-
-    @property
     def relaxation_times(self) -> tuple[ArrayLike, ArrayLike]:
         """Times [s] and moduli [Pa] of the Maxwell elements."""
         names = ("term_relaxation_time", "term_modulus")
