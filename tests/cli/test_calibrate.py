@@ -103,7 +103,9 @@ def test_the_table_can_be_pasted_into_the_case(case: Path, calibrated: tuple[str
     fitted = shear_stress_from_dict(json.loads(netcdf.load_dataset(target / "calibration.nc").law))
     assert conditions is not None
     assert isinstance(conditions.shear_stress, GaussianStress)
-    assert vars(conditions.shear_stress) == pytest.approx(vars(fitted), rel=1e-5)
+    pasted, kept = vars(conditions.shear_stress), vars(fitted)
+    assert pasted.pop("fitted_to") == kept.pop("fitted_to")
+    assert pasted == pytest.approx(kept, rel=1e-5)
     # with its own area term in the case, the fit is the same
     again = gs.calibrate(read_case(written), model="chain", folder=target)
     assert again.law == fitted

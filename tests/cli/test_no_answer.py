@@ -84,7 +84,7 @@ def at_rest(case: Path) -> None:
         (as_it_is, "Answer: hysteresis friction μ = "),
         (short, "Answer: none to rely on. The measured surface is too small"),
         (mostly_gaps, "Answer: none to rely on. 74 % of the contact lies on filled gaps"),
-        (narrow, "Answer: none to rely on. 81 % of the friction lies up to 1.7 decades above"),
+        (narrow, "Answer: none to rely on. 87 % of the friction lies up to 1.8 decades above"),
         (at_rest, "Answer: no friction at rest; A_r/A_0 = "),
     ],
 )

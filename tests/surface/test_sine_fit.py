@@ -245,7 +245,7 @@ def test_bad_arguments_are_refused(arguments, says):
 
 def test_a_flat_curve_is_refused():
     flat = HeightDifference(CURVE.lag, np.zeros(len(CURVE)))
-    with pytest.raises(InputError, match="must be positive at every lag"):
+    with pytest.raises(InputError, match="the heights must differ, a plane has no roughness"):
         fit_sines(flat, scales=3)
 
 

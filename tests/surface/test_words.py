@@ -21,5 +21,5 @@ def test_a_crop_is_told_in_millimetres() -> None:
 def test_a_curve_that_vanishes_is_named_in_words(fit) -> None:
     lag = np.geomspace(1e-4, 1e-1, 30)
     curve = HeightDifference(lag, np.zeros_like(lag), np.full(lag.size, 10.0))
-    with pytest.raises(InputError, match=r"^the height difference correlation must be positive"):
+    with pytest.raises(InputError, match=r"^the heights must differ, a plane has no roughness"):
         fit(curve)

@@ -17,7 +17,7 @@ import gripscale as gs
 from gripscale.half_space import RoughContact
 from gripscale.half_space.sampling_error import PIECE, SamplingError, sampling_error
 from gripscale.surface import HeightMap
-from tests.verification.known_surfaces import FITTED, UNSEEN, known, tread
+from tests.verification.known_surfaces import FITTED, UNSEEN, known, rubber
 
 pytestmark = pytest.mark.verification
 
@@ -30,7 +30,7 @@ MEASURES = {"contact_fraction": "contact_fraction", "friction": "friction_from_d
 
 def contact(part: HeightMap, pressure: float, speed: float, periodic: bool = False) -> RoughContact:
     return gs.solve_rough_contact(
-        tread(), part, pressure=pressure, speed=speed, smallest_wavelength=CUT_OFF,
+        rubber("tread"), part, pressure=pressure, speed=speed, smallest_wavelength=CUT_OFF,
         periodic=periodic, tolerance=None, workers=1,
     )  # fmt: skip
 

@@ -22,8 +22,8 @@ from gripscale.half_space.response import HalfSpace
 
 _WAVE = 1.0 / 7.0  # wave of the modulus over the largest wave: 4 mm on the shipped road
 # Mean of the logarithm and its standard deviation, over what both are proportional to.
-AREA, AREA_SCATTER = 0.069, 0.08
-FRICTION, FRICTION_SCATTER = -0.175, 0.16
+AREA_GROWTH, AREA_SCATTER = 0.069, 0.08
+FRICTION_GROWTH, FRICTION_SCATTER = -0.175, 0.16
 
 
 def pressure_over_modulus(body: HalfSpace, pressure: float, largest_wavelength: float) -> float:
@@ -44,6 +44,6 @@ def finite_over_small(
     area = np.clip(np.asarray(contact_fraction, dtype=float), 1e-12, 1.0)
     size = pressed / np.sqrt(area)
     if quantity == "friction":
-        return np.exp(FRICTION * size), FRICTION_SCATTER * size
+        return np.exp(FRICTION_GROWTH * size), FRICTION_SCATTER * size
     size = size * np.sqrt((1.0 - area) / area)
-    return np.minimum(np.exp(AREA * size), 1.0 / area), AREA_SCATTER * size
+    return np.minimum(np.exp(AREA_GROWTH * size), 1.0 / area), AREA_SCATTER * size

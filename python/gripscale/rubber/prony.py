@@ -145,7 +145,7 @@ def fit_prony(master: MasterCurve, **options: Any) -> Rubber:
     without a temperature.
 
         >>> f"{gs.fit_prony(master).glassy_modulus:.1e}"
-        '1.6e+09'
+        '5.8e+08'
     """
     rubber, fit = fit_prony_report(master, **options)
     sentences = [*map(str, fit.doubts), *fit.findings]

@@ -352,7 +352,7 @@ def report_prony(
 def sizes_of_errors(modulus: ComplexArray, rows: Curve) -> dict[str, Any]:
     """Return how large the relative errors of a fitted E* are, as a report names them."""
     storage, loss = modulus.real / rows.storage - 1.0, modulus.imag / rows.loss - 1.0
-    loss_factor = (1.0 + loss) / (1.0 + storage) - 1.0
+    loss_factor = modulus.imag / modulus.real / (rows.loss / rows.storage) - 1.0
     return {
         "rms_storage": root_mean_square(storage),
         "rms_loss": root_mean_square(loss),

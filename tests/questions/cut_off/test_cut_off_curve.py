@@ -12,7 +12,7 @@ import gripscale as gs
 from gripscale import surface as surfaces
 from gripscale.case import BelowMeasurement
 from gripscale.case_file import read_case, read_case_file
-from gripscale.case_file.prepare import case_surface, prepare_rubber
+from gripscale.case_file.prepare import case_surface
 from gripscale.continuation import HurstExponent, contact_by_cut_off
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
@@ -48,8 +48,9 @@ def data(folder):
 def test_the_curves_are_those_of_the_lines(folder, data):
     file = read_case_file(folder / "below.toml")
     surface = case_surface(file)
+    case = read_case(folder / "below.toml")
     direct = contact_by_cut_off(
-        prepare_rubber(file.case.rubber, file.resolve).rubber,
+        case.rubber,
         surface.measured.cleaned,
         pressure=3e5,
         speed=0.3,

@@ -118,7 +118,7 @@ def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
 
 def test_rubber_by_name_file_or_case(measured: Path) -> None:
     file = read_case_file(measured)
-    own = read_case(file).rubber
+    own = read_rubber("own.txt", file).rubber
     assert own.bulk_modulus == 1.5e9
     assert read_rubber("styrene_butadiene", file).rubber == own
     tread = read_rubber(str(EXAMPLE), file).rubber
@@ -170,7 +170,7 @@ def test_varied_file_is_read_like_that_of_the_case_where_it_does_not_say(measure
     )
     measured.write_text(measured.read_text().replace('name = "styrene_butadiene"\n', stated))
     file = read_case_file(measured)
-    own = read_case(file).rubber
+    own = read_rubber("own.txt", file).rubber
     others = [read_rubber(name, file).rubber for name in ("bare.txt", "told.txt", "tan.txt")]
     for other in others:
         at = [other.complex_modulus(w) / own.complex_modulus(w) for w in (1.0, 1e4)]

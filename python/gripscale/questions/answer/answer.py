@@ -190,7 +190,7 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     below the measurement has no result.
 
         >>> f"{gs.answer(case).friction:.3f}"
-        '0.038'
+        '0.035'
 
     Parameters
     ----------

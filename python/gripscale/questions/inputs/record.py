@@ -293,7 +293,8 @@ class InputRecord:
 
     def number(self, name: str) -> float:
         """Return an attribute, NaN where it is missing."""
-        return float(self.data.attrs.get(name, math.nan))
+        value = self.data.attrs.get(name)
+        return math.nan if value is None else float(value)
 
     def text(self, name: str) -> str:
         """Return an attribute, empty where it is missing."""

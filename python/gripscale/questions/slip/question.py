@@ -192,7 +192,7 @@ def slip_curve(
 
         >>> curve = gs.slip_curve(case, speed="50 km/h").data
         >>> f"{curve.peak.sel(bound='value').item():.4f}"
-        '0.0402'
+        '0.0382'
 
     Parameters
     ----------
