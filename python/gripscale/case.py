@@ -481,6 +481,8 @@ def fitted_for_load(
 
     That of waves stated by hand, too; at rest, and without a measurement, nothing decides more.
     """
+    if measured.fit is None:  # the waves of a surface are fitted when they are first asked for
+        return measured
     omega = excitation(measured.rubber, surface, load, conditions)
     return measured.fitted_for(omega, surface.sines.slope)
 
