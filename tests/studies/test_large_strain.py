@@ -9,8 +9,8 @@ from gripscale.half_space import large_strain as package
 from studies import large_strain as study
 
 CONSTANTS = {
-    "contact_fraction": (package.AREA, package.AREA_SCATTER),
-    "friction": (package.FRICTION, package.FRICTION_SCATTER),
+    "contact_fraction": (package.AREA_GROWTH, package.AREA_SCATTER),
+    "friction": (package.FRICTION_GROWTH, package.FRICTION_SCATTER),
 }
 
 

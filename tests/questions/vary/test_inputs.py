@@ -118,7 +118,7 @@ def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
 
 def test_rubber_by_name_file_or_case(measured: Path) -> None:
     file = read_case_file(measured)
-    own = read_rubber("own.txt", file).rubber
+    own = read_case(file).rubber
     assert own.bulk_modulus == 1.5e9
     assert read_rubber("styrene_butadiene", file).rubber == own
     tread = read_rubber(str(EXAMPLE), file).rubber
