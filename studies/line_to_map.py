@@ -263,7 +263,8 @@ class FittedLaw:
             for family in {m.family for m in maps}
         }
         held_out = [_residuals(m, quantity, without[m.family]) for m in maps]
-        law = RatioLaw(*numbers.tolist(), *scatter_of(maps, quantity, held_out))
+        scatter = scatter_of(maps, quantity, held_out)
+        law = RatioLaw(*np.append(numbers, scatter).tolist())
         residuals = [_residuals(m, quantity, numbers) for m in maps]
         return cls(quantity, law, maps, residuals, held_out)
 
