@@ -38,3 +38,19 @@ def test_a_room_loads_only_what_it_must(room: str, light: set[str]) -> None:
     )
     heavy = {"numpy", "scipy", "xarray", "pandas", "matplotlib", "pydantic", "typer", "rich"}
     assert set(done.stdout.split()) & heavy == light
+
+
+def test_a_saved_result_needs_no_dask(tmp_path: Path) -> None:
+    """Dask, where it is installed, takes longer to import than a prediction to be solved."""
+    program = (
+        "import sys, xarray; from gripscale.io import netcdf; "
+        "netcdf.save(xarray.Dataset({'friction': 0.2}), sys.argv[1]); "
+        "print('distributed' in sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path / "saved.nc")],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.strip() == "False"
