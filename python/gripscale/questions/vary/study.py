@@ -37,7 +37,7 @@ from gripscale.experiment.task import Task
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io import netcdf
 from gripscale.model import METHOD, Model, input_doubts
-from gripscale.questions.answer.variables import described
+from gripscale.questions.answer.variables import HYSTERESIS, described
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
 from gripscale.questions.vary.answer_model import AnswerModel
@@ -231,6 +231,9 @@ class Study:
                 attrs = variable_attributes("shortest wavelength of the roughness", "m")
                 result = result.drop_vars(name)
                 result = result if others else result.assign({name: ((), common, attrs)})
+        if HYSTERESIS in result:  # at rest an answer has no interface, and one friction
+            both = result[HYSTERESIS].fillna(result["answer_friction"])
+            result[HYSTERESIS] = both.assign_attrs(result[HYSTERESIS].attrs)
         if "factor_label" in result:
             first = dict.fromkeys(self.design.sizes, 0)
             result["factor_label"] = result["factor_label"].isel(first)
