@@ -43,7 +43,7 @@ def _same_way(
     others = _spread([curve for name, curve in curves.items() if name != worst])
     steepest = float(predictions[worst].slope.max())
     why = (
-        f"different inputs: without {worst}, which fits C_z worst, the others are {others:.0%} "
+        f"without {worst}, which fits C_z worst, the others are {others:.0%} "
         f"apart; its waves reach a slope of {steepest:.1f}, too steep for so few of them"
     )
     return Statement(
@@ -54,7 +54,7 @@ def _same_way(
         "than one wave of the coarsest stack takes away",
         f"at most {spread:.0%} apart down to {x[-1] * 1e3:.2g} mm",
         spread <= SAME,
-        "" if spread <= SAME else why,
+        why,
     )
 
 
@@ -82,7 +82,7 @@ def _settles(
         "; ".join(f"{n}: {s[0]:.2f} to {s[-1]:.2f}" for n, s in slopes.items())
         + f"; the pairs differ by {scatter:.2f}",
         not steep,
-        why and f"different inputs: {why}",
+        why,
     )
 
 
@@ -96,7 +96,7 @@ def judge_motion(rest: Solved, moving: Solved, inputs: Inputs) -> list[Statement
         holds = largest < 1.0 and steeper
         stiffer = [(moving[road][n].modulus / rest[road][n].modulus).values for n in moving[road]]
         why = (
-            f"different inputs: |E*| in motion is {min(each[0] for each in stiffer):.2f} times "
+            f"|E*| in motion is {min(each[0] for each in stiffer):.2f} times "
             f"that at rest at the first wave, {min(each[-1] for each in stiffer):.2f} at the last"
         )
         statements.append(
@@ -109,7 +109,7 @@ def judge_motion(rest: Solved, moving: Solved, inputs: Inputs) -> list[Statement
                 f"at most {largest:.2f}; first to last: "
                 + ", ".join(f"{r[0]:.2f} to {r[-1]:.2f}" for r in ratios),
                 holds,
-                "" if holds else why,
+                why,
             )
         )
     return statements
@@ -127,7 +127,7 @@ def judge_speed(solved: Solved, inputs: Inputs) -> list[Statement]:
     ]
     left = _ratio(predictions[0], predictions[-1])
     holds = not grows and bool(left[-1] < left[0])
-    why = "different inputs: " + (
+    why = (
         f"from a speed to the next the area is up to {', '.join(grows)} times as large: the modulus"
         " of this rubber does not rise with frequency there"
         if grows
@@ -143,7 +143,7 @@ def judge_speed(solved: Solved, inputs: Inputs) -> list[Statement]:
             f"left: {left[0]:.2f} at {float(predictions[0].wavelength[0]) * 1e3:.3g} mm, "
             f"{left[-1]:.2f} at {float(predictions[0].wavelength[left.size - 1]) * 1e3:.3g} mm",
             holds,
-            "" if holds else why,
+            why,
         )
     ]
 
@@ -159,7 +159,7 @@ def judge_stiffness(solved: Solved, inputs: Inputs) -> list[Statement]:
     holds = bool((area < 1.0).all()) if (stiffer > 1.0).all() else None
     why = {
         True: "",
-        False: f"different inputs: |E*| differs by {stiffer.min():.2f} times only, loss factors "
+        False: f"|E*| differs by {stiffer.min():.2f} times only, loss factors "
         f"are up to {float((other.loss_factor / one.loss_factor).max()):.2f} times as large",
         None: "neither compound is the stiffer one at every wave",
     }
@@ -190,7 +190,7 @@ def judge_surfaces(solved: Solved, inputs: Inputs) -> list[Statement]:
     holds = whole < (1.0 - LESS) * macro if finest < MICRO else None
     why = {
         True: "",
-        False: f"different inputs: areas at macro scale differ by {math.expm1(macro):.0%}, and "
+        False: f"areas at macro scale differ by {math.expm1(macro):.0%}, and "
         "amplitude/wavelength of the smallest waves is "
         + " and ".join(f"{s.amplitude[-1] / s.wavelength[-1]:.3f}" for s in steep.values()),
         None: f"the waves end at {finest * 1e3:.2g} mm: no micro scale",

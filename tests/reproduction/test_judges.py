@@ -202,13 +202,13 @@ def test_steeper_surface(inputs: Inputs) -> None:
 
 def test_table_holds_every_statement() -> None:
     kept = Statement("fig6a", "area | falls", "here", "less than 1", "0.5", True)
-    broken = Statement("fig7b", "less", "there", "more", "2", False, "different inputs: steeper")
+    broken = Statement("fig7b", "less", "there", "more", "2", False, "steeper")
     unknown = Statement("fig7b", "less", "beyond", "more", "1", None, "no wave gets there")
     assert count([kept, broken]) == "1 of 2 statements hold"
     assert count([kept, broken, unknown]).endswith("hold, 1 cannot be judged with these inputs")
     page = as_markdown([kept, broken, unknown], lambda figure: f"## {figure}")
     assert "**Area | falls.** Holds if: less than 1." in page
     assert "| here | 0.5 | **holds** |" in page
-    assert "| there | 2 | **does not hold**: different inputs: steeper |" in page
+    assert "| there | 2 | **does not hold**: steeper |" in page
     assert "| beyond | 1 | **not judged**: no wave gets there |" in page
     assert page.count("**Less.**") == 1
