@@ -63,23 +63,24 @@ def _settles(
     figure: str, where: str, predictions: Mapping[str, xr.Dataset], stacks: Mapping[str, SineStack]
 ) -> Statement:
     """Judge whether curves flatten fast enough to end level."""
-    told, falling = [], []
+    rates, unsettled = [], []
     for name, prediction in predictions.items():
         slope, decades, more = _level(prediction)
-        told.append(f"{name}: {slope[0]:.2f} to {slope[-1]:.2f}, level {more:.1f} decades on")
+        end = f"level {more:.1f} decades on" if more < math.inf else "never level"
+        rates.append(f"{name}: {slope[0]:.2f} to {slope[-1]:.2f}, {end}")
         if more > decades:
             stack = stacks[name]
             rise = (stack.s_wavelength or math.nan) / (stack.s_amplitude or math.nan)
-            falling.append(f"{rise:.2f} times in {name}, of {decades:.1f} decades")
+            unsettled.append(f"{rise:.2f} times in {name}, of {decades:.1f} decades")
     return Statement(
         figure,
         "the curves converge towards small wavelengths",
         where,
         "at the rate at which d ln(area)/d ln(wavelength) falls from the second wave to the last, "
         "each curve is level before the waves span as many decades again",
-        "; ".join(told),
-        not falling,
-        f"amplitude/wavelength rises from each wave to the next, {'; '.join(falling)}",
+        "; ".join(rates),
+        not unsettled,
+        f"amplitude/wavelength rises from each wave to the next, {'; '.join(unsettled)}",
     )
 
 

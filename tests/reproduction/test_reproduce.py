@@ -34,10 +34,10 @@ from reproduction.inputs import (
     OwnInputs,
     read_inputs,
 )
-from reproduction.page import MADE, write_page
 from reproduction.panels import panels_of
 from reproduction.run import FIGURES, reproduce
 from reproduction.statement import Statement
+from studies.paper_page import MADE, write_page
 from tests.samples import ROOT
 
 
