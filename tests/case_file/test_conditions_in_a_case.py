@@ -275,7 +275,7 @@ WRONG = [
     (
         "[conditions]\n",
         '[compare]\nmeasured = "mu.csv"\n[conditions]\n',
-        "unknown key [compare] measured",
+        "[compare]: unknown key measured; expected one of layer_ratio",
     ),
 ]
 

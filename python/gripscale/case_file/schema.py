@@ -73,8 +73,8 @@ class Reading:
         """Return what an editor allows: whatever may be read, with the words for a person."""
         words = {"expected": self.words, "quantity": self.quantity}
         if self.laws:
-            tables = [table_schema(law) for law in self.laws.values()]
-            return {"anyOf": [*self.words_for_a_law, *tables], **words}
+            options = [*self.words_for_a_law, *map(table_schema, self.laws.values())]
+            return {**(options[0] if len(options) == 1 else {"anyOf": options}), **words}
         kind = handler(core).get("type")
         if kind == "number":
             kind = "string" if self.quantity == "temperature" else ["string", "number"]
@@ -360,22 +360,21 @@ def law_from_table(law: type, value: Any) -> Any:
     return law(**{item.name: getattr(read, item.name) for item in fields(law)})
 
 
+def case_value(value: Any, schema: Mapping[str, Any]) -> Any:
+    """Return a value as a case states it in a key with this schema, in SI units, exactly."""
+    if isinstance(value, checks.Checked):
+        return law_keys(value)
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [case_value(item, schema.get("items", {})) for item in value]
+    return kelvin_text(value) if schema.get("quantity") == "temperature" else value
+
+
 def law_keys(law: Any) -> dict[str, Any]:
     """Return the keys with which a case states a law, in SI units, exactly."""
-    keys: dict[str, Any] = {"kind": law.kind} if hasattr(law, "kind") else {}
-    for item in fields(law):
-        value = getattr(law, item.name)
-        if value is None:
-            continue
-        check = item.metadata["check"]
-        kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
-        several = isinstance(value, Sequence) and not isinstance(value, str)
-        if isinstance(value, checks.Checked):
-            value = law_keys(value)
-        elif kind == "temperature":
-            value = [kelvin_text(each) for each in value] if several else kelvin_text(value)
-        keys[item.name] = list(value) if several else value
-    return keys
+    keys = table_schema(law.__class__)["properties"]
+    kind = {"kind": law.kind} if hasattr(law, "kind") else {}
+    values = {item.name: getattr(law, item.name) for item in fields(law)}
+    return kind | {k: case_value(v, keys[k]) for k, v in values.items() if v is not None}
 
 
 def kelvin_text(temperature: float) -> str:
