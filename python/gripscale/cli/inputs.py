@@ -24,6 +24,7 @@ from gripscale.cli.new import (
 from gripscale.core.errors import about_keys
 from gripscale.questions.terminal import (
     COLUMNS,
+    LongestWavelength,
     SurfaceAxis,
     SurfaceChannel,
     SurfaceCrop,
@@ -159,6 +160,7 @@ def fit_surface(
         str, typer.Option(help="Rule for spikes: isolated, iso13473 or none.")
     ] = "isolated",
     detrend: Annotated[str, typer.Option(help="linear, mean or none.")] = "linear",
+    longest_wavelength: LongestWavelength = None,
     output: Annotated[Path | None, option("Folder for figures.", metavar="DIR")] = None,
 ) -> None:
     """Clean profiles or a map, find their height difference correlation, fit sine waves to it."""
