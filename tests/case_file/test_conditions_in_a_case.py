@@ -270,7 +270,7 @@ WRONG = [
     (
         "storage_ratio = 0.3",
         "storage_ratio = 1.3",
-        "softening: storage_ratio = 1.3: expected at most 1",
+        "softening: storage_ratio = 1.3: expected a number, above 0, at most 1",
     ),
     (
         "[conditions]\n",

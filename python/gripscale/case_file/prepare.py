@@ -386,20 +386,12 @@ def _below_measurement(file: CaseFile) -> BelowMeasurement:
 
 
 def case_chain(file: CaseFile) -> Chain:
-    """Return the chain of a case.
-
-    Raises `FileError` and `InputError` for conditions that cannot be used.
-    """
-    return _chain(file, prepare_conditions(file.case.conditions, file.resolve))
-
-
-def _chain(file: CaseFile, conditions: Conditions | None) -> Chain:
+    """Return the chain of a case, without its conditions, which `Case` has."""
     case = file.case
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
         extrapolate=case.rubber.extrapolate,
-        conditions=conditions and conditions.dry,
     )
 
 
@@ -435,7 +427,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
         with about_keys("measured"):
             friction = read_measured_friction(file.resolve(name))
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    chain = _chain(file, conditions)
+    chain = case_chain(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
     load, table = file.case.load, file.case.surface
