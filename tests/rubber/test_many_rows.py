@@ -55,4 +55,4 @@ def test_the_rows_at_the_end_of_a_long_file_are_read_as_all_others(tmp_path, mon
     short = gs.read_sweeps(path)
     monkeypatch.setattr(blocks, "_ENOUGH", 10**9)
     assert short == gs.read_sweeps(path)
-    assert len(short) == 2 and len(short.frequency) == 2000
+    assert (len(short), len(short.frequency)) == (2, 2000)

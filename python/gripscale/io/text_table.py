@@ -62,14 +62,18 @@ T = TypeVar("T")
 
 def is_excel(path: Path) -> bool:
     """Return whether a file is an Excel file, by its content, or by its suffix if it is no text."""
+    excel = path.suffix.lower() in EXCEL
     try:
-        content = path.read_bytes()
+        with path.open("rb") as file:
+            content = file.read(len(_ZIP))
+            if not (excel or content == _ZIP):  # of a large file that is none this is enough
+                return False
+            content += file.read()
     except (OSError, ValueError):  # said by whoever reads it
-        return path.suffix.lower() in EXCEL
+        return excel
     if content.startswith(_ZIP) and _WORKBOOK in content:
         return True
-    text = content.strip() and is_text(content) and not content.startswith(_ZIP[:2])
-    return path.suffix.lower() in EXCEL and not text
+    return excel and not (content.strip() and is_text(content) and not content.startswith(_ZIP[:2]))
 
 
 def read_sheets(path: Path) -> dict[str, _Rows]:

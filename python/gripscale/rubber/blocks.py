@@ -87,6 +87,8 @@ def _blocks_in(
     path: Path, lines: list[Line], layout: FileLayout, temperature_unit: str | None
 ) -> list[Block]:
     expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
+    if any(len(text) > _WIDEST for _, text in lines[:_ENOUGH]):
+        raise FileError(f"{path}: expected {_ROWS}; got lines of more than {_WIDEST} characters")
     lines, plain = _plain_end(lines)
     lines = [(at, columns.with_logarithms(columns.with_primes(line))) for at, line in lines]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
@@ -117,6 +119,7 @@ def _blocks_in(
 
 
 _PLAIN = "0123456789+-.eE\t;, \r"  # characters of a row of numbers
+_WIDEST = 10_000  # characters of a line of moduli; a map has longer ones
 _ENOUGH = 400  # lines of a table that tell what it is
 
 

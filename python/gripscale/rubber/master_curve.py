@@ -187,9 +187,9 @@ def read_master_curve(
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
-    (_, *few), note = thinned(np.array([np.ones(len(hertz)), hertz, storage, loss]))
+    few, note = thinned(np.array([np.ones(len(hertz)), hertz, storage, loss]))
     notes = (*columns.notes_of_faults(table, layout), *note)
-    return MasterCurve(*few, reference_temperature, name, source, None, notes)
+    return MasterCurve(few[1], few[2], few[3], reference_temperature, name, source, None, notes)
 
 
 def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:
