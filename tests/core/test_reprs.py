@@ -13,7 +13,7 @@ import numpy as np
 import gripscale as gs
 from gripscale import conditions, experiment, export, half_space, rubber, surface, theory, wave
 from gripscale.core.described import Described
-from tests.core.doors import doors
+from tests.core.public_functions import public_functions
 from tests.public_objects import public_objects
 
 ROOMS = (
@@ -29,7 +29,7 @@ HTML = {
 
 @cache
 def objects() -> dict[str, Any]:
-    """Return the named small objects, what functions make of them, and what the doors make."""
+    """Return the named small objects, and what public functions make of them and of others."""
     made = public_objects()
     road, solid, case = made["road"], made["rubber"], made["case"]
     correlation = gs.height_difference(road)
@@ -49,7 +49,11 @@ def objects() -> dict[str, Any]:
         export.abaqus_rubber(solid),
         gs.Layers([(solid, 4e-3), (solid, 4e-3)]),
     ]
-    classes = [door.call(**door.good) for door in doors() if inspect.isclass(door.call)]
+    classes = [
+        function.call(**function.good)
+        for function in public_functions()
+        if inspect.isclass(function.call)
+    ]
     return made | {"answers": answers, "classes": classes}
 
 

@@ -29,9 +29,15 @@ from gripscale.core.units import display_unit_of
 from gripscale.io.table import Column, Table
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import Answer
-from gripscale.questions.answer.reliance import has_answer, headline, is_measured, no_answer
+from gripscale.questions.answer.reliance import is_measured, no_answer
+from gripscale.questions.answer.variables import (
+    AXIS_TITLES,
+    HEADINGS,
+    SYMBOLS,
+    answer_number,
+    has_answer,
+)
 from gripscale.questions.registry import Form
-from gripscale.questions.words import AXIS_TITLES, HEADINGS, SYMBOLS
 from gripscale.report.elements import Element, Text
 
 POLL = 500  # milliseconds between two readings of the text of a run
@@ -254,7 +260,7 @@ def answer_charts(compared: Sequence[ComparedRun]) -> list[Chart]:
     runs = PlotAxis(low=-0.5, high=len(answered) - 0.5, ticks=ticks)
     panels = []
     for name in reversed(SYMBOLS):
-        value, low, high = np.array([headline(answer.data, name) for _, answer in answered]).T
+        value, low, high = np.array([answer_number(answer.data, name) for _, answer in answered]).T
         points = Series(at, value, BLUE, dash="", marker="o", size=6.0, low=low, high=high)
         words = f"{HEADINGS[name]} {SYMBOLS[name]}"
         panels.append(
@@ -281,7 +287,7 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
         Column("speed", speeds, words=False),
     ]
     for name in reversed(SYMBOLS):
-        value, *ends = zip(*(headline(data, name) for data in answers), strict=True)
+        value, *ends = zip(*(answer_number(data, name) for data in answers), strict=True)
         columns.append(Column(f"answer_{name}", value, SYMBOLS[name], group="answer"))
         if np.isfinite(ends).any():
             both = np.stack(ends, axis=1)

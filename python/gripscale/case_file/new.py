@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from gripscale.case import Case
-from gripscale.case_file.json_schema import SCHEMA_LINE, write_schema
-from gripscale.case_file.keys import sections
+from gripscale.case_file.keys import SCHEMA_LINE, sections, write_schema
 from gripscale.case_file.kinds import RUBBERS, SURFACES, FileKeys, Taken
 from gripscale.case_file.laboratory import Ask, Laboratory, first_choice, laboratory
 from gripscale.case_file.prepare import read_case

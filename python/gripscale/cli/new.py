@@ -156,6 +156,7 @@ def new(
     z_axis: terminal.SurfaceAxis = None,
     channel: terminal.SurfaceChannel = None,
     crop: terminal.SurfaceCrop = None,
+    longest_wavelength: terminal.LongestWavelength = None,
     wlf: WlfConstants = None,
     columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
     sheet: RubberSheet = None,
@@ -191,7 +192,12 @@ def new(
         "modulus_unit": modulus_unit,
     }
     surface = terminal.surface_keys(
-        x_unit=x_unit, z_unit=z_unit, z_axis=z_axis, channel=channel, crop=crop
+        channel=channel,
+        crop=crop,
+        x_unit=x_unit,
+        z_unit=z_unit,
+        z_axis=z_axis,
+        longest_wavelength=longest_wavelength,
     )
     in_terminal = sys.stdin.isatty() and sys.stdout.isatty()
     if filled is None and in_terminal:

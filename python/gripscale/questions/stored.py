@@ -13,6 +13,7 @@ import xarray as xr
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.questions import registry
+from gripscale.questions.answer.variables import with_present_names
 from gripscale.questions.result import INPUT_GROUP, KIND
 
 
@@ -42,7 +43,7 @@ def result_of(tree: xr.DataTree) -> Any:
     if room is None:
         return None
     inputs = tree.children.get(INPUT_GROUP, xr.DataTree()).to_dataset(inherit=False)
-    return room(tree.to_dataset(), inputs)
+    return room(with_present_names(tree.to_dataset()), inputs)
 
 
 KINDS_OF_REPORTS = (

@@ -231,7 +231,7 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
 
     The first answer is printed and stays: a number to judge the rest by, while this is solved.
     """
-    from gripscale.questions.words import SYMBOLS, believed, is_estimated
+    from gripscale.questions.answer.variables import SYMBOLS, believed, is_estimated
 
     begun, solved, first_printed = time.monotonic(), 0, False
 
@@ -303,6 +303,13 @@ SurfaceChannel = Annotated[
 ]
 SurfaceCrop = Annotated[
     tuple[str, str] | None, option('Part of the profiles, such as "120 mm" "1780 mm".')
+]
+LongestWavelength = Annotated[
+    str | None,
+    option(
+        "Longest wave kept in profiles; by default 1.5 footprints, where longer ones hold most of "
+        "the mean square height, else all."
+    ),
 ]
 Modulus = Annotated[
     str | None,

@@ -30,9 +30,15 @@ from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORAN
 from gripscale.core import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS
 from gripscale.half_space.result import RoughContact
-from gripscale.questions.answer.reliance import headline
+from gripscale.questions.answer.variables import (
+    ANSWER,
+    AXIS_TITLES,
+    HEADINGS,
+    JUDGE,
+    OF_THE_PAPER,
+    answer_number,
+)
 from gripscale.questions.chain.view import PredictionView
-from gripscale.questions.words import ANSWER, AXIS_TITLES, HEADINGS, JUDGE, OF_THE_PAPER
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -117,7 +123,7 @@ def _total_marks(view: PredictionView, name: str, colour: str, along: PlotAxis) 
                      beyond=down_to)  # fmt: skip
         yield Series(x, each, colour, f"{view.name}, each wave", marker="o", beyond=beyond,
                      width=0.8, filled=False)  # fmt: skip
-    best, low, high = headline(view.data, name)
+    best, low, high = answer_number(view.data, name)
     if np.isfinite(best):
         measured = np.isfinite(low)
         yield CrossLine(best, INK, ANSWER if measured else "answer", width=1.2)

@@ -17,7 +17,8 @@ from gripscale.io.table import (
     whole_number,
 )
 from gripscale.model import with_adhesive
-from gripscale.questions.answer.reliance import has_answer, headline, is_measured
+from gripscale.questions.answer.reliance import is_measured
+from gripscale.questions.answer.variables import OF_THE_PAPER, SYMBOLS, answer_number, has_answer
 from gripscale.questions.chain.charts import contact_charts
 from gripscale.questions.chain.findings import (
     conditions_notes,
@@ -26,7 +27,6 @@ from gripscale.questions.chain.findings import (
 )
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.inputs.page import numbers
-from gripscale.questions.words import OF_THE_PAPER, SYMBOLS
 from gripscale.report.elements import Element, Section, Text
 from gripscale.wave.result import LARGE_MISMATCH
 
@@ -160,7 +160,7 @@ def judgement(chain: xr.Dataset, answer: xr.Dataset) -> str:
         value = view.total(name) if both is None else float(both)
         text = f"{SYMBOLS[name]} = {significant(value)}"
         if has_answer(answer):
-            ratio = significant(value / headline(answer, name).value, 2)
+            ratio = significant(value / answer_number(answer, name).value, 2)
             text += f", {ratio} times that of the answer"
         texts.append(text)
     return (

@@ -26,10 +26,10 @@ from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
 from gripscale.experiment.measured_friction import MeasuredSeries, measured_series
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
+from gripscale.questions.answer.variables import AXIS_TITLES, believed
 from gripscale.questions.compare import charts_of_ladder as ladder
 from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, Row
 from gripscale.questions.vary.axis import axis_label, axis_shown
-from gripscale.questions.words import AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

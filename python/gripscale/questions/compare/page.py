@@ -20,12 +20,13 @@ from gripscale.questions.answer.estimate import DIRECT, large_strain_answer
 from gripscale.questions.answer.findings import answer_notices, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
-from gripscale.questions.answer.reliance import (
-    estimated_names,
+from gripscale.questions.answer.reliance import estimated_names, is_measured, no_answer
+from gripscale.questions.answer.variables import (
+    HEADINGS,
+    SYMBOLS,
+    answer_number,
     has_answer,
-    headline,
-    is_measured,
-    no_answer,
+    is_estimated,
 )
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare.charts import axis_charts, ladder_charts
@@ -33,7 +34,6 @@ from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.stored import predicted_tree
 from gripscale.questions.vary.axis import axis_shown
-from gripscale.questions.words import HEADINGS, SYMBOLS, is_estimated
 from gripscale.report import elements
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -139,7 +139,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
         heading = str(member).replace("_", " ")
         columns.append(Column(str(member), values, heading, marks=marks, bad=failed[:, at]))
     if is_estimated(data, name) and is_measured(data):
-        texts = [str(headline(data.isel({axis: i}), name)) for i in range(data.sizes[axis])]
+        texts = [str(answer_number(data.isel({axis: i}), name)) for i in range(data.sizes[axis])]
         columns.insert(1, Column("answer", texts, "answer (90 %)", words=False))
     caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {words}"
     return Table(f"over-{axis}-{name}", columns, caption)
@@ -195,7 +195,7 @@ def with_half_widths(answer: xr.Dataset) -> str:
     """Return area and friction of an answer with the half widths of their intervals."""
     texts = []
     for symbol, name in (("A_r/A_0", "contact_fraction"), ("mu", "friction")):
-        number = headline(answer, name)
+        number = answer_number(answer, name)
         width = 0.5 * (number.high - number.low) / (number.value or math.nan)
         spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
         texts.append(f"{symbol} = {significant(number.value)}{spread}")
@@ -217,8 +217,8 @@ def large_strain_lines(comparison: xr.Dataset) -> Iterator[str]:
         return
     texts = []
     for name in estimated_names(large):
-        number = headline(large, name)
-        change = signed_percent(number.value / headline(comparison, name).value - 1.0)
+        number = answer_number(large, name)
+        change = signed_percent(number.value / answer_number(comparison, name).value - 1.0)
         texts.append(f"{SYMBOLS[name]} = {number}, {change}")
     yield f"With large strain solved on windows: {'; '.join(texts)}."
 

@@ -23,6 +23,7 @@ from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, change, on_page, significant
 from gripscale.model import STATUS, OnProgress
 from gripscale.questions.answer.intervals import LEVEL
+from gripscale.questions.answer.variables import HEADINGS, SYMBOLS
 from gripscale.questions.cut_off.charts import cut_off_panels, cut_off_sheet
 from gripscale.questions.cut_off.curve import (
     AREA,
@@ -35,7 +36,6 @@ from gripscale.questions.cut_off.curve import (
 )
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
-from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.failures import Failure, explained

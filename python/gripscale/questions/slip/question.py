@@ -26,7 +26,7 @@ from gripscale.core import Array, Finding, InputError, Severity, Topic, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm, si_value
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, on_page, significant
-from gripscale.questions.answer.reliance import AnswerNumber
+from gripscale.questions.answer.variables import AnswerNumber
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
 from gripscale.questions.slip.charts import slip_panels, slip_sheet

@@ -12,11 +12,16 @@ from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Serie
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, INK, ORANGE
-from gripscale.questions.answer.reliance import answer_number
+from gripscale.questions.answer.variables import (
+    ANSWER,
+    AXIS_TITLES,
+    answer_number,
+    believed,
+    of_hysteresis,
+)
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
 from gripscale.questions.vary.axis import MODELS
 from gripscale.questions.vary.charts import varied_axis
-from gripscale.questions.words import ANSWER, AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -95,7 +100,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         for name, label in _TOTALS.items():
             first = name == "friction"
             values = samples[name].values
-            answer = answer_number(data, name)
+            answer = answer_number(data, of_hysteresis(data, name))
             marks = list(_distribution(samples, name, values[np.isfinite(values)], colour, answer))
             top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
             panels.append(Panel(

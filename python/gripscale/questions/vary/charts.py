@@ -22,6 +22,7 @@ from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI
 from gripscale.io.table import significant
+from gripscale.questions.answer.variables import AXIS_TITLES, believed
 from gripscale.questions.vary.axis import (
     VARIED_INPUTS,
     axis_label,
@@ -34,7 +35,6 @@ from gripscale.questions.vary.axis import (
     several,
 )
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
-from gripscale.questions.words import AXIS_TITLES, believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

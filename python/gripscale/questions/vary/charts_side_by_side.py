@@ -16,8 +16,8 @@ from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import COLOURS, power_of_ten
 from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.io.table import significant
+from gripscale.questions.answer.variables import believed
 from gripscale.questions.inputs.charts_of_rubber import compound_moduli_figure
-from gripscale.questions.words import believed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

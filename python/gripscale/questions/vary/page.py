@@ -24,8 +24,16 @@ from gripscale.model import (
     input_doubts_of,
     status_words,
 )
-from gripscale.questions.answer.estimate import AREA_TERM, ISOTROPY_ASSUMED, LINES_TO_SURFACE
+from gripscale.questions.answer.estimate import ISOTROPY_ASSUMED, LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
+from gripscale.questions.answer.variables import (
+    HEADINGS,
+    HYSTERESIS,
+    INTERFACE,
+    SYMBOLS,
+    believed,
+    is_estimated,
+)
 from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page import input_sections
@@ -39,7 +47,6 @@ from gripscale.questions.vary.axis import (
 from gripscale.questions.vary.charts import study_pictures
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
-from gripscale.questions.words import HEADINGS, SYMBOLS, believed, is_estimated
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section, percent_text
 from gripscale.report.equations import method_section
@@ -174,8 +181,8 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield ISOTROPY_ASSUMED
     if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
         yield "most of an interval is common to all points: their differences are known better"
-    if AREA_TERM in data:
-        term = data[AREA_TERM]
+    if INTERFACE in data:
+        term = data[INTERFACE]
         low, high = float(term.min()), float(term.max())
         yield f"{significant(low)} to {significant(high)} of the friction is the area term"
     if has_intervals:
@@ -203,10 +210,10 @@ def study_table(data: xr.Dataset, most: int = _MOST_ROWS) -> Table:
         lost = each("total_friction_from_dissipation")
         columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
     if ADHESIVE_FRICTION in data:
-        term = each(believed(data, "adhesive_friction"))
+        term = each(INTERFACE if INTERFACE in data else ADHESIVE_FRICTION)
         area_term = Column("area_term", term, "μ", "area term")
-        if is_estimated(data, "total_friction"):  # the answer has it
-            hysteresis = Column("hysteresis", each("answer_friction"), "μ", "hysteresis")
+        if HYSTERESIS in data:
+            hysteresis = Column("hysteresis", each(HYSTERESIS), "μ", "hysteresis")
             columns += [hysteresis, area_term]
         else:
             total = term + each("total_friction")

@@ -21,11 +21,11 @@ from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, significant
 from gripscale.model import METHOD, STATUS, input_doubts_of
+from gripscale.questions.answer.variables import believed, is_estimated
 from gripscale.questions.inputs.page import input_sections, rubbers_of, texture_table
 from gripscale.questions.vary.inputs import READING_NOTES, TEMPERATURE
 from gripscale.questions.vary.page import answer_columns
 from gripscale.questions.vary.question import Variation
-from gripscale.questions.words import believed, is_estimated
 from gripscale.report.again import rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
 from gripscale.report.equations import method_section

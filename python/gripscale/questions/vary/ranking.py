@@ -21,6 +21,7 @@ from gripscale.core import Array, InputError, celsius
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.model import input_doubts
+from gripscale.questions.answer.variables import believed
 from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.questions.vary.friction_ratio import FrictionRatio, answer_ratio
 from gripscale.questions.vary.inputs import (
@@ -34,7 +35,6 @@ from gripscale.questions.vary.inputs import (
 )
 from gripscale.questions.vary.page_side_by_side import Compounds, Surfaces
 from gripscale.questions.vary.study import Study, study_numbers
-from gripscale.questions.words import believed
 from gripscale.rubber import Rubber, temperature_doubts
 from gripscale.surface import Surface, profile_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
