@@ -29,7 +29,7 @@ from gripscale.model import with_adhesive
 from gripscale.questions.answer.variables import AXIS_TITLES, believed
 from gripscale.questions.compare import charts_of_ladder as ladder
 from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, Row
-from gripscale.questions.vary.axis import axis_label, axis_shown
+from gripscale.questions.view import axis_of, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -202,7 +202,7 @@ _MARGIN = 0.03  # room beside the values of an axis, over its extent
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     comparison, axis = ladder.on_the_surface(comparison), ladder.varied(comparison)
-    x = axis_shown(comparison, axis).of(comparison[axis].values)
+    abscissa, x = axis_of(comparison[axis])
     area, (words, capital) = name == "contact_fraction", _words(name)
     marks: list[Mark] = []
     for member, look in _compared_models(comparison):
@@ -228,7 +228,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
                 marks.append(term)
     low, high = float(x.min()), float(x.max())
     if axis == "speed" and name == "friction":
-        points = list(ladder.measured_points(comparison, axis_shown(comparison, "speed")))
+        points = list(ladder.measured_points(comparison, shown(comparison[axis])))
         marks += points
         speeds = [speed for series in points for speed in np.asarray(series.x)]
         low, high = min([low, *speeds]), max([high, *speeds])
@@ -239,7 +239,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     least = min(0.0, float(comparison.total_friction.min()))
     text = axis.replace("_", " ")
     return Panel(
-        PlotAxis(axis_label(comparison, axis), log=log, low=low, high=high),
+        replace(abscissa, log=log, low=low, high=high),
         PlotAxis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
         marks,
         name=f"over-{axis}-{name}",

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import chart
 from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import COLOURS, power_of_ten
 from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.io.table import significant
+from gripscale.questions import view
 from gripscale.questions.answer.variables import believed
 from gripscale.questions.inputs.charts_of_rubber import compound_moduli_figure
 
@@ -96,20 +96,15 @@ def ranking_figure(data: xr.Dataset, dim: str) -> Figure:
 
 def _octaves_panel(data: xr.Dataset, dim: str) -> Panel:
     """Return the friction of all longer waves over wavelength, where something is lost."""
-    parts = data.octave_friction.transpose(dim, "octave").fillna(0.0).sortby("octave", False)
-    lost = np.abs(parts.values).max(axis=0)
+    parts = data["octave_friction"].fillna(0.0).sortby("octave", False)
+    lost = np.abs(parts.transpose(dim, ...).values).max(axis=0)
     octaves = np.flatnonzero(lost > LEAST_POWER_SHARE * lost.max(initial=0.0))
-    running = np.cumsum(parts.values, axis=1)
+    about = {"long_name": "friction of this and longer waves", "symbol": "μ"}
+    running = parts.cumsum("octave").assign_coords(octave=parts["octave"]).assign_attrs(about)
     if octaves.size:
-        kept = slice(max(octaves[0] - 1, 0), octaves[-1] + 1)
-        parts, running = parts.isel(octave=kept), running[:, kept]
-    wavelength = parts.octave.values / MILLI
-    marks: list[Mark] = [
-        Series(wavelength, row, colour, str(name), marker="o", size=3.0)
-        for name, row, colour in zip(data[dim].values, running, COLOURS, strict=False)
-    ]
-    ordinate = PlotAxis("$\\mu$ of this and longer waves [-]", low=0.0)
-    return Panel(chart.wavelength_axis(wavelength), ordinate, marks)
+        running = running.isel(octave=slice(max(octaves[0] - 1, 0), octaves[-1] + 1))
+    curves = data[[dim]].assign(running=running)
+    return view.panel(curves, "running", "octave", flags=xr.DataArray(False))
 
 
 def _decades_panel(data: xr.Dataset) -> Panel:
