@@ -37,6 +37,7 @@ from scipy.optimize import nnls
 from scipy.special import erfinv, stdtrit
 
 import gripscale as gs
+from gripscale.conditions.conditions import Conditions
 from gripscale.core.status import Status
 from gripscale.half_space.line_to_map import (
     FREEDOM,
@@ -47,11 +48,13 @@ from gripscale.half_space.line_to_map import (
     friction_ratio,
     line_under_load,
 )
+from gripscale.half_space.sampling_error import PIECE, sampling_error
 from gripscale.rubber import styrene_butadiene
+from gripscale.rubber.softening import softening_of_sweeps
 from gripscale.surface import HeightMap
 from studies.shipped import tread
 from studies.surface_families import FAMILIES, LARGEST, family_map
-from studies.treads import compound
+from studies.treads import compound, sweeps
 
 Array = NDArray[np.float64]
 
@@ -61,8 +64,9 @@ PRESSURE, SPEED = 3e5, 0.3
 """The usual load [Pa, m/s]."""
 PRESSURES = (3e3, 3e4, 3e5), (1e4, 1e5, 1e6)
 """Of every other family and seed [Pa]."""
-RUBBERS = ("tread", "S100", "unfilled")
+RUBBERS = ("tread", "S100", "unfilled", "S100, softened")
 """Of the seeds in turn."""
+SOFTENED = ", softened"
 SPEEDS = (1e-3, 20.0)
 """Of the first map of each family, beside the usual one [m/s]."""
 NEARLY_FULL = 0.7
@@ -82,7 +86,15 @@ def rubber_of(name: str) -> gs.Rubber:
     """Return the filled tread rubber, compound S100 or the unfilled rubber."""
     if name == "unfilled":
         return styrene_butadiene()
-    return tread() if name == "tread" else compound(name)
+    return tread() if name == "tread" else compound(name.removesuffix(SOFTENED))
+
+
+def conditions_of(name: str) -> Conditions | None:
+    """Return softening as measured on the rubber; None without."""
+    if not name.endswith(SOFTENED):
+        return None
+    measured = list(sweeps(name.removesuffix(SOFTENED)).values())
+    return Conditions(softening=softening_of_sweeps(measured, measured_at=1e-3))
 
 
 @dataclass(frozen=True)
@@ -100,6 +112,8 @@ class SolvedMap:
     """Upper height, tail and relative load of the lines that converged."""
     line_areas: list[float]
     line_frictions: list[float]
+    line_errors: list[list[float]]
+    """Standard errors of area and friction by the pieces of a line, and the pieces that carry."""
 
     @property
     def pairs(self) -> Array:
@@ -150,6 +164,7 @@ def solve_map(
         "periodic": True,
         "tolerance": TOLERANCE,
         "workers": 1,
+        "conditions": conditions_of(rubber),
     }
     material = rubber_of(rubber)
     columns = range(0, surface.z.shape[1], surface.z.shape[1] // LINES)
@@ -169,9 +184,13 @@ def solve_map(
         speed,
         whole.contact_fraction,
         whole.friction_from_dissipation,
-        [list(map(float, line_under_load(line, material, **load))) for line, _ in usable],
+        [
+            list(map(float, line_under_load(line, material, by_scale=part.by_scale, **load)))
+            for line, part in usable
+        ],
         [part.contact_fraction for _, part in usable],
         [part.friction_from_dissipation for _, part in usable],
+        [list(map(float, sampling_error(part, PIECE * LARGEST))) for _, part in usable],
     )
 
 
@@ -474,7 +493,7 @@ def main() -> None:
     """Solve what is not solved yet, print the tables, draw the figure."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--output", type=Path, default=Path("results/line_to_map"))
-    parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--seeds", type=int, default=len(RUBBERS))
     parser.add_argument("--figure", type=Path, default=FIGURE)
     parser.add_argument("--loads", action="store_true", help="other speeds, and full contact, too")
     options = parser.parse_args()

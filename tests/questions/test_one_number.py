@@ -139,8 +139,8 @@ def shell_of_module() -> Shell:
     return lambda *words: CliRunner().invoke(app, list(map(str, words)), env={"COLUMNS": "100"})
 
 
-def doors(asked: Asked) -> Iterator[tuple[str, list[float]]]:
-    """Yield the numbers behind each door but the slow ones."""
+def ways(asked: Asked) -> Iterator[tuple[str, list[float]]]:
+    """Yield the numbers that each way to ask gives, but the slow ones."""
     yield "file of the run", asked.of(gs.load(asked.folder / "answer.nc").data)
     yield "saved", asked.of(gs.load(asked.answer.save(asked.folder / "saved.nc")).data)
     columns = [believed(asked.answer.data, name) for name in asked.names]
@@ -154,9 +154,9 @@ def doors(asked: Asked) -> Iterator[tuple[str, list[float]]]:
 
 
 def test_one_number_through_every_door(asked: Asked) -> None:
-    for door, numbers in doors(asked):
+    for way, numbers in ways(asked):
         # a study weighs profiles by the length of their grids, an answer as they were measured
-        assert numbers == pytest.approx(asked.expected, rel=1e-4), door
+        assert numbers == pytest.approx(asked.expected, rel=1e-4), way
 
 
 def test_run_prints_the_answer_first_and_last(asked: Asked) -> None:

@@ -62,7 +62,8 @@ def lawful(family: str, seed: int, heights: list[float], pressure: float = 3e5) 
     friction = 0.2 * np.exp(-0.3 + 0.15 * t + 0.02 * few)
     lines = [[height, tail, relative] for height in heights]
     contacts = [[number] * len(heights) for number in (1e-6, 0.2)]
-    return SolvedMap(family, seed, "tread", pressure, 0.3, area, friction, lines, *contacts)
+    errors = [[0.0, 0.0, 8.0]] * len(heights)
+    return SolvedMap(family, seed, "tread", pressure, 0.3, area, friction, lines, *contacts, errors)
 
 
 def test_a_law_without_scatter_comes_back() -> None:

@@ -14,8 +14,7 @@ from types import MappingProxyType
 from typing import Any
 
 from gripscale.case import Case
-from gripscale.case_file.json_schema import SCHEMA_LINE, write_schema
-from gripscale.case_file.keys import sections
+from gripscale.case_file.keys import SCHEMA_LINE, sections, write_schema
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import (
     BY_A_FACTOR,

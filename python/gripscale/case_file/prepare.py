@@ -32,6 +32,7 @@ from gripscale.core import FileError, InputError, about_file, about_keys, unstat
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.io.text_table import read_bytes
+from gripscale.model import FOOTPRINT
 from gripscale.rubber import (
     MasterCurve,
     Rubber,
@@ -66,12 +67,16 @@ def _options(table: CaseTable, function: Callable[..., Any]) -> dict[str, Any]:
 
 @about_keys("surface")
 def prepare_surface(
-    surface: SurfaceTable, resolve: Resolve = Path, raw: RawHeights | None = None
+    surface: SurfaceTable,
+    resolve: Resolve = Path,
+    raw: RawHeights | None = None,
+    *,
+    footprint: float = FOOTPRINT,
 ) -> surfaces.Surface:
     """Read, clean and describe the profiles or the map of `surface`, or take its waves as stated.
 
     `resolve` turns the name of a file into its path. `raw` is what `raw_surface` returns, where the
-    files are read already.
+    files are read already; `footprint` [m] holds waves of profiles.
 
     Raises `FileError` and `InputError` as reading, cleaning and fitting do.
     """
@@ -79,11 +84,11 @@ def prepare_surface(
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     raw = raw_surface(surface, resolve) if raw is None else raw
-    return _described(surface, _cleaned(surface, raw, resolve), resolve)
+    return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
 
 
 def _described(
-    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve
+    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve, footprint: float
 ) -> surfaces.Surface:
     """Return a cleaned measurement with its correlation and waves, as the keys of `surface` ask."""
     paths = [resolve(name) for name in surface.measured_files]
@@ -96,6 +101,7 @@ def _described(
             fit=_options(surface, surfaces.fit_sines),
             cut_off=surface.cut_off,
             source=", ".join(str(path) for path in paths),
+            footprint=footprint if surface.clean else None,
         )
 
 
@@ -103,13 +109,13 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     """Return the surface of a case, its cut-off by the slope in contact solved."""
     table = file.case.surface
     rule = table.cut_off
+    load = file.case.load.nominal
     if not isinstance(rule, surfaces.ContactSlope):
-        return prepare_surface(table, file.resolve)
+        return prepare_surface(table, file.resolve, footprint=load.footprint)
     if table.map is not None:
         raise InputError(f"cut_off = {rule} needs measured profiles; got a map")
     measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
     lines = measured.cleaned
-    load = file.case.load.nominal
     curve = contact_by_cut_off(
         prepare_rubber(file.case.rubber, file.resolve).rubber,
         lines,
@@ -131,7 +137,8 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
         )
     solved = replace(rule, wavelength=wavelength)
     with about_keys("surface"):
-        return _described(table.model_copy(update={"cut_off": solved}), measured, file.resolve)
+        table = table.model_copy(update={"cut_off": solved})
+        return _described(table, measured, file.resolve, load.footprint)
 
 
 @about_keys("surface")
@@ -175,7 +182,8 @@ def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfac
             cleaned, report = surfaces.clean(line, **_options(surface, surfaces.clean))
         profiles.append((line, cleaned))
         reports.append(report)
-    return surfaces.Measured.of_pairs(profiles, reports)
+    measured = surfaces.Measured.of_pairs(profiles, reports)
+    return replace(measured, longest=surface.longest_wavelength)
 
 
 # Keys of the case's [rubber] that only sweeps at several temperatures have.

@@ -24,7 +24,6 @@ from gripscale.case_file.schema import (
     Strain,
     Temperature,
     TemperatureDifference,
-    by_kind,
     stated_law,
     unit_of_file,
 )
@@ -116,7 +115,7 @@ class RubberSource(LayoutKeys):
     """Of temperature ramps: moduli are interpolated at multiples of this."""
     reference_temperature: Temperature | None = None
     """Temperature the master curve holds for, or sweeps are shifted to."""
-    shift: Annotated[InstanceOf[Shift] | str, by_kind(SHIFT_LAWS, or_file=True)] | None = None
+    shift: Annotated[InstanceOf[Shift] | str, stated_law(SHIFT_LAWS, or_file=True)] | None = None
     """Time-temperature shift, needed away from the reference temperature."""
     vertical: bool = False
     """Find a vertical shift of sweeps, too."""
@@ -137,7 +136,7 @@ class RubberSource(LayoutKeys):
     """Thickness of the rubber on a rigid base; without it the rubber has no end."""
     extrapolate: Annotated[Literal["warn", "refuse"], BeforeValidator(_warn_or_refuse)] = "warn"
     """Waves beyond the measured frequencies: solved with a warning, or refused."""
-    strain_energy: Annotated[InstanceOf[StrainEnergy], by_kind(STRAIN_ENERGIES)] = NeoHookean()
+    strain_energy: Annotated[InstanceOf[StrainEnergy], stated_law(STRAIN_ENERGIES)] = NeoHookean()
     """Law of the permanent network at large strain."""
 
     @model_validator(mode="after")
@@ -208,7 +207,7 @@ class ConditionsTable(CaseTable):
 
     temperature: Temperature | None = None
     """Temperature of the rubber before the contact; that of the master curve by default."""
-    softening: Annotated[_Softening | Literal["none"], by_kind(SOFTENING, off=OFF)] | None = None
+    softening: Annotated[_Softening | Literal["none"], stated_law(SOFTENING, off=OFF)] | None = None
     """Softening by strain; that of a typical tread for filled rubber by default, or "none"."""
     strain_norm: Literal["slope", "stretch"] | None = None
     """Of a wave: by the rms slope in its contact (the default), or the largest stretch less one."""
@@ -228,9 +227,9 @@ class ConditionsTable(CaseTable):
     interface: Interface | None = None
     """A dry interface: the real contact area is sheared at the stress of typical treads, unless
     shear_stress states another. Without it the friction is that of the hysteresis alone."""
-    shear_stress: Annotated[InstanceOf[InterfacialShearStress], by_kind(SHEAR_STRESSES)] | None = (
-        None
-    )
+    shear_stress: (
+        Annotated[InstanceOf[InterfacialShearStress], stated_law(SHEAR_STRESSES)] | None
+    ) = None
     """The area term: the real contact area sheared at this stress."""
     water: Annotated[Any, Reading('"flooded" or a length', _film)] = None
     """Water on a measured map that contact can trap: flooded, or a film of this thickness."""

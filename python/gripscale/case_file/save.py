@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from gripscale.case import Case
 from gripscale.case_file.folder import SavedCase, free_target, saved_case, saved_inputs, write_saved
-from gripscale.case_file.json_schema import SCHEMA_LINE
+from gripscale.case_file.keys import SCHEMA_LINE
 from gripscale.case_file.prepare import named_files
 from gripscale.case_file.read import CaseFile, validate
 from gripscale.case_file.schema import kelvin_text, law_keys, toml_text

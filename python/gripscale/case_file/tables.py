@@ -151,6 +151,9 @@ class CleaningKeys(CaseTable):
     """Hold the points on both sides of a gap to that slope, too, with "iso13473"."""
     detrend: Literal["linear", "mean", "none"] = "linear"
     """Trend subtracted from a profile."""
+    longest_wavelength: Length | None = None
+    """Longest wave kept in profiles. By default 1.5 footprints, where longer waves hold most of the
+    mean square height, else all; a length beyond the profiles keeps all."""
     form: int = Field(default=1, ge=0, le=8)
     """Order of the polynomial subtracted from a map: 0 the mean, 1 a plane, 2 a paraboloid."""
 
@@ -236,7 +239,7 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SourceKeys):
         foreign, owner = (
             (("crop_across", "trim", "form"), "map")
             if self.map is None
-            else (("across_gaps", "detrend", "sheet"), "files")
+            else (("across_gaps", "detrend", "longest_wavelength", "sheet"), "files")
         )
         for name in foreign:
             if getattr(self, name) != type(self).model_fields[name].default:

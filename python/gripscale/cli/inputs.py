@@ -24,6 +24,7 @@ from gripscale.cli.new import (
 from gripscale.core.errors import about_keys
 from gripscale.questions.terminal import (
     COLUMNS,
+    LongestWavelength,
     SurfaceAxis,
     SurfaceChannel,
     SurfaceCrop,
@@ -97,8 +98,7 @@ def keys(
     ] = False,
 ) -> None:
     """List every key of a case file: what it takes, its default, its meaning."""
-    from gripscale.case_file.json_schema import case_schema
-    from gripscale.case_file.keys import sections
+    from gripscale.case_file.keys import case_schema, sections
     from gripscale.core import checks
     from gripscale.io.table import Column, Table
     from gripscale.report.failures import chapter_words
@@ -160,6 +160,7 @@ def fit_surface(
         str, typer.Option(help="Rule for spikes: isolated, iso13473 or none.")
     ] = "isolated",
     detrend: Annotated[str, typer.Option(help="linear, mean or none.")] = "linear",
+    longest_wavelength: LongestWavelength = None,
     output: Annotated[Path | None, option("Folder for figures.", metavar="DIR")] = None,
 ) -> None:
     """Clean profiles or a map, find their height difference correlation, fit sine waves to it."""

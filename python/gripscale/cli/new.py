@@ -111,6 +111,7 @@ def new(
     z_axis: terminal.SurfaceAxis = None,
     channel: terminal.SurfaceChannel = None,
     crop: terminal.SurfaceCrop = None,
+    longest_wavelength: terminal.LongestWavelength = None,
     wlf: WlfConstants = None,
     columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
     sheet: RubberSheet = None,
@@ -144,7 +145,12 @@ def new(
         "modulus_unit": modulus_unit,
     }
     surface = terminal.surface_keys(
-        x_unit=x_unit, z_unit=z_unit, z_axis=z_axis, channel=channel, crop=crop
+        channel=channel,
+        crop=crop,
+        x_unit=x_unit,
+        z_unit=z_unit,
+        z_axis=z_axis,
+        longest_wavelength=longest_wavelength,
     )
     if filled is None and sys.stdin.isatty() and sys.stdout.isatty():
         choices = click.Choice(["yes", "no", "unknown"])

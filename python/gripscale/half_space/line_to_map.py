@@ -30,8 +30,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import Array, InputError, checks
 from gripscale.rubber import Rubber
+from gripscale.rubber.material import plane_strain_modulus_of
 from gripscale.surface import Profile
 from gripscale.surface.profile import profile_list
 
@@ -132,6 +134,7 @@ def line_under_load(
     largest_wavelength: float,
     pressure: float,
     speed: float,
+    by_scale: RubberByScale | None = None,
 ) -> LineUnderLoad:
     """Return how far lines reach up, and how hard they are pressed for their height.
 
@@ -149,10 +152,13 @@ def line_under_load(
         Longest wave of the roughness [m].
     pressure, speed : float
         Nominal pressure [Pa] and sliding speed [m/s]; zero is the relaxed rubber.
+    by_scale : RubberByScale, optional
+        The rubber at each scale as it slides, where it is softened or warmed.
     """
     longest = checks.positive("largest_wavelength", largest_wavelength, unit="m")
     pressed = checks.positive("pressure", pressure, unit="Pa")
-    omega = 2.0 * math.pi * checks.not_negative("speed", speed, unit="m/s") / longest
+    number = 2.0 * math.pi / longest
+    omega = number * checks.not_negative("speed", speed, unit="m/s")
     shares = np.array([EXCEEDED, *TAIL])
     pieces, rms = [], []
     for line in profile_list(profile):
@@ -164,6 +170,9 @@ def line_under_load(
     if not pieces:
         raise InputError("profile must have two different heights at least; got none")
     upper, top, next_to_it = np.mean(pieces, axis=0).tolist()
-    modulus = abs(complex(rubber.plane_strain_modulus(omega)))
+    young = rubber.complex_modulus(omega)
+    if by_scale is not None:
+        young = by_scale.complex_modulus(omega, number)
+    modulus = abs(complex(plane_strain_modulus_of(young, rubber.bulk_modulus)))
     load = pressed * longest / (modulus * float(np.mean(rms)))
     return LineUnderLoad(upper, top - next_to_it, load)

@@ -304,6 +304,13 @@ SurfaceChannel = Annotated[
 SurfaceCrop = Annotated[
     tuple[str, str] | None, option('Part of the profiles, such as "120 mm" "1780 mm".')
 ]
+LongestWavelength = Annotated[
+    str | None,
+    option(
+        "Longest wave kept in profiles; by default 1.5 footprints, where longer ones hold most of "
+        "the mean square height, else all."
+    ),
+]
 Modulus = Annotated[
     str | None,
     option(

@@ -24,6 +24,7 @@ from typing import TypeVar
 import numpy as np
 
 from gripscale.core import Array, Described, InputError, Mask, checks, in_mm
+from gripscale.surface.long_waves import long_waves, mean_square
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")
@@ -52,6 +53,8 @@ class StepReport(Described):
     """Points without height after it."""
     note: str = ""
     """Details in words."""
+    share: float = 0.0
+    """Share of the mean square height that long waves held [-], of their step."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -90,6 +93,7 @@ def clean(
     spike_slope: float = 3.0,
     across_gaps: bool = False,
     detrend: str = "linear",
+    longest_wavelength: float | None = None,
 ) -> tuple[Profile, CleaningReport]:
     """Crop a profile, mark dropouts and spikes as missing, and take out its trend.
 
@@ -116,6 +120,9 @@ def clean(
         Hold the points on both sides of a gap to the same slope as well, with "iso13473".
     detrend : {"linear", "mean", "none"}, optional
         Trend to subtract, fitted to the valid heights.
+    longest_wavelength : float, optional
+        Cut-off [m] beyond which waves are taken out, see `gripscale.surface.long_waves`; None keeps
+        them.
     """
     checks.instance("profile", profile, Profile)
     steps: list[Callable[[Profile], tuple[Profile, StepReport]]] = []
@@ -131,6 +138,8 @@ def clean(
     if checks.flag("across_gaps", across_gaps) and spikes != "iso13473":
         raise InputError(f'across_gaps belongs to spikes = "iso13473"; got {spikes!r}')
     steps.append(partial(subtract_trend, kind=detrend))
+    if longest_wavelength is not None:
+        steps.append(partial(subtract_long_waves, longest=longest_wavelength))
     return _in_turn(steps, profile)
 
 
@@ -250,6 +259,15 @@ def subtract_trend(profile: Profile, kind: str = "linear") -> tuple[Profile, Ste
         slope = float((centred[valid] @ (profile.z[valid] - mean)) / squares)
         z, note = profile.z - mean - slope * centred, f"{note}, slope {slope:.4g}"
     return _report("trend", profile, replace(profile, z=z), note)
+
+
+def subtract_long_waves(profile: Profile, longest: float) -> tuple[Profile, StepReport]:
+    """Subtract the waves beyond the cut-off `longest` [m], by a Gaussian that halves these."""
+    waves, whole = long_waves(profile, longest), mean_square(profile, profile.z)
+    share = mean_square(profile, waves) / whole if whole else 0.0
+    note = f"beyond {in_mm(longest, 4)}: {100.0 * share:.2g} % of the mean square height"
+    after, report = _report("long waves", profile, replace(profile, z=profile.z - waves), note)
+    return after, replace(report, share=share)
 
 
 def clean_map(
