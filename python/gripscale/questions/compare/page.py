@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
+from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Topic, from_json
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
@@ -29,7 +30,7 @@ from gripscale.questions.answer.variables import (
     is_estimated,
 )
 from gripscale.questions.chain.findings import comparison_notices
-from gripscale.questions.compare.charts import axis_charts, ladder_charts
+from gripscale.questions.compare.charts import comparison_pictures
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.stored import predicted_tree
@@ -283,8 +284,8 @@ def comparison_elements(compared: Compared) -> list[Element]:
     if ladder is not None:
         elements.append(comparison_table(ladder))
         elements += map(Text, temperature_only(ladder))
-        elements += ladder_charts(ladder)
+        elements += map(image, comparison_pictures(ladder))
     for data in compared.over:
         elements += [axis_table(data, varied(data), name) for name in SYMBOLS]
-        elements += axis_charts(data)
+        elements += map(image, comparison_pictures(data))
     return elements
