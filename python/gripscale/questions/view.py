@@ -188,6 +188,7 @@ def first_rows(whole: Table, most: int) -> Table:
 MOST_BANDS = 3  # curves beyond which intervals would cover each other, and are not drawn
 MOST_NAMES = 12  # names in a legend of curves, evenly spaced among more
 INTERVAL = "90 % interval"
+_MOST_NUMBERS = 5  # along an axis of many decades
 STAR = " *"  # behind the name of a point that rests on the rubber beyond its measured band
 _LEAST_SHARE = 0.005  # of a sum: parts that never reach it are not drawn
 
@@ -201,6 +202,7 @@ def axis_of(coordinate: xr.DataArray) -> tuple[PlotAxis, Array]:
     low, high = float(np.nanmin(x)), float(np.nanmax(x))
     limits: dict[str, Any] = {"low": low, "high": high} if high > low else {}
     log = low > 0.0 and high > 8.0 * low
+    limits |= {"numbers": _MOST_NUMBERS} if log and high > 1e5 * low else {}
     return PlotAxis(f"{title(coordinate)} [{unit.unit or '-'}]", log=log, **limits), x
 
 
