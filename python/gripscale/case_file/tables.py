@@ -25,7 +25,7 @@ from gripscale.case_file.schema import (
 )
 from gripscale.conditions.conditions import OFF
 from gripscale.core.units import in_mm, parse_quantity, such_as
-from gripscale.model import MOST_CLASSES, Load
+from gripscale.model import MOST_CLASSES
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface.surface import SurfaceKind
 from gripscale.testers import TESTERS, TesterName
@@ -35,7 +35,7 @@ from gripscale.uncertainty_options import (
     MOST_SAMPLES,
     MOST_SEED,
     PRESSURE_ERROR,
-    UncertaintyOptions,
+    SAMPLES,
     pressure_error,
 )
 
@@ -296,11 +296,6 @@ class LoadTable(CaseTable):
         keys = ("pressure", "speed", "footprint")
         return values if preset is None else {k: getattr(preset, k) for k in keys} | values
 
-    @property
-    def nominal(self) -> Load:
-        """The load on the whole surface, at the speed stated."""
-        return Load(self.pressure, self.speed, self.footprint, self.load_time)
-
 
 class SolverTable(CaseTable):
     """The model of one wave and its mesh; what is not stated stays at the solver's default."""
@@ -422,7 +417,7 @@ class RangesTable(CaseTable):
 class UncertaintyTable(CaseTable):
     """What `gripscale uncertainty` samples; its options go before what is stated here."""
 
-    samples: int = Field(default=200, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
+    samples: int = Field(default=SAMPLES, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
     """Samples of all that is not known at once."""
     seed: int = Field(default=0, ge=0, le=MOST_SEED)
     """Seed of the random numbers."""
@@ -436,10 +431,6 @@ class UncertaintyTable(CaseTable):
     """Length of the blocks of profiles that are drawn; four of the largest waves by default."""
     tolerance: float | None = Field(default=None, gt=0.0, lt=1.0)
     """Estimated relative error of each direct contact; that of its first full grid by default."""
-
-    def options(self) -> UncertaintyOptions:
-        """Return what is stated as options of the question."""
-        return UncertaintyOptions(**self.model_dump(exclude_none=True))
 
 
 FigureKind = Literal["png", "pdf", "svg"]
