@@ -108,7 +108,7 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     """Return the surface of a case, its cut-off by the slope in contact solved."""
     table = file.case.surface
     rule = table.cut_off
-    load = file.case.load.nominal
+    load = file.case.load
     if not isinstance(rule, surfaces.ContactSlope):
         return prepare_surface(table, file.resolve, footprint=load.footprint)
     if table.map is not None:
@@ -430,19 +430,15 @@ def read_case(path: CaseFile | str | Path) -> Case:
     chain = case_chain(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    load, table = file.case.load, file.case.surface
+    table = file.case.surface
     cleaned = table.clean and surface.measured is not None
     with about_keys("rubber.shift"):
         try:
             return Case(
                 surface,
                 rubber,
-                pressure=load.pressure,
-                speed=load.speed,
-                footprint=load.footprint,
-                tester=load.tester,
+                **file.case.load.model_dump(),
                 kind=table.kind,
-                load_time=load.nominal.load_time,
                 thickness=file.case.rubber.thickness,
                 chain=chain,
                 conditions=conditions,
@@ -452,7 +448,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 klueppel_heinrich=file.case.compare,
                 friction=friction,
                 cleaning=_options(table, surfaces.clean) if cleaned else None,
-                options={"uncertainty": file.case.uncertainty.options()},
+                options={"uncertainty": file.case.uncertainty.model_dump(exclude_none=True)},
                 origin=Origin(
                     str(file.path),
                     file.text,
