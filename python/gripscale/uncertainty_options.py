@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -36,7 +36,7 @@ class UncertaintyOptions:
     seed: int = 0
     # "chain", "direct" or "both"; None: the direct contact where profiles were measured.
     model: str | None = None
-    without: tuple[str, ...] = ()  # sources that are taken to be known
+    without: Sequence[str] = ()  # sources that are taken to be known
     # What is known of a source, in place of its default.
     ranges: Mapping[str, Any] = field(default_factory=dict)
     # Length of the blocks of profiles that are drawn [m]; four of the largest waves by default.

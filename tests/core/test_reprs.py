@@ -16,7 +16,7 @@ from gripscale.core.described import Described
 from tests.core.public_functions import public_functions
 from tests.public_objects import public_objects
 
-ROOMS = (
+PACKAGES = (
     *(gs, gs.chain, conditions, gs.continuation, experiment, export, half_space, gs.questions),
     *(rubber, surface, theory, wave),
 )
@@ -58,9 +58,13 @@ def objects() -> dict[str, Any]:
 
 
 def public_classes() -> dict[type, str]:
-    """Return the classes of the rooms by their names, without errors and protocols."""
-    rooms = [(room, name) for room in ROOMS for name in getattr(room, "__all__", dir(room))]
-    items = [(getattr(room, name), name) for room, name in rooms]
+    """Return the classes of the names by their names, without errors and protocols."""
+    names = [
+        (package, name)
+        for package in PACKAGES
+        for name in getattr(package, "__all__", dir(package))
+    ]
+    items = [(getattr(package, name), name) for package, name in names]
     return {
         item: name
         for item, name in items

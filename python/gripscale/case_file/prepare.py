@@ -51,7 +51,6 @@ from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
-from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 Resolve = Callable[[str], Path]
 # What the files of a surface hold, before any cleaning.
@@ -395,20 +394,12 @@ def _below_measurement(file: CaseFile) -> BelowMeasurement:
 
 
 def case_chain(file: CaseFile) -> Chain:
-    """Return the chain of a case.
-
-    Raises `FileError` and `InputError` for conditions that cannot be used.
-    """
-    return _chain(file, prepare_conditions(file.case.conditions, file.resolve))
-
-
-def _chain(file: CaseFile, conditions: Conditions | None) -> Chain:
+    """Return the chain of a case, without its conditions, which `Case` has."""
     case = file.case
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
         extrapolate=case.rubber.extrapolate,
-        conditions=conditions and conditions.dry,
     )
 
 
@@ -444,14 +435,11 @@ def read_case(path: CaseFile | str | Path) -> Case:
         with about_keys("measured"):
             friction = read_measured_friction(file.resolve(name))
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    chain = _chain(file, conditions)
+    chain = case_chain(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    load, theory, table = file.case.load, file.case.compare, file.case.surface
+    load, table = file.case.load, file.case.surface
     cleaned = table.clean and surface.measured is not None
-    klueppel_heinrich = None
-    if theory.layer_ratio is not None and theory.penetration_depth is not None:
-        klueppel_heinrich = KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth)
     with about_keys("rubber.shift"):
         try:
             return Case(
@@ -469,7 +457,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 filled=_filled(file.case.rubber, file.case.conditions.softening),
                 interface=file.case.conditions.interface,
                 below_measurement=_below_measurement(file),
-                klueppel_heinrich=klueppel_heinrich,
+                klueppel_heinrich=file.case.compare,
                 friction=friction,
                 cleaning=_options(table, surfaces.clean) if cleaned else None,
                 options={"uncertainty": file.case.uncertainty.options()},

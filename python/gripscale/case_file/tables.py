@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, InstanceOf, model_validator
 
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case_file.schema import (
@@ -22,6 +22,7 @@ from gripscale.case_file.schema import (
     Speed,
     TemperatureDifference,
     column_key,
+    stated_law,
     unit_of_file,
 )
 from gripscale.conditions.conditions import OFF
@@ -30,6 +31,7 @@ from gripscale.model import MOST_CLASSES, Load
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface.surface import SurfaceKind
 from gripscale.testers import TESTERS, TesterName
+from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 from gripscale.uncertainty_options import (
     FEWEST_SAMPLES,
     MOST_SAMPLES,
@@ -115,17 +117,24 @@ class SourceKeys(CaseTable):
         return [self.map] if self.map is not None else self.files or []
 
 
-class ReadingKeys(CaseTable):
-    """How the files of a surface are read."""
+class UnitKeys(CaseTable):
+    """What a file of heights does not state."""
 
     x_unit: Annotated[str, unit_of_file("length")] | None = None
     """Unit of distances where the file does not name it."""
     z_unit: Annotated[str, unit_of_file("length")] | None = None
     """Unit of heights where the file does not name it."""
-    z_axis: Literal["up", "down"] | None = None
-    """Which way the numbers of heights count: down turns depths over; by default up."""
     direction: Literal["x", "y"] = "x"
     """The way of sliding in a map."""
+    step: Annotated[Any, Reading(_STEP, _step, quantity="length")] = None
+    """Distance between points, or those of a map along x and y, where the file has none."""
+
+
+class ReadingKeys(UnitKeys):
+    """How the files of a surface are read."""
+
+    z_axis: Literal["up", "down"] | None = None
+    """Which way the numbers of heights count: down turns depths over; by default up."""
     reader: Literal["auto", "text", "instrument"] = "auto"
     """How to read the files; auto goes by the suffix."""
     channel: Annotated[Any, Reading(_CHANNEL, _channel)] = None
@@ -133,8 +142,6 @@ class ReadingKeys(CaseTable):
     of columns each is a profile of the surface."""
     sheet: ColumnKey | None = None
     """Sheet of an Excel file, where several hold numbers."""
-    step: Annotated[Any, Reading(_STEP, _step, quantity="length")] = None
-    """Distance between points, or those of a map along x and y, where the file has none."""
     reliable: Length | None = None
     """Shortest wavelength the instrument measures reliably, where the file does not tell."""
     assumed: list[str] | None = None
@@ -435,7 +442,7 @@ class UncertaintyTable(CaseTable):
     """What predicts each sample; direct where profiles were measured by default, else the chain."""
     without: list[SourceName] = Field(default=[])
     """Sources that are taken to be known."""
-    ranges: RangesTable | None = None
+    ranges: RangesTable = RangesTable()
     """What is known of a source, in place of its default."""
     block_length: Length | None = None
     """Length of the blocks of profiles that are drawn; four of the largest waves by default."""
@@ -444,8 +451,7 @@ class UncertaintyTable(CaseTable):
 
     def options(self) -> UncertaintyOptions:
         """Return what is stated as options of the question."""
-        options = self.model_dump(exclude_none=True)
-        return UncertaintyOptions(**options | {"without": tuple(self.without)})
+        return UncertaintyOptions(**self.model_dump(exclude_none=True))
 
 
 FigureKind = Literal["png", "pdf", "svg"]
@@ -467,21 +473,13 @@ class MeasuredTable(CaseTable):
     """A table of speed and friction, drawn over what is predicted."""
 
 
-class FinerTable(CaseTable):
+class FinerTable(UnitKeys):
     """A finer measurement of a face of a stone: a line or a map, with its units."""
 
     file: str | None = None
     """A measured line."""
     map: str | None = None
     """A measured map, in place of file."""
-    x_unit: Annotated[str, unit_of_file("length")] | None = None
-    """Unit of distances where the file does not name it."""
-    z_unit: Annotated[str, unit_of_file("length")] | None = None
-    """Unit of heights where the file does not name it."""
-    direction: Literal["x", "y"] = "x"
-    """The way of sliding in a map."""
-    step: Annotated[Any, Reading(_STEP, _step, quantity="length")] = None
-    """Distance between points, or those of a map along x and y, where the file has none."""
 
     @model_validator(mode="after")
     def _one_source(self) -> FinerTable:
@@ -509,24 +507,6 @@ class BelowMeasurementTable(CaseTable):
         return self
 
 
-class CompareTable(CaseTable):
-    """What `gripscale compare` puts beside the models: fits of a theory."""
-
-    layer_ratio: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
-    """Thickness of the strained layer over penetration depth, in Klueppel and Heinrich's theory."""
-    penetration_depth: Length | None = None
-    """Mean penetration depth in that theory."""
-
-    @model_validator(mode="after")
-    def _both_or_none(self) -> CompareTable:
-        if (self.layer_ratio is None) != (self.penetration_depth is None):
-            raise ValueError(
-                "expected layer_ratio and penetration_depth together: Klueppel and Heinrich's "
-                "theory needs both"
-            )
-        return self
-
-
 class CaseTables(CaseTable):
     """A whole case file."""
 
@@ -548,8 +528,8 @@ class CaseTables(CaseTable):
     """Friction measured elsewhere."""
     output: OutputTable = OutputTable()
     """Where results go."""
-    compare: CompareTable = CompareTable()
-    """Further inputs of a comparison."""
+    compare: Annotated[InstanceOf[KlueppelHeinrich], stated_law(KlueppelHeinrich)] | None = None
+    """What `gripscale compare` puts beside the models: fits of Klueppel and Heinrich's theory."""
     uncertainty: UncertaintyTable = UncertaintyTable()
     """What is not known of all that."""
 

@@ -462,16 +462,17 @@ _OFTEN = 3
 
 def spread_of_repeats(frequency: Array, storage: Array, loss: Array, temperature: Array) -> float:
     """Return by which factor E' or E'' of one frequency and temperature differ, in the median."""
-    conditions = np.log(frequency) / _SAME_FREQUENCY, temperature / _SAME_TEMPERATURE
-    _, row, count = np.unique(np.round(conditions), axis=1, return_inverse=True, return_counts=True)
+    conditions = np.round([np.log(frequency) / _SAME_FREQUENCY, temperature / _SAME_TEMPERATURE])
+    pairs = conditions[0] + 1j * conditions[1]
+    _, row, count = np.unique(pairs, return_inverse=True, return_counts=True)
     again = count > 1
     if not again.sum() >= max(2.0, len(count) / _OFTEN):
         return 1.0
     spreads = np.ones((2, len(count)))
     for modulus, spread in zip((storage, loss), spreads, strict=True):
         low, high = np.full(len(count), np.inf), np.zeros(len(count))
-        np.minimum.at(low, row.reshape(-1), modulus)
-        np.maximum.at(high, row.reshape(-1), modulus)
+        np.minimum.at(low, row, modulus)
+        np.maximum.at(high, row, modulus)
         spread[:] = high / low
     return float(np.median(spreads.max(axis=0)[again]))
 

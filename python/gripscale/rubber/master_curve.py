@@ -18,6 +18,7 @@ from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import APART, THREE, FileLayout
+from gripscale.rubber.many_rows import thinned
 from gripscale.rubber.shift import Shift, shift_at, shown_state
 
 if TYPE_CHECKING:
@@ -187,8 +188,9 @@ def read_master_curve(
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
-    notes = tuple(columns.notes_of_faults(table, layout))
-    return MasterCurve(hertz, storage, loss, reference_temperature, name, source, None, notes)
+    few, note = thinned(np.array([np.ones(len(hertz)), hertz, storage, loss]))
+    notes = (*columns.notes_of_faults(table, layout), *note)
+    return MasterCurve(few[1], few[2], few[3], reference_temperature, name, source, None, notes)
 
 
 def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:

@@ -10,7 +10,7 @@ import io
 import math
 import os
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -28,6 +28,7 @@ from gripscale.io.text_table import (
     is_text,
     read_bytes,
     read_lines,
+    read_once,
     read_sheets,
     read_text,
 )
@@ -369,13 +370,18 @@ def read_map(
         table of text do.
     """
     file = _checked_path(path, x_unit, z_unit, reader)
-    steps = _steps(step, x_unit)
+    options = {"x_unit": x_unit, "z_unit": z_unit, "step": _steps(step, x_unit)}
+    key = "map", file, reader, channel, *options.values()
+    return upwards(read_once(key, lambda: _map_of(file, reader, channel, options)), z_axis)
+
+
+def _map_of(
+    file: Path, reader: str, channel: str | int | None, options: Mapping[str, Any]
+) -> HeightMap:
     if is_text_surface(file, reader):
-        text_map = read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
-        return upwards(text_map, z_axis)
-    field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
+        return read_text_map(file, **options)
+    field = read_instrument_file(file, channel=channel, **options)
     if field.y is None:
         raise FileError(f"{file}: expected a map; got a line, which gripscale.read_profile reads")
     with about_file(file):
-        read = HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)
-    return upwards(read, z_axis)
+        return HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)
