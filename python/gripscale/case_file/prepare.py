@@ -108,7 +108,7 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     """Return the surface of a case, its cut-off by the slope in contact solved."""
     table = file.case.surface
     rule = table.cut_off
-    load = file.case.load.nominal
+    load = file.case.load
     if not isinstance(rule, surfaces.ContactSlope):
         return prepare_surface(table, file.resolve, footprint=load.footprint)
     if table.map is not None:
@@ -150,10 +150,18 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     if surface.map is None:
         options = _options(surface, surfaces.read_profile)
         lays = surface.lay or ["along"] * len(paths)
+        channels = surface.channel if isinstance(surface.channel, list) else [surface.channel]
         lines = [
-            replace(surfaces.read_profile(path, **options), lay=lay)
+            replace(surfaces.read_profile(path, **options | {"channel": channel}), lay=lay)
             for path, lay in zip(paths, lays, strict=True)
+            for channel in channels
         ]
+        if len(channels) > 1:
+            names = (channel for _ in paths for channel in channels)
+            lines = [
+                replace(line, name=f"{line.name} {name}")
+                for line, name in zip(lines, names, strict=True)
+            ]
         if surface.reliable is None:
             return lines
         return [replace(line, reliable=surface.reliable) for line in lines]
@@ -176,8 +184,8 @@ def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfac
     if not surface.clean:
         return surfaces.Measured.of(raw)
     profiles, reports = [], []
-    for line, name in zip(raw, surface.measured_files, strict=True):
-        with about_file(resolve(name), InputError):
+    for line in raw:
+        with about_file(line.source, InputError):
             cleaned, report = surfaces.clean(line, **_options(surface, surfaces.clean))
         profiles.append((line, cleaned))
         reports.append(report)
@@ -430,19 +438,15 @@ def read_case(path: CaseFile | str | Path) -> Case:
     chain = case_chain(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    load, table = file.case.load, file.case.surface
+    table = file.case.surface
     cleaned = table.clean and surface.measured is not None
     with about_keys("rubber.shift"):
         try:
             return Case(
                 surface,
                 rubber,
-                pressure=load.pressure,
-                speed=load.speed,
-                footprint=load.footprint,
-                tester=load.tester,
+                **file.case.load.model_dump(),
                 kind=table.kind,
-                load_time=load.nominal.load_time,
                 thickness=file.case.rubber.thickness,
                 chain=chain,
                 conditions=conditions,
@@ -452,7 +456,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 klueppel_heinrich=file.case.compare,
                 friction=friction,
                 cleaning=_options(table, surfaces.clean) if cleaned else None,
-                options={"uncertainty": file.case.uncertainty.options()},
+                options={"uncertainty": file.case.uncertainty.model_dump(exclude_none=True)},
                 origin=Origin(
                     str(file.path),
                     file.text,

@@ -398,8 +398,8 @@ def stated_law(laws: type | Mapping[str, type], *, or_file: bool = False, off: s
     texts = [{"type": "string"}] * or_file + [{"enum": [off]}] * bool(off)
 
     def read(value: Any) -> Any:
-        stands_for_it = isinstance(value, str) and (or_file or (off and value == off))
-        if stands_for_it or isinstance(value, tuple(by_kind.values())):
+        is_word = isinstance(value, str) and (or_file or (off and value == off))
+        if value is None or is_word or isinstance(value, tuple(by_kind.values())):
             return value
         if not isinstance(value, Mapping):
             raise ValueError(f"expected {words}")
@@ -422,7 +422,8 @@ _COLUMNS = (
 )
 
 
-def _column(value: Any) -> str | int:
+def column_key(value: Any) -> str | int:
+    """Return the name or number of a column; raise `ValueError` for something else."""
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise ValueError(f"expected {COLUMN}")
     if isinstance(value, int) and value < 1:
@@ -433,8 +434,10 @@ def _column(value: Any) -> str | int:
 def _columns(value: Any) -> dict[str, str | int]:
     if not isinstance(value, dict | list):
         raise ValueError(f"expected {_COLUMNS}")
-    return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}
+    return {
+        name: column_key(column) for name, column in FileLayout(columns=value).by_quantity.items()
+    }
 
 
-ColumnKey = Annotated[str | int, Reading(COLUMN, _column)]
+ColumnKey = Annotated[str | int, Reading(COLUMN, column_key)]
 Columns = Annotated[dict[str, str | int], Reading(_COLUMNS, _columns)]

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
+from functools import partial
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, InstanceOf, model_validator
+from pydantic import Field, model_validator
 
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case_file.schema import (
+    COLUMN,
     CaseTable,
     ColumnKey,
     Duration,
@@ -20,12 +21,13 @@ from gripscale.case_file.schema import (
     Reading,
     Speed,
     TemperatureDifference,
+    column_key,
     stated_law,
     unit_of_file,
 )
 from gripscale.conditions.conditions import OFF
 from gripscale.core.units import in_mm, parse_quantity, such_as
-from gripscale.model import MOST_CLASSES, Load
+from gripscale.model import LOAD_TIME, MOST_CLASSES, checked_load_time
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface.surface import SurfaceKind
 from gripscale.testers import TESTERS, TesterName
@@ -35,7 +37,7 @@ from gripscale.uncertainty_options import (
     MOST_SAMPLES,
     MOST_SEED,
     PRESSURE_ERROR,
-    UncertaintyOptions,
+    SAMPLES,
     pressure_error,
 )
 
@@ -62,6 +64,15 @@ def _step(value: Any) -> Any:
     if min(numbers) <= 0.0:
         raise ValueError("expected a value greater than zero")
     return numbers if isinstance(value, list | tuple) else numbers[0]
+
+
+_CHANNEL = f"{COLUMN}, or a list of these"
+
+
+def _channel(value: Any) -> Any:
+    if isinstance(value, list) and value:
+        return [column_key(item) for item in value]
+    return None if value is None else column_key(value)
 
 
 _SPIKES = '"isolated", "iso13473" or "none"'
@@ -126,8 +137,9 @@ class ReadingKeys(UnitKeys):
     """Which way the numbers of heights count: down turns depths over; by default up."""
     reader: Literal["auto", "text", "instrument"] = "auto"
     """How to read the files; auto goes by the suffix."""
-    channel: ColumnKey | None = None
-    """Channel of an instrument's file that has several of heights."""
+    channel: Annotated[Any, Reading(_CHANNEL, _channel)] = None
+    """Channel of an instrument's file, or column of a text, that has several of heights; of a list
+    of columns each is a profile of the surface."""
     sheet: ColumnKey | None = None
     """Sheet of an Excel file, where several hold numbers."""
     reliable: Length | None = None
@@ -256,23 +268,6 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SourceKeys):
         return self
 
 
-LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
-
-
-def _load_time(value: Any) -> float | str:
-    if value == "passage":
-        return "passage"
-    if value in ("infinite", math.inf):
-        return math.inf
-    try:
-        seconds = parse_quantity(value, "time")
-    except ValueError as error:
-        raise ValueError(f'{error}, or "passage", or "infinite"') from error
-    if seconds <= 0.0:
-        raise ValueError("expected a time greater than zero")
-    return seconds
-
-
 class LoadTable(CaseTable):
     """How hard, how fast and over what length the rubber is pressed and slid."""
 
@@ -284,7 +279,9 @@ class LoadTable(CaseTable):
     """Sliding speed; 0 is the relaxed rubber at rest."""
     footprint: Length
     """Length of the nominal contact: how long the largest wave is loaded."""
-    load_time: Annotated[Any, Reading(LOAD_TIME, _load_time)] = "passage"
+    load_time: Annotated[Any, Reading(LOAD_TIME, partial(checked_load_time, "load_time"))] = (
+        "passage"
+    )
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
     tester: TesterName | None = None
     """A tester, whose pressure, speed and footprint then need not be stated."""
@@ -295,11 +292,6 @@ class LoadTable(CaseTable):
         preset = TESTERS.get(str(values.get("tester"))) if isinstance(values, dict) else None
         keys = ("pressure", "speed", "footprint")
         return values if preset is None else {k: getattr(preset, k) for k in keys} | values
-
-    @property
-    def nominal(self) -> Load:
-        """The load on the whole surface, at the speed stated."""
-        return Load(self.pressure, self.speed, self.footprint, self.load_time)
 
 
 class SolverTable(CaseTable):
@@ -422,7 +414,7 @@ class RangesTable(CaseTable):
 class UncertaintyTable(CaseTable):
     """What `gripscale uncertainty` samples; its options go before what is stated here."""
 
-    samples: int = Field(default=200, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
+    samples: int = Field(default=SAMPLES, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
     """Samples of all that is not known at once."""
     seed: int = Field(default=0, ge=0, le=MOST_SEED)
     """Seed of the random numbers."""
@@ -436,10 +428,6 @@ class UncertaintyTable(CaseTable):
     """Length of the blocks of profiles that are drawn; four of the largest waves by default."""
     tolerance: float | None = Field(default=None, gt=0.0, lt=1.0)
     """Estimated relative error of each direct contact; that of its first full grid by default."""
-
-    def options(self) -> UncertaintyOptions:
-        """Return what is stated as options of the question."""
-        return UncertaintyOptions(**self.model_dump(exclude_none=True))
 
 
 FigureKind = Literal["png", "pdf", "svg"]
@@ -516,7 +504,7 @@ class CaseTables(CaseTable):
     """Friction measured elsewhere."""
     output: OutputTable = OutputTable()
     """Where results go."""
-    compare: Annotated[InstanceOf[KlueppelHeinrich], stated_law(KlueppelHeinrich)] | None = None
+    compare: Annotated[Any, stated_law(KlueppelHeinrich)] = None
     """What `gripscale compare` puts beside the models: fits of Klueppel and Heinrich's theory."""
     uncertainty: UncertaintyTable = UncertaintyTable()
     """What is not known of all that."""
