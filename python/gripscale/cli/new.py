@@ -157,6 +157,8 @@ def new(
         question = "Is the rubber filled (carbon black, silica), as every tread is?"
         reply = typer.prompt(question, default="unknown", type=choices)
         filled = {"yes": True, "no": False}.get(reply)
+    console = terminal.screen()
+    terminal.show_step(console, terminal.READING)
     with naming_options():
         case = new_case(
             files,
@@ -171,6 +173,7 @@ def new(
             interface=interface,
             surface=surface,
         )
+    terminal.end_steps()
     lines = [f"Case: {case.path}"]
     if case.skipped:
         names = ", ".join(path.name for path in case.skipped)
@@ -179,4 +182,4 @@ def new(
         doubts = (f"  {at}. {finding}" for at, finding in enumerate(case.findings, start=1))
         lines += ["", "Doubts, the most important first:", *doubts]
     lines += ["", "Next:", f"  {shlex.join(['gripscale', 'run', str(case.path)])}"]
-    terminal.print_parts(terminal.screen(), lines)
+    terminal.print_parts(console, lines)
