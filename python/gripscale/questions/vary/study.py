@@ -188,7 +188,7 @@ class Study:
         for (number, *changes), surface in self._varied.items():
             factors, own = dict(changes).get("factors"), self.surfaces[number].sines
             steepest = float(surface.sines.slope.max()) if factors else 0.0
-            if steepest > _STEEPEST:
+            if factors and steepest > _STEEPEST:
                 fitted = ""
                 if own.s_wavelength is not None and own.s_amplitude is not None:
                     fitted = f"; fitted are {own.s_wavelength:.3g} and {own.s_amplitude:.3g}"
