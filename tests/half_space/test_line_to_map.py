@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.conditions.conditions import RubberByScale
 from gripscale.core.errors import InputError
 from gripscale.half_space import line_to_map
 from tests.verification.families import tread
@@ -100,6 +101,20 @@ def test_relative_load_is_dimensionless() -> None:
     ).relative_load
     modulus = abs(complex(RUBBER.plane_strain_modulus(0.0)))
     assert load == pytest.approx(3e5 * WAVE / (modulus * 1e-3 / math.sqrt(2.0)), rel=1e-3)
+
+
+def test_softened_rubber_is_pressed_harder() -> None:
+    """The modulus that counts is that of the largest wave, as it slides."""
+    x = 1e-4 * np.arange(6400)
+    line = gs.Profile(x, 1e-3 * np.sin(2.0 * np.pi * x / WAVE))
+    load = {"largest_wavelength": WAVE, "pressure": 3e5, "speed": 0.3}
+    number, ones = np.array([0.1, 10.0]) * 2.0 * math.pi / WAVE, np.ones(2)
+    half = RubberByScale(RUBBER, number, ones, ones, 0.5 * ones, 0.5 * ones)
+    as_measured = line_to_map.line_under_load(line, RUBBER, **load)
+    softened = line_to_map.line_under_load(line, RUBBER, by_scale=half, **load)
+    # the bulk modulus, which does not soften, is in the plane-strain modulus by 1 in 1,000
+    assert softened.relative_load == pytest.approx(2.0 * as_measured.relative_load, rel=2e-3)
+    assert softened[:2] == as_measured[:2]
 
 
 @pytest.mark.parametrize("pressure", [2e4, 3e5])

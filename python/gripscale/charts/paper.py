@@ -84,7 +84,7 @@ _STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
 }
 
 
-def house_rules() -> AbstractContextManager[None]:
+def figure_rules() -> AbstractContextManager[None]:
     """Apply `RULES` within a block; matplotlib's own rules stay as they are."""
     return mpl.rc_context(RULES)
 
@@ -93,7 +93,7 @@ def draw_sheet(sheet: chart.PanelGrid) -> Figure:
     """Return the figure of a sheet; matplotlib's own rules stay as they are."""
     columns, count, layout = sheet.columns, len(sheet.panels), sheet.layout
     size: Any = {"figsize": (sheet.width, sheet.height), "dpi": DPI}
-    with house_rules():
+    with figure_rules():
         figure = Figure(layout=ConstrainedLayoutEngine(wspace=sheet.gap), **size)
         options: dict[str, Any] = {"squeeze": False, **layout}
         grid = list(figure.subplots(-(-count // columns), columns, **options).flat)
@@ -357,7 +357,7 @@ def figure_file(figure: Figure, kind: str = "png", dpi: float = DPI) -> bytes:
     """
     checks.one_of("kinds", kind, KINDS)
     target, layout = io.BytesIO(), figure.get_layout_engine()
-    with house_rules():
+    with figure_rules():
         figure.set_dpi(dpi)
         if isinstance(layout, ConstrainedLayoutEngine):
             _mark_between(figure)

@@ -102,8 +102,7 @@ def keys(
     ] = False,
 ) -> None:
     """List every key of a case file: what it takes, its default, its meaning."""
-    from gripscale.case_file.json_schema import case_schema
-    from gripscale.case_file.keys import sections
+    from gripscale.case_file.keys import case_schema, sections
     from gripscale.core import checks
     from gripscale.io.table import Column, Table
     from gripscale.report.failures import chapter_words

@@ -30,8 +30,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import Array, InputError, checks
 from gripscale.rubber import Rubber
+from gripscale.rubber.material import plane_strain_modulus_of
 from gripscale.surface import Profile
 from gripscale.surface.profile import profile_list
 
@@ -69,7 +71,7 @@ class RatioLaw(NamedTuple):
     slope: float
     tail: float
     # Standard deviation of ln y about the law, over maps of all families, without the error of the
-    # lines themselves: at high load, and what few summits add in squares, over sqrt(T / P).
+    # lines themselves: at high load, and what few summits add in squares, over (T / P)^(1/3).
     scatter: float
     tail_scatter: float
 
@@ -80,15 +82,14 @@ class RatioLaw(NamedTuple):
 
     def uncertainty(self, line: LineUnderLoad) -> Array:
         """Return the standard deviation of ln y about the law."""
-        return np.hypot(self.scatter, self.tail_scatter * line.columns[1] ** 1.5)
+        return np.hypot(self.scatter, self.tail_scatter * line.columns[1])
 
 
-CONTACT_FRACTION_LAW = RatioLaw(-0.081, -0.126, -0.146, 0.131, 0.052)
-FRICTION_LAW = RatioLaw(-0.349, 0.073, 0.201, 0.108, 0.066)
+CONTACT_FRACTION_LAW = RatioLaw(-0.081, -0.126, -0.146, 0.091, 0.086)
+FRICTION_LAW = RatioLaw(-0.349, 0.073, 0.201, 0.087, 0.102)
 FULL_CONTACT_FRICTION = 1.11
-# Degrees of freedom of the scatter: eleven families less constant and slope. The number of the tail
-# is known from several loads on each surface.
-FREEDOM = 9
+# Degrees of freedom of the scatter: its variance differs from family to family as with so many.
+FREEDOM = 49
 # The largest t and (T / P)^(1/3) of the fit: beyond, the law is a guess.
 FITTED_TO = (4.1, 8.5)
 # What the law misses of the change of the logarithm of both ratios on one surface, over that of the
@@ -132,6 +133,7 @@ def line_under_load(
     largest_wavelength: float,
     pressure: float,
     speed: float,
+    by_scale: RubberByScale | None = None,
 ) -> LineUnderLoad:
     """Return how far lines reach up, and how hard they are pressed for their height.
 
@@ -149,10 +151,13 @@ def line_under_load(
         Longest wave of the roughness [m].
     pressure, speed : float
         Nominal pressure [Pa] and sliding speed [m/s]; zero is the relaxed rubber.
+    by_scale : RubberByScale, optional
+        The rubber at each scale as it slides, where it is softened or warmed.
     """
     longest = checks.positive("largest_wavelength", largest_wavelength, unit="m")
     pressed = checks.positive("pressure", pressure, unit="Pa")
-    omega = 2.0 * math.pi * checks.not_negative("speed", speed, unit="m/s") / longest
+    number = 2.0 * math.pi / longest
+    omega = number * checks.not_negative("speed", speed, unit="m/s")
     shares = np.array([EXCEEDED, *TAIL])
     pieces, rms = [], []
     for line in profile_list(profile):
@@ -164,6 +169,9 @@ def line_under_load(
     if not pieces:
         raise InputError("profile must have two different heights at least; got none")
     upper, top, next_to_it = np.mean(pieces, axis=0).tolist()
-    modulus = abs(complex(rubber.plane_strain_modulus(omega)))
+    young = rubber.complex_modulus(omega)
+    if by_scale is not None:
+        young = by_scale.complex_modulus(omega, number)
+    modulus = abs(complex(plane_strain_modulus_of(young, rubber.bulk_modulus)))
     load = pressed * longest / (modulus * float(np.mean(rms)))
     return LineUnderLoad(upper, top - next_to_it, load)

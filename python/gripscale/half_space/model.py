@@ -95,7 +95,13 @@ def _with_basis(
     if measured is not None and measured.map is None:
         pressed = {"pressure": load.pressure, "speed": load.speed}
         lines = [
-            line_under_load(profile, contact.body.rubber, largest_wavelength=longest, **pressed)
+            line_under_load(
+                profile,
+                contact.body.rubber,
+                largest_wavelength=longest,
+                by_scale=contact.by_scale,
+                **pressed,
+            )
             for profile, contact in zip(measured.cleaned, contacts, strict=True)
         ]
         line = LineUnderLoad(*np.average(np.array(lines), axis=0, weights=lengths))

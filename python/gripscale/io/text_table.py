@@ -181,6 +181,20 @@ def files_read_once() -> Iterator[None]:
         _kept.reset(token)
 
 
+_noted: ContextVar[dict[int, ColumnTitle] | None] = ContextVar("_noted", default=None)
+
+
+@contextmanager
+def columns_noted() -> Iterator[dict[int, ColumnTitle]]:
+    """Note the columns of a file whose numbers are read inside a block, by number from 1."""
+    columns: dict[int, ColumnTitle] = {}
+    token = _noted.set(columns)
+    try:
+        yield columns
+    finally:
+        _noted.reset(token)
+
+
 def read_once(key: object, make: Callable[[], T]) -> T:
     """Return what `make` makes, or what it made for the key inside `files_read_once`."""
     kept = _kept.get()
@@ -221,6 +235,8 @@ class TextTable:
 
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> Array:
         """Return a column of numbers up to `MOST`; with `missing`, NaN where a value is missing."""
+        if (noted := _noted.get()) is not None:
+            noted[self.empty + column + 1] = self.columns[column]
         if isinstance(self.rows, PlainRows):
             return self.rows.values[:, column].copy()
         cells = self._cells(column)

@@ -232,7 +232,7 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
 
     The first answer is printed and stays: a number to judge the rest by, while this is solved.
     """
-    from gripscale.questions.words import SYMBOLS, believed, is_estimated
+    from gripscale.questions.answer.variables import SYMBOLS, believed, is_estimated
 
     begun, solved, first_printed = time.monotonic(), 0, False
 

@@ -30,9 +30,8 @@ from gripscale.surface.low_pass import transmission
 from gripscale.surface.profile import Profile
 
 PER_FOOTPRINT = 1.5  # cut-off over the length of the block
-MOST_SHARE = (
-    0.5  # share of the mean square height above which the long waves decide the correlation
-)
+# share of the mean square height above which the long waves decide the correlation
+MOST_SHARE = 0.5
 
 
 def long_waves(profile: Profile, longest: float) -> Array:

@@ -18,7 +18,7 @@ from gripscale.core.units import DisplayUnit
 from gripscale.experiment.measured_friction import measured_series
 from gripscale.half_space.model import DirectContact
 from gripscale.questions.answer.intervals import UPPER_LIMITS
-from gripscale.questions.answer.reliance import headline
+from gripscale.questions.answer.variables import answer_number
 
 ASIDE = ("windows",)  # groups of other surfaces, which only give factors of the answer
 # Share of friction or area from which on a wavelength is drawn: longer waves do nothing.
@@ -188,6 +188,6 @@ def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
         yield Row(label, value * factor, sigma, value, factor)
         value *= factor
     if np.isfinite(factors).any():
-        answer = headline(comparison, name)
+        answer = answer_number(comparison, name)
         width = math.log(answer.value / answer.low) if answer.value > 0.0 else math.nan
         yield Row(BEST, answer.value, width, marker="*", colour=ORANGE)

@@ -20,7 +20,7 @@ from gripscale.core import ZERO_CELSIUS, Array, InputError
 from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
 from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import Task
-from gripscale.questions.answer.estimate import TOTAL
+from gripscale.questions.answer.variables import of_hysteresis
 from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.questions.vary.study import study_numbers
 
@@ -81,7 +81,9 @@ def friction_table(
         raise InputError(f"the friction of the case has no result at every speed: {failed[0]}")
     if not np.isfinite(data["answer_friction"]).all():
         raise InputError("the direct contact of the case has no friction for a slip curve")
-    names, ends = ["answer_friction", *([TOTAL] if TOTAL in data else [])], ("_low", "", "_high")
+    # the hysteresis, and with it the interface where there is one
+    names = dict.fromkeys([f"answer_{of_hysteresis(data, 'friction')}", "answer_friction"])
+    ends = "_low", "", "_high"
     kinds = [xr.concat([data[f"{name}{end}"] for end in ends], "bound") for name in names]
     table = xr.concat(kinds, "kind").transpose("kind", "bound", *values)
     coords = {"kind": list(KINDS_OF_FRICTION[: len(kinds)]), "bound": list(BOUNDS)}

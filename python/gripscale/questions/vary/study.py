@@ -37,6 +37,7 @@ from gripscale.experiment.task import Task
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io import netcdf
 from gripscale.model import METHOD, Model, input_doubts
+from gripscale.questions.answer.variables import HYSTERESIS, described
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
 from gripscale.questions.vary.answer_model import AnswerModel
@@ -84,8 +85,8 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
         values = np.array(axis.values) if numeric else np.array(axis.labels, dtype=object)
         attrs = variable_attributes(kind.long_name, kind.unit if numeric else "1")
         display = axis.display_unit(units)
-        if display is not None:
-            attrs[GIVEN] = display.unit
+        given = kind.noun if display is None else display.unit
+        attrs |= {name: text for name, text in ((GIVEN, given), ("symbol", kind.symbol)) if text}
         coords[axis.name] = xr.Variable(axis.name, values, attrs)
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
@@ -247,6 +248,9 @@ class Study:
                 attrs = variable_attributes("shortest wavelength of the roughness", "m")
                 result = result.drop_vars(name)
                 result = result if others else result.assign({name: ((), common, attrs)})
+        if HYSTERESIS in result:  # at rest an answer has no interface, and one friction
+            both = result[HYSTERESIS].fillna(result["answer_friction"])
+            result[HYSTERESIS] = both.assign_attrs(result[HYSTERESIS].attrs)
         if "factor_label" in result:
             first = dict.fromkeys(self.design.sizes, 0)
             result["factor_label"] = result["factor_label"].isel(first)
@@ -254,7 +258,7 @@ class Study:
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.rubbers[0])
-        return result.assign_attrs(self.attributes)
+        return described(result).assign_attrs(self.attributes)
 
     def _design(self, axes: tuple[Axis, ...]) -> Design:
         """Return the points over the axes; nothing is solved if one of them is impossible."""
