@@ -195,6 +195,16 @@ def test_of_two_compounds_the_files_of_one_are_taken(tmp_path: Path) -> None:
     assert keys(stated)["rubber"]["file"] == "B_curve.csv"
 
 
+def test_friction_of_another_compound_is_left_out(tmp_path: Path) -> None:
+    other = {"B_curve.csv": COMPOUND["A_curve.csv"], "B_friction.csv": FRICTION}
+    names = {name: text for name, text in COMPOUND.items() if name != "A_friction.csv"}
+    folder = folder_of(tmp_path / "both", names | other)
+    case = new_case([folder], folder / "case.toml", kinds={"A_curve.csv": "master-curve"})
+    assert "measured" not in keys(case)
+    why = next(file.why for file in case.files if file.path.name == "B_friction.csv")
+    assert why == "friction; by its name not of A_curve.csv"
+
+
 def test_friction_may_state_temperature_and_pressure(tmp_path: Path) -> None:
     text = "v [mm/s],mu,T [C],pressure [kPa]\n1,0.8,35,200\n10,1.0,35,200\n100,1.1,35,200\n"
     folder = folder_of(tmp_path / "A", COMPOUND | {"A_friction.csv": text})
