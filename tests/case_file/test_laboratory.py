@@ -112,6 +112,7 @@ KINDS = {
         "1\t0.9\t0.1\t21\n10\t1.1\t0.1\t21\n",
         "friction",
     ),
+    "friction whose temperature has no unit": ("v [m/s],mu,T\n1,0.9,20\n2,1,20\n", "unused"),
     "a prediction": (PREDICTION, "unused"),
     "remarks": ("measured on 3 May by the laboratory\n", "unused"),
 }  # fmt: skip
@@ -211,6 +212,18 @@ def test_friction_may_state_temperature_and_pressure(tmp_path: Path) -> None:
     found = keys(new_case([folder], folder / "case.toml"))
     assert found["conditions"]["temperature"] == "35 C"
     assert (found["load"]["pressure"], found["load"]["speed"]) == ("2 bar", "0.01 m/s")
+
+
+@pytest.mark.parametrize(("zero", "unit"), [(0.0, "C"), (273.15, "K")])
+def test_the_unit_of_the_shift_factors_is_proposed(tmp_path: Path, zero: float, unit: str) -> None:
+    titles, *rows = shifts("temperature,a_T").splitlines()
+    bare = [f"{float(t) + zero:.2f},{a}" for t, a in (row.split(",") for row in rows)]
+    text = "\n".join([titles, *bare])
+    folder = folder_of(tmp_path / "A", COMPOUND | {"A_shift.csv": text})
+    case = new_case([folder], folder / "case.toml")
+    assert keys(case)["rubber"]["temperature_unit"] == unit
+    assert keys(case)["rubber"]["reference_temperature"] == "40 C"
+    assert any("the shift factors do not state it" in str(finding) for finding in case.findings)
 
 
 def test_a_ramp_takes_the_shift_factors(tmp_path: Path) -> None:
