@@ -373,8 +373,15 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
 
 
 def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
-    shift = source.shift
-    return read_shift_table(resolve(shift)) if isinstance(shift, str) else shift
+    if not isinstance(source.shift, str):
+        return source.shift
+    path = resolve(source.shift)
+    try:
+        return read_shift_table(path)
+    except InputError as error:
+        if error.missing != "temperature_unit" or source.temperature_unit is None:
+            raise
+        return read_shift_table(path, temperature_unit=source.temperature_unit)
 
 
 _EFFECTS = {field.name for field in fields(Conditions)} & ConditionsTable.model_fields.keys()
