@@ -190,6 +190,7 @@ MOST_NAMES = 12  # names in a legend of curves, evenly spaced among more
 INTERVAL = "90 % interval"
 _MOST_NUMBERS = 5  # along an axis of many decades
 STAR = " *"  # behind the name of a point that rests on the rubber beyond its measured band
+_MARKERS = "osD^vPX<d>"  # of curves that have names, beside their colours
 _LEAST_SHARE = 0.005  # of a sum: parts that never reach it are not drawn
 
 
@@ -221,7 +222,9 @@ def beyond(data: xr.Dataset, name: str) -> xr.DataArray:
 def curves(data: xr.Dataset, dims: Sequence[str]) -> Iterator[tuple[dict[str, int], str, str]]:
     """Yield the points of some dimensions with colour and name."""
     every = list(product(*(range(data.sizes[dim]) for dim in dims)))
-    colours = style.colours(len(every), ordered=len(dims) == 1 and is_numeric(data, dims[0]))
+    colours = [style.COLOURS[i % len(style.COLOURS)] for i in range(len(every))]
+    if all(is_numeric(data, dim) for dim in dims):
+        colours = style.colours(len(every), ordered=len(dims) == 1)
     if [*dims] == ["temperature"]:
         colours = style.shades(len(every), "Plasma")
     for point, colour in zip(every, colours, strict=True):
@@ -254,14 +257,16 @@ def panel(
     if numbers:
         drawn = {"dash": "solid", "size": 3.0, "clip": False}
     every, marks = list(curves(data, others)), list[Mark]()
-    listed = -(-len(every) // MOST_NAMES)
+    listed, ordered = -(-len(every) // MOST_NAMES), all(is_numeric(data, dim) for dim in others)
     ends = interval(data, name)
     for i, (at, colour, words) in enumerate(every):
-        only = colour if others else BLUE
+        only, marker = colour if others else BLUE, "o" if ordered else _MARKERS[i % len(_MARKERS)]
         places_x, y, dashed, *both = (
             part.isel({dim: at[dim] for dim in part.dims if dim in at}).values
             for part in (x, variable, flags, *ends)
         )
+        if not np.isfinite(y).any():
+            continue
         bars: dict[str, Any] = {}
         if both and not numbers:
             bars = {"low": both[0], "high": both[1]}
@@ -270,7 +275,7 @@ def panel(
                 ShadedBand(places_x, both[0], both[1], only, "" if others else INTERVAL, 0.15)
             )
         marks.append(
-            Series(places_x, y, only, words or "sliding", marker="o", beyond=numbers & dashed,
+            Series(places_x, y, only, words or "sliding", marker=marker, beyond=numbers & dashed,
                    listed=i % listed == 0, **drawn, **bars)
         )  # fmt: skip
     return Panel(abscissa, ordinate(data[name]), marks)
