@@ -51,7 +51,6 @@ from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
-from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 Resolve = Callable[[str], Path]
 # What the files of a surface hold, before any cleaning.
@@ -109,7 +108,7 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     """Return the surface of a case, its cut-off by the slope in contact solved."""
     table = file.case.surface
     rule = table.cut_off
-    load = file.case.load.nominal
+    load = file.case.load
     if not isinstance(rule, surfaces.ContactSlope):
         return prepare_surface(table, file.resolve, footprint=load.footprint)
     if table.map is not None:
@@ -151,10 +150,18 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     if surface.map is None:
         options = _options(surface, surfaces.read_profile)
         lays = surface.lay or ["along"] * len(paths)
+        channels = surface.channel if isinstance(surface.channel, list) else [surface.channel]
         lines = [
-            replace(surfaces.read_profile(path, **options), lay=lay)
+            replace(surfaces.read_profile(path, **options | {"channel": channel}), lay=lay)
             for path, lay in zip(paths, lays, strict=True)
+            for channel in channels
         ]
+        if len(channels) > 1:
+            names = (channel for _ in paths for channel in channels)
+            lines = [
+                replace(line, name=f"{line.name} {name}")
+                for line, name in zip(lines, names, strict=True)
+            ]
         if surface.reliable is None:
             return lines
         return [replace(line, reliable=surface.reliable) for line in lines]
@@ -177,8 +184,8 @@ def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfac
     if not surface.clean:
         return surfaces.Measured.of(raw)
     profiles, reports = [], []
-    for line, name in zip(raw, surface.measured_files, strict=True):
-        with about_file(resolve(name), InputError):
+    for line in raw:
+        with about_file(line.source, InputError):
             cleaned, report = surfaces.clean(line, **_options(surface, surfaces.clean))
         profiles.append((line, cleaned))
         reports.append(report)
@@ -387,20 +394,12 @@ def _below_measurement(file: CaseFile) -> BelowMeasurement:
 
 
 def case_chain(file: CaseFile) -> Chain:
-    """Return the chain of a case.
-
-    Raises `FileError` and `InputError` for conditions that cannot be used.
-    """
-    return _chain(file, prepare_conditions(file.case.conditions, file.resolve))
-
-
-def _chain(file: CaseFile, conditions: Conditions | None) -> Chain:
+    """Return the chain of a case, without its conditions, which `Case` has."""
     case = file.case
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
         extrapolate=case.rubber.extrapolate,
-        conditions=conditions and conditions.dry,
     )
 
 
@@ -436,35 +435,28 @@ def read_case(path: CaseFile | str | Path) -> Case:
         with about_keys("measured"):
             friction = read_measured_friction(file.resolve(name))
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    chain = _chain(file, conditions)
+    chain = case_chain(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    load, theory, table = file.case.load, file.case.compare, file.case.surface
+    table = file.case.surface
     cleaned = table.clean and surface.measured is not None
-    klueppel_heinrich = None
-    if theory.layer_ratio is not None and theory.penetration_depth is not None:
-        klueppel_heinrich = KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth)
     with about_keys("rubber.shift"):
         try:
             return Case(
                 surface,
                 rubber,
-                pressure=load.pressure,
-                speed=load.speed,
-                footprint=load.footprint,
-                tester=load.tester,
+                **file.case.load.model_dump(),
                 kind=table.kind,
-                load_time=load.nominal.load_time,
                 thickness=file.case.rubber.thickness,
                 chain=chain,
                 conditions=conditions,
                 filled=_filled(file.case.rubber, file.case.conditions.softening),
                 interface=file.case.conditions.interface,
                 below_measurement=_below_measurement(file),
-                klueppel_heinrich=klueppel_heinrich,
+                klueppel_heinrich=file.case.compare,
                 friction=friction,
                 cleaning=_options(table, surfaces.clean) if cleaned else None,
-                options={"uncertainty": file.case.uncertainty.options()},
+                options={"uncertainty": file.case.uncertainty.model_dump(exclude_none=True)},
                 origin=Origin(
                     str(file.path),
                     file.text,

@@ -73,8 +73,8 @@ class Reading:
         """Return what an editor allows: whatever may be read, with the words for a person."""
         words = {"expected": self.words, "quantity": self.quantity}
         if self.laws:
-            tables = [table_schema(law) for law in self.laws.values()]
-            return {"anyOf": [*self.words_for_a_law, *tables], **words}
+            options = [*self.words_for_a_law, *map(table_schema, self.laws.values())]
+            return {**(options[0] if len(options) == 1 else {"anyOf": options}), **words}
         kind = handler(core).get("type")
         if kind == "number":
             kind = "string" if self.quantity == "temperature" else ["string", "number"]
@@ -141,35 +141,14 @@ def expected(schema: Mapping[str, Any]) -> str:
     if "properties" in schema:
         return f"a table with {', '.join(schema['properties'])}"
     if "items" in schema:
-        least = schema.get("minItems", 1)
-        return f"a list{f' of {least}' * (least > 1)}, each {expected(schema['items'])}"
+        least, most = (schema.get(name, 0) for name in ("minItems", "maxItems"))
+        count = f" of {'at least ' * (least != most)}{least}" * (least > 0)
+        return f"a list{count}, each {expected(schema['items'])}"
     words = " or ".join(map(json.dumps, choices_of(schema))) or _TYPES.get(
         schema.get("type", ""), "a value"
     )
     limits = [text.format(schema[name]) for name, text in _LIMITS.items() if name in schema]
     return ", ".join([words, *limits])
-
-
-# What is said of a value that pydantic refused with an error of this type.
-_REFUSALS = {
-    "bool_type": "expected true or false",
-    "finite_number": "expected a finite number",
-    "float_type": "expected a number",
-    "greater_than": "expected greater than {gt:g}",
-    "greater_than_equal": "expected at least {ge:g}",
-    "int_parsing_size": "expected a whole number of fewer digits",
-    "int_type": "expected a whole number",
-    "less_than": "expected less than {lt:g}",
-    "less_than_equal": "expected at most {le:g}",
-    "list_type": "expected a list",
-    "literal_error": "expected {expected}",
-    "model_type": "expected a table",
-    "multiple_of": "expected a multiple of {multiple_of:g}",
-    "string_type": "expected a string",
-    "too_long": "expected at most {max_length} items",
-    "too_short": "expected at least {min_length} items",
-    "value_error": "{error}",
-}
 
 
 def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool = False) -> str:
@@ -178,26 +157,34 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
     `in_table`: the model is a whole file, whose first names are those of tables.
     """
     first = first_complaint(error)
-    where = _location(first["loc"], in_table=in_table)
-    kind, value = first["type"], first["input"]
-    if kind in ("extra_forbidden", "missing"):
-        owner, key = table_schema(model), str(first["loc"][-1])
-        for part in first["loc"][:-1]:
-            owner = owner["items"] if isinstance(part, int) else owner["properties"][part]
-        if kind == "missing":
-            return f"{where} is missing; expected {expected(owner['properties'][key])}"
-        if instead := owner["gone"].get(key):
-            return f"unknown key {where}; it is gone: {instead}"
-        names = list(owner["properties"])
-        near = difflib.get_close_matches(key, names, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
-        return f"unknown key {where}; {hint}"
-    words = _REFUSALS[kind].format(**first.get("ctx", {}))
-    reason = words.removesuffix("s") if words.endswith(" 1 items") else words
+    where, value = _location(first["loc"], in_table=in_table), first["input"]
+    if first["type"] == "value_error":
+        reason = str(first["ctx"]["error"])
+    else:
+        key, owner, schema = "", {}, table_schema(model)
+        for part in first["loc"]:
+            key, owner = str(part), schema
+            inside = schema["items"] if isinstance(part, int) else schema["properties"]
+            schema = inside if isinstance(part, int) else inside.get(part, {})
+        if first["type"] == "extra_forbidden":
+            return f"unknown key {where}; {_instead_of(key, owner)}"
+        finite = first["type"] == "finite_number"
+        reason = f"expected {'a finite number' if finite else expected(schema)}"
+    if first["type"] == "missing":
+        return f"{where} is missing; {reason}"
     if isinstance(value, dict):
         return f"{where}: {reason}" if where else reason
     text = repr(value)
     return f"{where} = {text if len(text) <= 60 else f'{text[:57]}...'}: {reason}"
+
+
+def _instead_of(key: str, table: Mapping[str, Any]) -> str:
+    """Return what to state in place of a key that a table does not have."""
+    if instead := table["gone"].get(key):
+        return f"it is gone: {instead}"
+    names = list(table["properties"])
+    near = difflib.get_close_matches(key, names, n=1)
+    return f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
 
 
 def first_complaint(error: ValidationError) -> ErrorDetails:
@@ -209,15 +196,11 @@ def first_complaint(error: ValidationError) -> ErrorDetails:
 
 def _location(loc: tuple[int | str, ...], *, in_table: bool) -> str:
     """Return `[table] key[index]` or `[table.table] key` for pydantic's location."""
-    if in_table and loc and all(isinstance(part, str) for part in loc):
-        *tables, key = map(str, loc) if len(loc) > 1 else (*loc, "")
-        return f"[{'.'.join(map(str, tables))}] {key}".strip()
-    words = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)
-    words = words.removeprefix(".")
-    if not (in_table and words):
-        return words
-    table, _, key = words.partition(".")
-    return f"[{table}] {key}".strip()
+    names = next((at for at, part in enumerate(loc) if isinstance(part, int)), len(loc))
+    depth = min(max(names - 1, 1), len(loc)) if in_table else 0
+    table = f"[{'.'.join(map(str, loc[:depth]))}] " if depth else ""
+    key = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc[depth:])
+    return f"{table}{key.removeprefix('.')}".strip()
 
 
 def _explain(schema: dict[str, Any], model: type[BaseModel]) -> None:
@@ -360,22 +343,21 @@ def law_from_table(law: type, value: Any) -> Any:
     return law(**{item.name: getattr(read, item.name) for item in fields(law)})
 
 
+def case_value(value: Any, schema: Mapping[str, Any]) -> Any:
+    """Return a value as a case states it in a key with this schema, in SI units, exactly."""
+    if isinstance(value, checks.Checked):
+        return law_keys(value)
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [case_value(item, schema.get("items", {})) for item in value]
+    return kelvin_text(value) if schema.get("quantity") == "temperature" else value
+
+
 def law_keys(law: Any) -> dict[str, Any]:
     """Return the keys with which a case states a law, in SI units, exactly."""
-    keys: dict[str, Any] = {"kind": law.kind} if hasattr(law, "kind") else {}
-    for item in fields(law):
-        value = getattr(law, item.name)
-        if value is None:
-            continue
-        check = item.metadata["check"]
-        kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
-        several = isinstance(value, Sequence) and not isinstance(value, str)
-        if isinstance(value, checks.Checked):
-            value = law_keys(value)
-        elif kind == "temperature":
-            value = [kelvin_text(each) for each in value] if several else kelvin_text(value)
-        keys[item.name] = list(value) if several else value
-    return keys
+    keys = table_schema(law.__class__)["properties"]
+    kind = {"kind": law.kind} if hasattr(law, "kind") else {}
+    values = {item.name: getattr(law, item.name) for item in fields(law)}
+    return kind | {k: case_value(v, keys[k]) for k, v in values.items() if v is not None}
 
 
 def kelvin_text(temperature: float) -> str:
@@ -416,8 +398,8 @@ def stated_law(laws: type | Mapping[str, type], *, or_file: bool = False, off: s
     texts = [{"type": "string"}] * or_file + [{"enum": [off]}] * bool(off)
 
     def read(value: Any) -> Any:
-        stands_for_it = isinstance(value, str) and (or_file or (off and value == off))
-        if stands_for_it or isinstance(value, tuple(by_kind.values())):
+        is_word = isinstance(value, str) and (or_file or (off and value == off))
+        if value is None or is_word or isinstance(value, tuple(by_kind.values())):
             return value
         if not isinstance(value, Mapping):
             raise ValueError(f"expected {words}")
@@ -440,7 +422,8 @@ _COLUMNS = (
 )
 
 
-def _column(value: Any) -> str | int:
+def column_key(value: Any) -> str | int:
+    """Return the name or number of a column; raise `ValueError` for something else."""
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise ValueError(f"expected {COLUMN}")
     if isinstance(value, int) and value < 1:
@@ -451,8 +434,10 @@ def _column(value: Any) -> str | int:
 def _columns(value: Any) -> dict[str, str | int]:
     if not isinstance(value, dict | list):
         raise ValueError(f"expected {_COLUMNS}")
-    return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}
+    return {
+        name: column_key(column) for name, column in FileLayout(columns=value).by_quantity.items()
+    }
 
 
-ColumnKey = Annotated[str | int, Reading(COLUMN, _column)]
+ColumnKey = Annotated[str | int, Reading(COLUMN, column_key)]
 Columns = Annotated[dict[str, str | int], Reading(_COLUMNS, _columns)]

@@ -22,6 +22,7 @@ from gripscale.cli.new import (
     shift_of_wlf,
 )
 from gripscale.core.errors import about_keys
+from gripscale.io.text_table import files_read_once
 from gripscale.questions.terminal import (
     COLUMNS,
     LongestWavelength,
@@ -235,6 +236,7 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
 
 
 @command
+@files_read_once()
 def fit_rubber(
     context: typer.Context,
     file: Annotated[
