@@ -26,7 +26,7 @@ from gripscale.model import with_adhesive
 from gripscale.questions import view
 from gripscale.questions.answer.variables import AXIS_TITLES, believed
 from gripscale.questions.compare import charts_of_ladder as ladder
-from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Row
+from gripscale.questions.compare.charts_of_ladder import BEST, Row
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,7 +45,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     """
     panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
     labels = list((panels[0].y.ticks or {}).values())
-    star = any(label.endswith(STAR) for label in labels)
+    star = any(label.endswith(view.STAR) for label in labels)
     return Sheet(
         panels,
         height=0.95 + 0.33 * len(labels),
@@ -79,7 +79,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     marks += [mark for at, row in enumerate(rows) for mark in _row_marks(at, row)]
     labels = zip(comparison.model.values, comparison.label.values, strict=True)
     strong = {BEST} | {f"{label}{end}" for member, label in labels if member == DirectContact.name
-                       for end in ("", STAR)}  # fmt: skip
+                       for end in ("", view.STAR)}  # fmt: skip
     return Panel(
         PlotAxis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3),
         PlotAxis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
@@ -157,7 +157,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         else mark
         for mark in panel.marks
     ]
-    x = view.axis_of(comparison[axis])[1]
+    x = view.plot_axis(comparison[axis])[1]
     if np.isfinite(comparison[f"answer_{name}_factor"]).any():
         answer = believed(comparison, name)
         values, *ends = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))
@@ -169,7 +169,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         marks += [replace(mark, width=0.9, **look) for mark in curves if isinstance(mark, Series)]
     low, high = float(x.min()), float(x.max())
     if axis == "speed" and name == "friction":
-        points = list(ladder.measured_points(comparison, view.shown(comparison[axis])))
+        points = list(ladder.measured_points(comparison, view.shown_unit(comparison[axis])))
         marks += points
         speeds = [speed for series in points for speed in np.asarray(series.x)]
         low, high = min([low, *speeds]), max([high, *speeds])

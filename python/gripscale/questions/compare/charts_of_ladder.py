@@ -19,6 +19,7 @@ from gripscale.experiment.measured_friction import measured_series
 from gripscale.half_space.model import DirectContact
 from gripscale.questions.answer.intervals import UPPER_LIMITS
 from gripscale.questions.answer.variables import answer_number
+from gripscale.questions.view import STAR
 
 ASIDE = ("windows",)  # groups of other surfaces, which only give factors of the answer
 # Share of friction or area from which on a wavelength is drawn: longer waves do nothing.
@@ -64,8 +65,6 @@ def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Serie
 
 
 BEST = "answer"
-# Behind the label of a model whose friction rests partly on rubber beyond its measured band.
-STAR = " *"
 
 
 @dataclass(frozen=True)
