@@ -221,7 +221,7 @@ def status_words(data: xr.Dataset, sentences: str = STATUS) -> xr.DataArray:
 
 # Names and meanings of the numbers every model answers with.
 TOTALS = {
-    "total_contact_fraction": "real over nominal contact area",
+    "total_contact_fraction": "real contact area",
     "total_friction": "friction coefficient",
     "total_friction_from_dissipation": "friction coefficient from the energy lost in the rubber",
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from studies.line_to_map import (
     SolvedMap,
     draw,
     family_table,
+    freedom_of,
     scatter_of,
     summary,
 )
@@ -105,10 +107,34 @@ def test_scatter_comes_back_from_what_a_law_misses() -> None:
     pressures = np.geomspace(1e3, 1e6, 2000)
     maps = [lawful("pits", 0, [2.0, 2.0], pressure) for pressure in pressures.tolist()]
     summits = np.array([m.line.columns[1] for m in maps])
-    missed = np.hypot(0.1, 0.05 * summits**1.5) * random.standard_normal(summits.size)
+    missed = np.hypot(0.1, 0.05 * summits) * random.standard_normal(summits.size)
     high, low = scatter_of(maps, "area", list(missed[:, None]))
     assert high == pytest.approx(0.1, rel=0.1)
     assert low == pytest.approx(0.05, rel=0.1)
+    # what an answer knows of its sampling error is no scatter of the law
+    known = [replace(m, line_errors=[[0.2 * 2.0**0.5, 0.0, 8.0]] * 2) for m in maps]
+    np.testing.assert_allclose(known[0].sampling_errors("area"), 0.2)
+    missed = math.hypot(0.2, 0.1) * random.standard_normal(summits.size)
+    high, _ = scatter_of(known, "area", list(missed[:, None]))
+    assert high == pytest.approx(0.1, rel=0.2)
+
+
+def test_sampling_error_without_pieces_is_that_of_the_difference() -> None:
+    lines = lawful("pits", 0, [2.0, 2.0, 2.0])
+    unknown = [[math.nan, math.nan, 1.0], [0.1, 0.0, 8.0], [0.1, 0.0, 8.0]]
+    uneven = replace(lines, line_areas=[0.1, 0.2, 0.2], line_errors=unknown)
+    expected = [1.0 / 3.0, 1.0 / 3.0, 0.1 / math.sqrt(2.0)]
+    np.testing.assert_allclose(uneven.sampling_errors("area"), expected)
+
+
+def test_families_that_scatter_alike_leave_no_doubt_of_it() -> None:
+    random = np.random.default_rng(3)
+    maps = [lawful(family, seed, [2.0, 2.0]) for family in FAMILIES for seed in range(40)]
+    fitted = FittedLaw.of(maps, "area")
+    law = fitted.law._replace(scatter=0.1, tail_scatter=0.0)
+    noise = [np.array([0.1 * random.standard_normal()]) for _ in maps]
+    # each variance is one of 40 numbers, the mean over eleven families one of 440
+    assert freedom_of(replace(fitted, law=law, held_out=noise)) > 150.0
 
 
 def test_a_stopped_study_goes_on_where_it_was(

@@ -32,7 +32,7 @@ from gripscale.io.table import least_to_most
 from gripscale.io.text_table import ColumnTitle, columns_noted
 from gripscale.rubber import MasterCurve, ShiftTable, Sweeps, read_shift_table
 from gripscale.rubber.blocks import read_blocks, with_named_temperature
-from gripscale.rubber.columns import FileLayout
+from gripscale.rubber.columns import FileLayout, other_content, quantity
 from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_sweeps import holds_strain_sweeps
 from gripscale.surface import HeightMap, Profile
@@ -62,7 +62,7 @@ class Taken:
     why: str
     measured: Any = None
     """What was read; of strain sweeps a list, of a Prony series a dictionary."""
-    missing: Mapping[str, str] = field(default_factory=dict)
+    missing: Mapping[str, Any] = field(default_factory=dict)
     """Keys that nothing states and without which it cannot be read, as assumed to read it."""
     columns: Mapping[int, ColumnTitle] = field(default_factory=dict)
     """The columns that were read, by their numbers from 1."""
@@ -85,7 +85,7 @@ class Taken:
 
 # How the files of each kind are read, and the keys that nothing states; of moduli and of surfaces
 # all kinds alike.
-READERS: dict[str, Callable[[Path, FileKeys], tuple[Any, dict[str, str]]]] = {
+READERS: dict[str, Callable[[Path, FileKeys], tuple[Any, dict[str, Any]]]] = {
     "strain-sweep": lambda path, _: open_strain_sweeps([path]),
     "prony": lambda path, _: read_with(read_prony_table, path, UNITS_OF_RUBBER),
     "moduli": lambda path, keys: open_rubber([path], keys.layout),
@@ -130,14 +130,16 @@ def take(path: Path, keys: FileKeys, name: str | None = None) -> Taken:
 def _seems(path: Path, keys: FileKeys) -> list[str]:
     """Return the readers to try: of moduli only theirs, which says what is wrong with them."""
     layout = FileLayout(**keys.layout)
-    with suppress(GripscaleError):
-        blocks = read_blocks(path, layout, temperature_unit="C", most=ENOUGH_LINES)
-        strain = any(layout.column(block.table, "strain") is not None for block in blocks)
-        if strain and holds_strain_sweeps(path):
-            return ["strain-sweep"]
     if holds_prony_table(path):
         return ["prony"]
-    if holds_moduli(path, layout):
+    titled: set[str | None] = set()
+    with suppress(GripscaleError):
+        blocks = read_blocks(path, layout, temperature_unit="C", most=ENOUGH_LINES)
+        titled = {quantity(name) for block in blocks for name in block.table.names}
+        titled |= {"loss" for block in blocks if other_content(block.table)}
+    if "strain" in titled and holds_strain_sweeps(path):
+        return ["strain-sweep"]
+    if titled & {"frequency", "storage", "loss"} or holds_moduli(path, layout):
         return ["moduli"]
     return ["shift", "friction", "surface"]
 

@@ -63,7 +63,9 @@ class Laboratory:
     def choose_surface(self) -> None:
         """Keep one map, or the profiles, of which all state their units or none does."""
         profiles = self.of("profile")
-        with_units = [file for file in profiles if file.by_caller or not file.missing]
+        with_units = [
+            file for file in profiles if file.by_caller or not file.missing.keys() - {"channel"}
+        ]
         bare = [file for file in profiles if with_units and file not in with_units]
         self.leave_out(bare, "it names no unit, unlike others; --as profile takes it")
         groups = [*([file] for file in self.of("map")), self.of("profile")]

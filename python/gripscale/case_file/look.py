@@ -52,7 +52,9 @@ def parts_of(file: Taken, keys: FileKeys) -> Iterator[str | Table]:
         if file.missing and file.kind in SURFACES:
             proposal = surface_proposal([file.path], name, step=keys.step, keys=keys.surface)
             units = {key: proposal.keys[key] for key in file.missing}
-            file = take(file.path, replace(keys, surface={**keys.surface, **units}), file.kind)
+            channel = {"channel": file.missing["channel"][0]} if "channel" in units else {}
+            read_by = {**keys.surface, **units, **channel}
+            file = take(file.path, replace(keys, surface=read_by), file.kind)
         elif file.missing and file.kind in RUBBERS:
             proposal = rubber_proposal([file.path], name, layout=keys.layout)
             units = {key: proposal.keys[key] for key in file.missing}

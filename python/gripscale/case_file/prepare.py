@@ -150,10 +150,18 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     if surface.map is None:
         options = _options(surface, surfaces.read_profile)
         lays = surface.lay or ["along"] * len(paths)
+        channels = surface.channel if isinstance(surface.channel, list) else [surface.channel]
         lines = [
-            replace(surfaces.read_profile(path, **options), lay=lay)
+            replace(surfaces.read_profile(path, **options | {"channel": channel}), lay=lay)
             for path, lay in zip(paths, lays, strict=True)
+            for channel in channels
         ]
+        if len(channels) > 1:
+            names = (channel for _ in paths for channel in channels)
+            lines = [
+                replace(line, name=f"{line.name} {name}")
+                for line, name in zip(lines, names, strict=True)
+            ]
         if surface.reliable is None:
             return lines
         return [replace(line, reliable=surface.reliable) for line in lines]
@@ -176,8 +184,8 @@ def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfac
     if not surface.clean:
         return surfaces.Measured.of(raw)
     profiles, reports = [], []
-    for line, name in zip(raw, surface.measured_files, strict=True):
-        with about_file(resolve(name), InputError):
+    for line in raw:
+        with about_file(line.source, InputError):
             cleaned, report = surfaces.clean(line, **_options(surface, surfaces.clean))
         profiles.append((line, cleaned))
         reports.append(report)

@@ -139,6 +139,14 @@ def surface_proposal(
     for key, value in keys.items():
         proposal.add(key, value, _STATED)
     read = read_map if isinstance(surface, HeightMap) else read_profile
+    tracks = [keys.get("channel")]
+    if (channel := missing.pop("channel", None)) is not None:
+        tracks = channel if isinstance(channel, list) else [channel]
+        several = isinstance(channel, list)
+        words = "each column of heights is a profile" if several else "the first of the channels"
+        effect = TENS_OF_PERCENT if several else OF_ANOTHER_CASE
+        proposal.add("channel", channel, f"{words}; --channel states another", effect)
+    options |= {} if tracks == [None] else {"channel": tracks[0]}
     units: dict[str, Any] = {}
     # units that the file does not state with which its heights are those of a texture, if any are
     for choice in product(LENGTHS, repeat=len(missing)) if missing else ():
@@ -154,7 +162,11 @@ def surface_proposal(
         words = f"{paths[0].name} names no unit; with this one the heights are a texture"
         proposal.add(key, unit, words, OF_ANOTHER_CASE)
     if isinstance(surface, Profile) and "crop" not in keys:
-        profiles = [read_profile(path, **options, **units) for path in paths]
+        profiles = [
+            read_profile(path, **options | units | {"channel": track})
+            for path in paths
+            for track in tracks
+        ]
         ends = [part for profile in profiles if (part := road_between(profile)) is not None]
         if ends:
             first, last = max(part[0] for part in ends), min(part[1] for part in ends)
@@ -190,9 +202,10 @@ def open_surface(
     step: str | list[str] | None = None,
     defaults: Mapping[str, str] = MappingProxyType({}),
     **reading: Any,
-) -> tuple[Profile | HeightMap, dict[str, str]]:
+) -> tuple[Profile | HeightMap, dict[str, Any]]:
     """Return the profile or the map of a file, and those of the `defaults` that it needs.
 
+    With `defaults` the first of several channels is read, and of a text all are named, as tracks.
     `reading` are further arguments of the readers. Raises `FileError` and `InputError` as
     reading does.
     """
@@ -206,6 +219,13 @@ def open_surface(
             return read_with(read, path, defaults, **options)
         except GripscaleError as error:
             refusals.append(error)
+            if error.choices and defaults:
+                channel = {"channel": error.choices[0]}
+                surface: Any
+                surface, missing = read_with(read, path, defaults, **options, **channel)
+                if lines and isinstance(surface, Profile):
+                    return surface, {**missing, "channel": list(error.choices)}
+                return surface, {**missing, **channel}
     # a reader that only misses a key is the right one, and one that wants less stated the wrong one
     raise min(refusals, key=lambda error: (not error.missing, isinstance(error, InputError)))
 

@@ -422,7 +422,8 @@ _COLUMNS = (
 )
 
 
-def _column(value: Any) -> str | int:
+def column_key(value: Any) -> str | int:
+    """Return the name or number of a column; raise `ValueError` for something else."""
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise ValueError(f"expected {COLUMN}")
     if isinstance(value, int) and value < 1:
@@ -433,8 +434,10 @@ def _column(value: Any) -> str | int:
 def _columns(value: Any) -> dict[str, str | int]:
     if not isinstance(value, dict | list):
         raise ValueError(f"expected {_COLUMNS}")
-    return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}
+    return {
+        name: column_key(column) for name, column in FileLayout(columns=value).by_quantity.items()
+    }
 
 
-ColumnKey = Annotated[str | int, Reading(COLUMN, _column)]
+ColumnKey = Annotated[str | int, Reading(COLUMN, column_key)]
 Columns = Annotated[dict[str, str | int], Reading(_COLUMNS, _columns)]

@@ -11,6 +11,7 @@ from pydantic import Field, model_validator
 
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case_file.schema import (
+    COLUMN,
     CaseTable,
     ColumnKey,
     Duration,
@@ -20,6 +21,7 @@ from gripscale.case_file.schema import (
     Reading,
     Speed,
     TemperatureDifference,
+    column_key,
     stated_law,
     unit_of_file,
 )
@@ -62,6 +64,15 @@ def _step(value: Any) -> Any:
     if min(numbers) <= 0.0:
         raise ValueError("expected a value greater than zero")
     return numbers if isinstance(value, list | tuple) else numbers[0]
+
+
+_CHANNEL = f"{COLUMN}, or a list of these"
+
+
+def _channel(value: Any) -> Any:
+    if isinstance(value, list) and value:
+        return [column_key(item) for item in value]
+    return None if value is None else column_key(value)
 
 
 _SPIKES = '"isolated", "iso13473" or "none"'
@@ -126,8 +137,9 @@ class ReadingKeys(UnitKeys):
     """Which way the numbers of heights count: down turns depths over; by default up."""
     reader: Literal["auto", "text", "instrument"] = "auto"
     """How to read the files; auto goes by the suffix."""
-    channel: ColumnKey | None = None
-    """Channel of an instrument's file that has several of heights."""
+    channel: Annotated[Any, Reading(_CHANNEL, _channel)] = None
+    """Channel of an instrument's file, or column of a text, that has several of heights; of a list
+    of columns each is a profile of the surface."""
     sheet: ColumnKey | None = None
     """Sheet of an Excel file, where several hold numbers."""
     reliable: Length | None = None

@@ -71,7 +71,7 @@ class RatioLaw(NamedTuple):
     slope: float
     tail: float
     # Standard deviation of ln y about the law, over maps of all families, without the error of the
-    # lines themselves: at high load, and what few summits add in squares, over sqrt(T / P).
+    # lines themselves: at high load, and what few summits add in squares, over (T / P)^(1/3).
     scatter: float
     tail_scatter: float
 
@@ -82,15 +82,14 @@ class RatioLaw(NamedTuple):
 
     def uncertainty(self, line: LineUnderLoad) -> Array:
         """Return the standard deviation of ln y about the law."""
-        return np.hypot(self.scatter, self.tail_scatter * line.columns[1] ** 1.5)
+        return np.hypot(self.scatter, self.tail_scatter * line.columns[1])
 
 
-CONTACT_FRACTION_LAW = RatioLaw(-0.081, -0.126, -0.146, 0.131, 0.052)
-FRICTION_LAW = RatioLaw(-0.349, 0.073, 0.201, 0.108, 0.066)
+CONTACT_FRACTION_LAW = RatioLaw(-0.081, -0.126, -0.146, 0.091, 0.086)
+FRICTION_LAW = RatioLaw(-0.349, 0.073, 0.201, 0.087, 0.102)
 FULL_CONTACT_FRICTION = 1.11
-# Degrees of freedom of the scatter: eleven families less constant and slope. The number of the tail
-# is known from several loads on each surface.
-FREEDOM = 9
+# Degrees of freedom of the scatter: its variance differs from family to family as with so many.
+FREEDOM = 49
 # The largest t and (T / P)^(1/3) of the fit: beyond, the law is a guess.
 FITTED_TO = (4.1, 8.5)
 # What the law misses of the change of the logarithm of both ratios on one surface, over that of the

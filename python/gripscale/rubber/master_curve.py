@@ -160,9 +160,10 @@ def read_master_curve(
             f"line {blocks[1].table.line_numbers[0]} on; those of sweeps state their temperatures"
         )
     if len(table.columns) < len(THREE):
+        content = columns.other_content(table) or f"({table.titles or 'no titles'})"
         raise FileError(
             f"{file}, line {table.line_numbers[0]}: expected at least 3 columns "
-            f"(frequency, storage, loss); got {columns.other_content(table)}"
+            f"(frequency, storage, loss); got {len(table.columns)}, {content}"
         )
     if len(table.rows) < 2:
         raise FileError(f"{file}: {_TWO_ROWS}; got {len(table.rows)}")

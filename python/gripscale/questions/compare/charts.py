@@ -6,7 +6,6 @@ Surfaces and compounds side by side are in `gripscale.questions.vary.charts_side
 from __future__ import annotations
 
 import math
-import textwrap
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from itertools import pairwise
@@ -16,10 +15,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.charts import chart, draw, style
+from gripscale.charts import chart, style
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Chart
+from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
@@ -29,7 +28,7 @@ from gripscale.model import with_adhesive
 from gripscale.questions.answer.variables import AXIS_TITLES, believed
 from gripscale.questions.compare import charts_of_ladder as ladder
 from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, Row
-from gripscale.questions.vary.axis import axis_label, axis_shown
+from gripscale.questions.view import axis_of, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,9 +36,6 @@ if TYPE_CHECKING:
 # Largest over smallest number of an axis, at least: less has no numbers of a log axis in it.
 _LEAST_RANGE = 3.0
 HALF = 0.27  # half the height of a bar, in rows
-_ROW = 44  # height of a row of the ladder on the page [px]
-# Letters of a line of a label beside the ladder: the frame keeps its width on a telephone.
-_LINE = 24
 
 
 def comparison_figure(comparison: xr.Dataset) -> Figure:
@@ -60,20 +56,6 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
         keys=[Series([], [], INK, BEYOND_LABEL, dash="", marker="$*$")] if star else (),
         layout={"sharey": True},
     ).on_paper()
-
-
-def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
-    """Return the steps from model to model, and the models down to each wavelength."""
-    panels = []
-    for name in _quantities(comparison):
-        panel, ticks = _ladder_panel(comparison, name), {}
-        for at, row in enumerate(ladder.rows_of(comparison, name)):
-            text = row.label if math.isfinite(row.value) else f"{row.label} ({row.note})"
-            ticks[float(at)] = textwrap.fill(text, _LINE)
-        panels.append(replace(panel, y=replace(panel.y, ticks=ticks)))
-    if np.isfinite(ladder.on_the_surface(comparison).running_friction.values).any():
-        panels += [_wavelength_panel(comparison, name) for name in _quantities(comparison)]
-    return draw.panels_on_page(panels)
 
 
 def _quantities(comparison: xr.Dataset) -> list[str]:
@@ -100,26 +82,13 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     labels = zip(comparison.model.values, comparison.label.values, strict=True)
     strong = {BEST} | {f"{label}{end}" for member, label in labels if member == DirectContact.name
                        for end in ("", STAR)}  # fmt: skip
-    words, capital = _words(name)
     return Panel(
         PlotAxis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3),
         PlotAxis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
              ticks={float(at): row.label for at, row in enumerate(rows)}),
         marks,
-        name=f"ladder-{name}",
-        caption=f"{capital} from model to model: a bar runs from the model before, blue "
-        "where the number falls, orange where it rises; lines are one standard uncertainty, a "
-        "star is for friction partly beyond the measured band.",
-        alt=f"{words} of each model, with the step from the one before.",
-        height=90 + _ROW * len(rows),
         legend="none",
     )  # fmt: skip
-
-
-def _words(name: str) -> tuple[str, str]:
-    """Return what a quantity is called within a sentence, and at its beginning."""
-    words = chart.spelled_out(AXIS_TITLES[name])
-    return words, words[0].upper() + words[1:]
 
 
 def _row_marks(at: int, row: Row) -> Iterator[Mark]:
@@ -160,16 +129,11 @@ def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
         solved = np.isfinite(values)
         if solved.any():
             marks.append(_curve(length[solved], values[solved], member, look, beyond[solved]))
-    area, (words, capital) = name == "contact_fraction", _words(name)
+    area = name == "contact_fraction"
     return Panel(
         chart.wavelength_axis(length),
         PlotAxis(f"{AXIS_TITLES[name]},\nlonger waves [-]", log=area, low=None if area else 0.0),
         marks,
-        name=f"by-wavelength-{name}",
-        caption=f"{capital} down to each wavelength, of every model: where area is lost "
-        "and friction made. Dashed is beyond the measured band.",
-        alt=f"Running {words} of each model against wavelength, which falls to the right.",
-        height=400,
     )
 
 
@@ -192,18 +156,13 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     return Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7).on_paper()
 
 
-def axis_charts(comparison: xr.Dataset) -> list[Chart]:
-    """Return area and friction of every model over the axis of a comparison."""
-    return draw.panels_on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
-
-
 _MARGIN = 0.03  # room beside the values of an axis, over its extent
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     comparison, axis = ladder.on_the_surface(comparison), ladder.varied(comparison)
-    x = axis_shown(comparison, axis).of(comparison[axis].values)
-    area, (words, capital) = name == "contact_fraction", _words(name)
+    abscissa, x = axis_of(comparison[axis])
+    area = name == "contact_fraction"
     marks: list[Mark] = []
     for member, look in _compared_models(comparison):
         values, spread = member[f"total_{name}"].values, member[f"{name}_spread"].values
@@ -228,7 +187,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
                 marks.append(term)
     low, high = float(x.min()), float(x.max())
     if axis == "speed" and name == "friction":
-        points = list(ladder.measured_points(comparison, axis_shown(comparison, "speed")))
+        points = list(ladder.measured_points(comparison, shown(comparison[axis])))
         marks += points
         speeds = [speed for series in points for speed in np.asarray(series.x)]
         low, high = min([low, *speeds]), max([high, *speeds])
@@ -237,16 +196,10 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     extent = (high / low) ** _MARGIN if log else _MARGIN * (high - low)
     low, high = (low / extent, high * extent) if log else (low - extent, high + extent)
     least = min(0.0, float(comparison.total_friction.min()))
-    text = axis.replace("_", " ")
     return Panel(
-        PlotAxis(axis_label(comparison, axis), log=log, low=low, high=high),
+        replace(abscissa, log=log, low=low, high=high),
         PlotAxis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
         marks,
-        name=f"over-{axis}-{name}",
-        caption=f"{capital} of every model over {text}; bands are the standard deviation "
-        "over its samples, dashed is beyond the measured band.",
-        alt=f"{words} of each model against {text}.",
-        height=400,
     )
 
 
@@ -299,12 +252,31 @@ def measured_sheet(
     )
 
 
-def comparison_figures(data: xr.Dataset) -> Iterator[tuple[str, Figure]]:
+def comparison_pictures(data: xr.Dataset) -> Iterator[Picture]:
     """Yield the figures of a comparison: its ladder and wavelengths, or all over its axis."""
     if axis := ladder.varied(data):
-        yield f"over_{axis}", comparison_axis_figure(data)
+        yield Picture(
+            f"over_{axis}",
+            comparison_axis_figure(data),
+            f"Area and friction of every model over {axis.replace('_', ' ')}; bands are the "
+            "standard deviation over its samples, dashed is beyond the measured band.",
+            "Two panels with a curve for each model.",
+        )
         return
-    yield "comparison", comparison_figure(data)
+    yield Picture(
+        "comparison",
+        comparison_figure(data),
+        "Area and friction from model to model: a bar runs from the model before, blue where the "
+        "number falls, orange where it rises; lines are one standard uncertainty, a star is for "
+        "friction partly beyond the measured band.",
+        "Area and friction of each model, with the step from the one before.",
+    )
     if ladder.worth_drawing(ladder.on_the_surface(data)).any():
         panels = [_wavelength_panel(data, name) for name in _quantities(data)]
-        yield "by_wavelength", Sheet(panels, height=3.5).on_paper()
+        yield Picture(
+            "by_wavelength",
+            Sheet(panels, height=3.5).on_paper(),
+            "Area and friction down to each wavelength, of every model: where area is lost and "
+            "friction made. Dashed is beyond the measured band.",
+            "Two panels with a curve for each model against wavelength, which falls to the right.",
+        )

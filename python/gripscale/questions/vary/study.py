@@ -85,8 +85,8 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
         values = np.array(axis.values) if numeric else np.array(axis.labels, dtype=object)
         attrs = variable_attributes(kind.long_name, kind.unit if numeric else "1")
         display = axis.display_unit(units)
-        if display is not None:
-            attrs[GIVEN] = display.unit
+        given = kind.noun if display is None else display.unit
+        attrs |= {name: text for name, text in ((GIVEN, given), ("symbol", kind.symbol)) if text}
         coords[axis.name] = xr.Variable(axis.name, values, attrs)
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
