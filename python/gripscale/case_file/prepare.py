@@ -428,13 +428,18 @@ def _below_measurement(file: CaseFile) -> BelowMeasurement:
     return BelowMeasurement(table.down_to, roughness, table.seed)
 
 
-def case_chain(file: CaseFile) -> Chain:
-    """Return the chain of a case, without its conditions, which `Case` has."""
+def case_chain(file: CaseFile, conditions: Conditions | None = None) -> Chain:
+    """Return the chain of a case, under its own conditions where they are not given.
+
+    Raises `FileError` and `InputError` for conditions that cannot be used.
+    """
     case = file.case
+    conditions = conditions or prepare_conditions(case.conditions, file.resolve)
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
         extrapolate=case.rubber.extrapolate,
+        conditions=conditions and conditions.dry,
     )
 
 
@@ -470,7 +475,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
         with about_keys("measured"):
             friction = read_measured_friction(file.resolve(name))
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    chain = case_chain(file)
+    chain = case_chain(file, conditions)
     _require_few_points(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
