@@ -7,7 +7,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 BUILT := $(VENV)/.built
-FAST := $(addprefix tests/,core/test_house.py core/test_units.py core/test_errors.py surface rubber/test_shift.py theory)
+FAST := $(addprefix tests/,core/test_layout.py core/test_units.py core/test_errors.py surface rubber/test_shift.py theory)
 SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find rust -name '*.rs')
 
 .PHONY: run build test quick verify docs bench wheel clean
@@ -31,13 +31,13 @@ test: build
 	$(BIN)/python -m mypy.stubtest gripscale._kernel
 	$(BIN)/python -m pytest -q -n logical --maxprocesses 4 --dist worksteal
 
-# What a person runs while working, within a minute: style, types, and fast tests or those of ROOM.
+# What a person runs while working, within a minute: style, types, and fast tests or those of PART.
 quick: build
 	cargo fmt --check
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/python -m pytest -q -n logical --maxprocesses 4 $(if $(ROOM),$(ROOM),$(FAST))
+	$(BIN)/python -m pytest -q -n logical --maxprocesses 4 $(if $(PART),$(PART),$(FAST))
 
 verify: build
 	$(BIN)/python -m pytest -q -m verification

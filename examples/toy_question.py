@@ -2,7 +2,7 @@
 
 A question is a function of a case that returns a `Result`. The class says what the result holds in
 words, as a table and on its page; `gs.load` gives a saved one back once the room is registered. A
-question of the package is a folder with the same parts, and its line in `ROOMS`. Run as
+question of the package is a package with the same parts, and its line in `QUESTIONS`. Run as
 `python examples/toy_question.py [FOLDER]`.
 """
 
@@ -19,7 +19,7 @@ import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.core.finding import Finding
 from gripscale.io.table import Column, Table
-from gripscale.questions.registry import ROOMS
+from gripscale.questions.registry import QUESTIONS
 from gripscale.questions.result import Result
 from gripscale.report.elements import Card, Page, Section
 
@@ -63,7 +63,7 @@ class ContactPressure(Result):
         return Page("Pressure in the contact", "", self.findings, [card], [table])
 
 
-ROOMS.append(__name__)
+QUESTIONS.append(__name__)
 
 
 def contact_pressure(case: gs.Case) -> ContactPressure:

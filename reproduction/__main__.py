@@ -9,14 +9,20 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from gripscale.core.errors import ConvergenceError, GripscaleError
+from gripscale.core.errors import ConvergenceError, GripscaleError, InputError
+from gripscale.core.units import si_value
 from gripscale.experiment import Progress
+from gripscale.questions.terminal import surface_keys
+from gripscale.questions.vary.axis import axis_value
+from reproduction.inputs import OwnInputs
 from reproduction.run import FIGURES, chosen, reproduce
-from reproduction.statement import Statement
+from reproduction.statement import Statement, count
 
 WIDTH = 100
 BAD_INPUT, NOT_CONVERGED, STOPPED = 2, 3, 130
 """Exit codes, as those of `gripscale`."""
+FEWEST_PAIRS = 3
+"""Pairs of magnification factors."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -35,29 +41,79 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="reproduction",
+        prog="gripscale reproduce",
         description="Reproduce figures of Lind & Wangenheim 2014 and judge the paper's statements.",
     )
-    parser.add_argument("figures", nargs="*", help=f"{' '.join(FIGURES)}; all by default")
-    parser.add_argument(
-        "--output", type=Path, default=Path("results/reproduction"), help="folder for the results"
+    add, add_own = parser.add_argument, parser.add_argument_group("own inputs").add_argument
+    add("figures", nargs="*", help=f"{' '.join(FIGURES)}; all by default")
+    add("--output", type=Path, default=Path("results/reproduction"), help="folder for the results")
+    add("--data", type=Path, help="folder of the example data")
+    add("--workers", type=int, help="cores to use; all by default")
+    add("--cluster", help='"local", or the address of a Dask scheduler: tcp://host:8786')
+    two: dict[str, object] = {"nargs": 2, "metavar": ("A", "B"), "default": ()}
+    add_own(
+        "--surface",
+        help="two surfaces: profiles, cases (their surface) or surfaces known by name; all figures "
+        "with a single surface show A",
+        **two,  # type: ignore[arg-type]
     )
-    parser.add_argument("--data", type=Path, help="folder of the example data")
-    parser.add_argument("--workers", type=int, help="cores to use; all by default")
-    parser.add_argument(
-        "--cluster", help='"local", or the address of a Dask scheduler: tcp://host:8786'
+    add_own(
+        "--rubber",
+        help="two rubbers: files of moduli, cases (their rubber and temperature) or rubbers known "
+        "by name; all figures with a single rubber show A",
+        **two,  # type: ignore[arg-type]
     )
+    add_own(
+        "--factors",
+        help="magnification factors of wavelength and amplitude, such as 3.5/2.4,3/2.2,6/3; by "
+        "default those, with amplitudes fitted to a measured surface",
+    )
+    add_own(
+        "--smallest-wavelength",
+        help='of profiles, such as "0.1 mm"; by default where the measurement ends',
+    )
+    add_own("--x-unit", help="where the file of a profile does not state it")
+    add_own("--z-unit", help="where the file of a profile does not state it")
+    add_own("--channel", help="channel or column of heights; title or number")
+    add_own("--crop", nargs=2, metavar=("FROM", "TO"), help='such as "120 mm" "1780 mm"')
+    add_own("--modulus", choices="EG", help="Young or shear, of a file that does not state it")
+    add_own("--temperature", help='of rubbers with a shift, such as "20 C"')
     return parser
 
 
+def _own_inputs(asked: argparse.Namespace) -> OwnInputs:
+    pairs = asked.factors.split(",") if asked.factors else ()
+    factors = tuple(axis_value("factors", pair) for pair in pairs)
+    if 0 < len(factors) < FEWEST_PAIRS:
+        raise InputError(
+            f"--factors must be {FEWEST_PAIRS} pairs or more, the worst fit of which is compared "
+            f"with the others; got {asked.factors}"
+        )
+    return OwnInputs(
+        tuple(asked.surface),
+        tuple(asked.rubber),
+        factors,
+        surface_keys(
+            x_unit=asked.x_unit,
+            z_unit=asked.z_unit,
+            channel=asked.channel,
+            crop=asked.crop,
+            smallest_wavelength=asked.smallest_wavelength,
+        ),
+        {"modulus": asked.modulus} if asked.modulus else {},
+        si_value("--temperature", asked.temperature, "K"),
+    )
+
+
 def _reproduce(asked: argparse.Namespace) -> None:
-    names = chosen(asked.figures or ["all"])
+    names, own = chosen(asked.figures or ["all"]), _own_inputs(asked)
     print(f"Reproducing {', '.join(names)}", flush=True)
     start = time.perf_counter()
     statements = reproduce(
         names,
         asked.output,
         data=asked.data,
+        own=own,
         workers=asked.workers,
         client=asked.cluster,
         on_task=_tell_progress,
@@ -65,9 +121,7 @@ def _reproduce(asked: argparse.Namespace) -> None:
     print()
     for statement in statements:
         _tell(statement)
-    held = sum(statement.holds for statement in statements)
-    seconds = time.perf_counter() - start
-    print(f"\n{held} of {len(statements)} statements hold; {seconds:.0f} s")
+    print(f"\n{count(statements)}; {time.perf_counter() - start:.0f} s")
     print(f"Figures, data and statements.md are in {asked.output}")
 
 
@@ -80,7 +134,8 @@ def _tell_progress(progress: Progress) -> None:
 
 def _tell(statement: Statement) -> None:
     """Print one statement: verdict, what was said, what came out, why not."""
-    print(f"{statement.figure}: {statement.verdict.upper()}: {statement.said}")
+    head = f"{statement.figure}: {statement.verdict.upper()}: {statement.said}"
+    print(textwrap.fill(head, WIDTH, subsequent_indent="    "))
     for label, text in (
         ("at", statement.where),
         ("number", statement.number),

@@ -17,48 +17,60 @@ from gripscale.core.units import MEGA, MILLI, SQUARE_MM
 from gripscale.rubber import MasterCurve, Rubber
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
 
-Quantity = Literal["area", "friction", "running_friction"]
+Quantity = Literal["area", "friction"]
 Predictions = Mapping[str, xr.Dataset]
 
 LAG = PlotAxis("lag $l$ [mm]", log=True)
 CORRELATION = PlotAxis("height difference correlation $C_z$ [mm$^2$]", log=True)
 MARKERS = "osD^vP*"
+SLOWEST = 1e-2
+"""Of the angular frequencies shown [rad/s]."""
 QUANTITIES: dict[str, tuple[str, PlotAxis]] = {
     "area": (
         "running_contact_fraction",
         PlotAxis("relative contact area $A_r/A_0$ [-]", log=True),
     ),
-    "friction": ("friction", PlotAxis("friction coefficient of each wave $\\mu_i$ [-]", low=0.0)),
-    "running_friction": (
-        "running_friction",
-        PlotAxis("friction coefficient, sum of the waves [-]", low=0.0),
-    ),
+    "friction": ("friction", PlotAxis("friction of each wave $\\mu_i$ [-]", low=0.0)),
 }
 
 
 def master_curves_figure(
     rubbers: Mapping[str, Rubber], measured: Mapping[str, MasterCurve]
 ) -> Figure:
-    """Draw storage and loss modulus of compounds, with the points measured of them."""
+    """Draw storage and loss modulus of compounds, with the points measured of them.
+
+    Slower than 0.01 rad/s, where no wave excites the rubber, they are left out.
+    """
     storage: list[Mark] = []
     loss: list[Mark] = []
     for (name, rubber), colour in zip(rubbers.items(), COLOURS, strict=False):
-        omega = np.geomspace(*(rubber.valid_band or (1e-2, 1e12)), 400)
+        low, high = rubber.valid_band or (SLOWEST, 1e12)
+        omega = np.geomspace(max(low, SLOWEST), high, 400)
         modulus = rubber.complex_modulus(omega) / MEGA
         for marks, part in ((storage, modulus.real), (loss, modulus.imag)):
-            marks.append(Series(omega, part, colour, f"{name}, Prony series"))
+            marks.append(Series(omega, part, colour, name))
         if name in measured:
             rows = measured[name]
+            shown = rows.angular_frequency >= SLOWEST
             for marks, values in ((storage, rows.storage), (loss, rows.loss)):
-                label = f"{name}, measured"
-                marks.append(Series(rows.angular_frequency, values / MEGA, colour, label, "",
-                                    marker=".", size=3.0, alpha=0.5))  # fmt: skip
+                points = rows.angular_frequency[shown], values[shown] / MEGA
+                marks.append(Series(*points, colour, dash="", marker=".", size=3.0, alpha=0.5))
     omega_axis = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)
     panels = [
         Panel(omega_axis, PlotAxis("storage modulus $E'$ [MPa]", log=True), storage),
         Panel(omega_axis, PlotAxis("loss modulus $E''$ [MPa]", log=True), loss),
     ]
-    return Sheet(panels, height=3.3, legend="below").on_paper()
+    return Sheet(panels, height=3.3, legend="below", legend_columns=4).on_paper()
+
+
+def both_correlations_figure(curves: Mapping[str, HeightDifference]) -> Figure:
+    """Draw C_z of several surfaces in one panel."""
+    marks = [
+        Series(curve.lag / MILLI, curve.value / SQUARE_MM, colour, name, marker=marker, size=3.5)
+        for (name, curve), colour, marker in zip(curves.items(), COLOURS, MARKERS, strict=False)
+    ]
+    panel = Panel(LAG, CORRELATION, marks, legend="lower right")
+    return Sheet([panel], 1, NARROW, height=3.5, legend="").on_paper()
 
 
 def correlations_figure(
@@ -130,7 +142,8 @@ def predictions_figure(
     ordered
         Whether the lines are in an order (such as speeds), to be seen in their colours.
     """
-    several = len(panels) > 1
+    several, columns = len(panels) > 1, 3 if len(panels) == 3 else min(len(panels), 2)
+    rows = -(-len(panels) // columns)
     alike = len({tuple(predictions) for predictions in panels.values()}) == 1
     drawn = []
     for (name, predictions), quantity in zip(panels.items(), quantities, strict=True):
@@ -140,18 +153,24 @@ def predictions_figure(
             wavelength_axis(np.concatenate(lengths)),
             axis,
             list(_lines(predictions, variable, ordered=ordered)),
-            name if several else "",
+            _broken(name, 40) if several else "",
             legend="" if alike else "best",
         ))  # fmt: skip
     return Sheet(
         drawn,
-        len(drawn),
-        WIDE if several else NARROW,
-        height=3.5,
+        columns,
+        WIDE * (1.3 if columns == 3 else 1.0) if several else NARROW,
+        height=3.5 if rows == 1 else 2.8 * rows,
         legend="below" if alike else "",
         legend_columns=6 if several else 3,
-        title=textwrap.fill(title, 100 if several else 64),
+        title=_broken(title, 100 if several else 64),
     ).on_paper()
+
+
+def _broken(title: str, most: int) -> str:
+    """Return a title in lines of about equal length, at most `most` letters each."""
+    lines = -(-len(title) // most)
+    return textwrap.fill(title, min(most, len(title) // lines + 8))
 
 
 def _lines(predictions: Predictions, variable: str, *, ordered: bool) -> Iterator[Mark]:

@@ -17,36 +17,35 @@ from gripscale.wave.result import LW
 from reproduction import judge_area, judge_friction, judge_inputs
 from reproduction.draw import (
     Quantity,
+    both_correlations_figure,
     correlations_figure,
     factors_figure,
     master_curves_figure,
     predictions_figure,
 )
-from reproduction.inputs import DENSE, ROAD, TREAD, Inputs
+from reproduction.inputs import Inputs
 from reproduction.panels import Solved
 from reproduction.statement import Statement
 
 TITLES = {
     "fig2": "Master curves of the compounds",
-    "fig3b": "Height difference correlation",
+    "fig3b": "Height difference correlation and its power law",
     "fig4": "Sine waves with one and two magnification factors",
-    "fig5a": "Contact area for three pairs of factors, static, 3 bar, filled tread",
-    "fig5b": "Contact area for three pairs of factors, 300 mm/s, 3 bar, filled tread",
-    "fig6a": "Contact area and sliding speed, 3 bar, measured coarse road",
-    "fig6b": "Contact area of two compounds, 300 mm/s, 3 bar, measured coarse road",
-    "fig7a": "Contact area on two surfaces, 300 mm/s, 3 bar, filled tread",
-    "fig7b": "Contact area on two surfaces, 3000 mm/s, 3 bar, filled tread",
-    "fig8a": "Friction for three pairs of factors, 300 mm/s, 3 bar, filled tread",
-    "fig8b": "Friction and sliding speed, 3 bar, measured coarse road",
-    "fig9a": "Friction of two compounds, 3 bar, measured coarse road",
-    "fig9b": "Friction and contact area on two surfaces, 300 mm/s, 3 bar, filled tread",
+    "fig5a": "Contact area for pairs of magnification factors, static, 3 bar, {rubber}",
+    "fig5b": "Contact area for pairs of magnification factors, 300 mm/s, 3 bar, {rubber}",
+    "fig6a": "Contact area and sliding speed, 3 bar, {rubber}, {surface}",
+    "fig6b": "Contact area of two compounds, 3000 mm/s, 3 bar, {surface}",
+    "fig7a": "Height difference correlation of both surfaces",
+    "fig7b": "Contact area on two surfaces, 300 mm/s, 3 bar, {rubber}",
+    "fig8a": "Friction for pairs of magnification factors, 300 mm/s, 3 bar, {rubber}",
+    "fig8b": "Friction and sliding speed, 3 bar, {surface}",
+    "fig9a": "Friction of two compounds, 3 bar, {surface}",
+    "fig9b": "Friction and contact area on two surfaces, 300 mm/s, 3 bar, {rubber}",
 }
 """All figures, with what stands above them."""
 
 FEWEST_WAVES = 3
 """Converged waves a prediction must have for its figure to be judged."""
-
-INPUT_FIGURES = ("fig2", "fig3b", "fig4")
 
 
 @dataclass(frozen=True)
@@ -58,16 +57,23 @@ class Made:
     statements: list[Statement]
 
 
+def title_of(name: str, inputs: Inputs) -> str:
+    """Return what stands above a figure."""
+    return TITLES[name].format(rubber=inputs.rubber, surface=inputs.surface)
+
+
 def make(name: str, inputs: Inputs, solved: Solved, rest: Solved) -> Made:
     """Return a figure from its predictions; `rest` are those of Fig. 5a, which 5b compares with."""
-    if name in INPUT_FIGURES:
-        made = {"fig2": _fig2, "fig3b": _fig3b, "fig4": _fig4}[name](inputs)
+    of_inputs = {"fig2": _fig2, "fig3b": _fig3b, "fig4": _fig4, "fig7a": _fig7a}
+    title = title_of(name, inputs)
+    if name in of_inputs:
+        made = of_inputs[name](inputs)
     else:
-        figure = _picture(name, solved)
+        figure = _picture(name, title, solved)
         made = Made(figure, _predictions_data(solved), _judge(name, inputs, solved, rest))
-    attrs = {"title": f"{name}: {TITLES[name]}", "after": LW, "software": software()}
+    attrs = {"title": f"{name}: {title}", "after": LW, "software": software()}
     surfaces = "; ".join(f"{name}: {each.source}" for name, each in inputs.surfaces.items())
-    rubbers = "; ".join(f"{rubber}: {each.source}" for rubber, each in inputs.rubbers.items())
+    rubbers = "; ".join(f"{name}: {each.source}" for name, each in inputs.rubbers.items())
     said = json.dumps([[s.said, s.where, s.number, s.verdict] for s in made.statements])
     data = made.data.assign_attrs(attrs, surfaces=surfaces, rubbers=rubbers, statements=said)
     return Made(made.figure, data, made.statements)
@@ -84,28 +90,27 @@ def self_affine(inputs: Inputs) -> dict[str, SelfAffineFit]:
     return fits
 
 
-def _picture(name: str, solved: Solved) -> Figure:
+def _picture(name: str, title: str, solved: Solved) -> Figure:
     if name == "fig9b":
-        (state, predictions), *_ = solved.items()
+        ((state, predictions),) = solved.items()
         both = {f"friction, {state}": predictions, f"contact area, {state}": predictions}
-        return predictions_figure(both, ("running_friction", "area"), TITLES[name])
+        return predictions_figure(both, ("friction", "area"), title)
     quantity: Quantity = "friction" if name in ("fig8a", "fig8b", "fig9a") else "area"
     ordered = name in ("fig6a", "fig8b")
-    return predictions_figure(solved, [quantity] * len(solved), TITLES[name], ordered=ordered)
+    return predictions_figure(solved, [quantity] * len(solved), title, ordered=ordered)
 
 
 def _judge(name: str, inputs: Inputs, solved: Solved, rest: Solved) -> list[Statement]:
     judges: Mapping[str, Callable[[], list[Statement]]] = {
-        "fig5a": lambda: judge_area.judge_progression(name, solved),
+        "fig5a": lambda: judge_area.judge_progression(name, solved, inputs),
         "fig5b": lambda: [
-            *judge_area.judge_progression(name, solved),
-            *judge_area.judge_motion(rest, solved),
+            *judge_area.judge_progression(name, solved, inputs),
+            *judge_area.judge_motion(rest, solved, inputs),
         ],
-        "fig6a": lambda: judge_area.judge_speed(solved),
-        "fig6b": lambda: judge_area.judge_stiffness(solved),
-        "fig7a": lambda: judge_area.judge_surfaces(name, solved),
-        "fig7b": lambda: judge_area.judge_surfaces(name, solved),
-        "fig8a": lambda: judge_friction.judge_factors_friction(solved),
+        "fig6a": lambda: judge_area.judge_speed(solved, inputs),
+        "fig6b": lambda: judge_area.judge_stiffness(solved, inputs),
+        "fig7b": lambda: judge_area.judge_surfaces(solved, inputs),
+        "fig8a": lambda: judge_friction.judge_factors_friction(solved, inputs),
         "fig8b": lambda: judge_friction.judge_speed_friction(solved, inputs),
         "fig9a": lambda: judge_friction.judge_compounds(solved, inputs),
         "fig9b": lambda: judge_friction.judge_surface_friction(solved, inputs),
@@ -118,7 +123,8 @@ def _judge(name: str, inputs: Inputs, solved: Solved, rest: Solved) -> list[Stat
     ]
     if failed:
         criterion = f"at least {FEWEST_WAVES} waves of every chain converge"
-        return [Statement(name, TITLES[name], "not judged", criterion, failed[0], False, "solver")]
+        said = f"all statements about {title_of(name, inputs)}"
+        return [Statement(name, said, failed[0].split(":")[0], criterion, failed[0], None)]
     return judges[name]()
 
 
@@ -141,30 +147,40 @@ def _predictions_data(solved: Solved) -> xr.Dataset:
 def _fig2(inputs: Inputs) -> Made:
     omega = np.geomspace(1e-2, 1e13, 451)
     attrs = {"units": "Pa", "long_name": "Young's modulus of the Prony series"}
-    modulus = np.array([r.complex_modulus(omega) for r in inputs.rubbers.values()])
+    rubbers = inputs.rubbers
+    measured = {n: c.master for n, c in inputs.compounds.items() if c.master is not None}
+    modulus = np.array([rubber.complex_modulus(omega) for rubber in rubbers.values()])
     data = xr.Dataset(
         {
             "storage_modulus": (("rubber", "angular_frequency"), modulus.real, attrs),
             "loss_modulus": (("rubber", "angular_frequency"), modulus.imag, attrs),
-            "measured_storage_modulus": ("measured", inputs.master.storage, {"units": "Pa"}),
-            "measured_loss_modulus": ("measured", inputs.master.loss, {"units": "Pa"}),
         },
         coords={
-            "rubber": np.array(list(inputs.rubbers), dtype=object),
+            "rubber": np.array(list(rubbers), dtype=object),
             "angular_frequency": ("angular_frequency", omega, {"units": "rad/s"}),
-            "measured": ("measured", inputs.master.angular_frequency, {"units": "rad/s"}),
         },
     )
-    figure = master_curves_figure(inputs.rubbers, {TREAD: inputs.master})
+    for i, (name, rows) in enumerate(measured.items(), start=1):
+        dim, at = f"row_{i}", {"units": "Pa", "of": name}
+        data[f"measured_storage_modulus_{i}"] = (dim, rows.storage, at)
+        data[f"measured_loss_modulus_{i}"] = (dim, rows.loss, at)
+        data[f"measured_frequency_{i}"] = (dim, rows.angular_frequency, {"units": "rad/s"})
+    figure = master_curves_figure(rubbers, measured)
     return Made(figure, data, judge_inputs.judge_master_curves(inputs))
 
 
+def _correlation_data(inputs: Inputs) -> dict[str, xr.DataArray]:
+    return {
+        f"C_z_{i}": _curve(curve.lag, curve.value, f"lag_{i}", road)
+        for i, road in enumerate(inputs.surfaces, start=1)
+        for curve in [inputs.correlation(road)]
+    }
+
+
 def _fig3b(inputs: Inputs) -> Made:
-    curves = {road: inputs.correlation(road) for road in (ROAD, DENSE)}
-    fits = self_affine(inputs)
-    data: dict[str, xr.DataArray] = {}
+    curves = {road: inputs.correlation(road) for road in inputs.surfaces}
+    fits, data = self_affine(inputs), _correlation_data(inputs)
     for i, (road, curve) in enumerate(curves.items(), start=1):
-        data[f"C_z_{i}"] = _curve(curve.lag, curve.value, f"lag_{i}", road)
         if road in fits:
             data[f"eq_6_{i}"] = _curve(curve.lag, fits[road].evaluate(curve.lag), f"lag_{i}", road)
     figure = correlations_figure(curves, fits)
@@ -172,22 +188,26 @@ def _fig3b(inputs: Inputs) -> Made:
 
 
 def _fig4(inputs: Inputs) -> Made:
-    curves = {road: inputs.correlation(road) for road in (DENSE, ROAD)}
+    curves = {road: inputs.correlation(road) for road in inputs.surfaces}
     stacks: dict[str, dict[str, SineStack]] = {}
-    data: dict[str, xr.DataArray] = {}
+    data = _correlation_data(inputs)
     for i, (road, curve) in enumerate(curves.items(), start=1):
         two, one = judge_inputs.single_factor(inputs, road)
         stacks[road] = {
-            **inputs.magnified(road),
+            **inputs.stacks[road],
             f"{two.s_wavelength:.2f}/{two.s_amplitude:.2f}, all fitted": two,
             f"{one.s_wavelength:.2f}, one factor": one,
         }
-        data[f"C_z_{i}"] = _curve(curve.lag, curve.value, f"lag_{i}", road)
         for j, (name, stack) in enumerate(stacks[road].items(), start=1):
             waves = stack.height_difference(curve.lag)
             data[f"C_z_{i}_waves_{j}"] = _curve(curve.lag, waves, f"lag_{i}", f"{road}, {name}")
     figure = factors_figure(curves, stacks)
     return Made(figure, xr.Dataset(data), judge_inputs.judge_factors(inputs))
+
+
+def _fig7a(inputs: Inputs) -> Made:
+    curves = {road: inputs.correlation(road) for road in inputs.surfaces}
+    return Made(both_correlations_figure(curves), xr.Dataset(_correlation_data(inputs)), [])
 
 
 def _curve(lag: np.ndarray, value: np.ndarray, dim: str, of: str) -> xr.DataArray:

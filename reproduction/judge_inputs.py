@@ -7,9 +7,9 @@ import math
 import numpy as np
 
 from gripscale.core.errors import InputError
-from gripscale.rubber import springpot_modulus
+from gripscale.rubber import springpot_modulus, styrene_butadiene
 from gripscale.surface import SineStack, fit_self_affine, fit_sines
-from reproduction.inputs import DENSE, PAPER_FACTORS, ROAD, SBR, TREAD, Inputs
+from reproduction.inputs import PAPER_FACTORS, Compound, Inputs
 from reproduction.statement import Statement
 
 MODULUS_ERROR = 0.10
@@ -19,32 +19,48 @@ TWO_FACTORS_RESIDUAL, ONE_FACTOR_RATIO = 0.1, 1.5
 
 def judge_master_curves(inputs: Inputs) -> list[Statement]:
     """Judge whether a generalized Maxwell solid has the moduli of each compound (Fig. 2)."""
-    sbr = inputs.rubbers[SBR]
-    low, high = sbr.valid_band or (1e-2, 1e10)
-    omega = np.geomspace(low, high, 200)
-    ratio = sbr.complex_modulus(omega)
-    wanted = springpot_modulus(omega)
-    errors = {
-        TREAD: (inputs.prony.rms_storage, inputs.prony.rms_loss),
-        SBR: (_rms(ratio.real / wanted.real), _rms(ratio.imag / wanted.imag)),
-    }
     return [
-        Statement(
-            "fig2",
-            "a generalized Maxwell (Prony) solid reproduces the master curve",
-            name,
-            f"rms error of E' and E'' at most {MODULUS_ERROR:.0%}: friction is proportional to "
-            "E'' at full contact, so it is off by no more",
-            f"E' {storage:.1%}, E'' {loss:.1%}",
-            max(storage, loss) <= MODULUS_ERROR,
-        )
-        for name, (storage, loss) in errors.items()
+        _maxwell(name, compound, errors)
+        for name, compound in inputs.compounds.items()
+        if (errors := _modulus_errors(compound)) is not None
     ]
+
+
+def _modulus_errors(compound: Compound) -> tuple[float, float] | None:
+    """Return the rms errors of E' and E''; None of a series that came without its moduli."""
+    if compound.fit is not None:
+        return compound.fit.rms_storage, compound.fit.rms_loss
+    if compound.rubber != styrene_butadiene():
+        return None
+    omega = np.geomspace(*(compound.rubber.valid_band or (1e-2, 1e10)), 200)
+    found, wanted = compound.rubber.complex_modulus(omega), springpot_modulus(omega)
+    return _rms(found.real / wanted.real), _rms(found.imag / wanted.imag)
+
+
+def _maxwell(name: str, compound: Compound, errors: tuple[float, float]) -> Statement:
+    storage, loss = errors
+    holds = max(errors) <= MODULUS_ERROR
+    why = "the rows scatter about the best series"
+    if compound.fit is not None and compound.fit.inconsistencies:
+        why = (
+            "no linear solid has the measured E' and E'' of "
+            f"{len(compound.fit.inconsistencies)} stretches of frequency (Kramers-Kronig)"
+        )
+    return Statement(
+        "fig2",
+        "a generalized Maxwell (Prony) solid reproduces the master curve",
+        name,
+        f"rms error of E' and E'' at most {MODULUS_ERROR:.0%}: friction is proportional to "
+        "E'' at full contact, so it is off by no more",
+        f"E' {storage:.1%}, E'' {loss:.1%}",
+        holds,
+        why,
+    )
 
 
 def judge_correlation(inputs: Inputs) -> list[Statement]:
     """Judge whether C_z is a power law below a cut-off and constant above it (Fig. 3b)."""
-    return [_self_affine(inputs, road) for road in (ROAD, DENSE)]
+    return [_self_affine(inputs, road) for road in inputs.surfaces]
 
 
 def _self_affine(inputs: Inputs, road: str) -> Statement:
@@ -64,12 +80,13 @@ def _self_affine(inputs: Inputs, road: str) -> Statement:
         f"xi_parallel = {fit.xi_parallel * 1e3:.2f} mm, "
         f"xi_perpendicular = {fit.xi_perpendicular * 1e3:.2f} mm"
     )
-    return Statement("fig3b", said, road, criterion, number, holds)
+    why = "the surface is not self-affine over that much"
+    return Statement("fig3b", said, road, criterion, number, holds, why)
 
 
 def single_factor(inputs: Inputs, road: str) -> tuple[SineStack, SineStack]:
     """Return waves fitted with two factors and with one, same number and smallest wavelength."""
-    stack = next(iter(inputs.magnified(road).values()))
+    stack = next(iter(inputs.stacks[road].values()))
     both = [
         fit_sines(
             inputs.correlation(road),
@@ -85,22 +102,25 @@ def single_factor(inputs: Inputs, road: str) -> tuple[SineStack, SineStack]:
 def judge_factors(inputs: Inputs) -> list[Statement]:
     """Judge whether two factors fit C_z and one does not, and the order of the pairs (Fig. 4)."""
     statements = []
-    for road in (DENSE, ROAD):
+    for road in inputs.surfaces:
         two, one = (float(stack.residual or math.nan) for stack in single_factor(inputs, road))
         statements.append(_one_or_two(inputs, road, two, one))
-    residuals = {name: s.residual or math.nan for name, s in inputs.magnified(DENSE).items()}
-    worst = max(residuals, key=lambda name: residuals[name])
-    last = "/".join(f"{part:g}" for part in PAPER_FACTORS[-1])
-    statements.append(
-        Statement(
-            "fig4",
-            "of (3.5, 2.4), (3, 2.2) and (6, 3) the last fits C_z worst",
-            f"{DENSE}, the paper's factors",
-            "largest rms residual of the three",
-            ", ".join(f"{name}: {value:.3f} decades" for name, value in residuals.items()),
-            worst == last,
+    for road, stacks in inputs.stacks.items():
+        *_, last = stacks
+        holds = inputs.worst_fit(road) == last
+        residuals = ", ".join(f"{name}: {s.residual:.3f}" for name, s in stacks.items())
+        statements.append(
+            Statement(
+                "fig4",
+                "of the pairs of factors, (3.5, 2.4), (3, 2.2) and (6, 3) in the paper, the last "
+                "fits C_z worst",
+                road,
+                "largest rms residual of all",
+                f"{residuals} decades",
+                holds,
+                f"{inputs.worst_fit(road)} fits worst",
+            )
         )
-    )
     return statements
 
 
@@ -110,9 +130,11 @@ def _one_or_two(inputs: Inputs, road: str, two: float, one: float) -> Statement:
     holds = two <= TWO_FACTORS_RESIDUAL and one >= ONE_FACTOR_RATIO * two
     paper = math.log(PAPER_FACTORS[0][1]) / math.log(PAPER_FACTORS[0][0])
     why = (
-        f"different inputs: amplitudes fall as wavelength^{exponent:.2f} on this road, so one "
+        f"amplitudes fall as wavelength^{exponent:.2f} on this road, so one "
         f"factor (exponent 1) is nearly right; on the paper's asphalt the exponent is {paper:.2f}"
     )
+    if two > TWO_FACTORS_RESIDUAL:
+        why = "waves of constant factors do not follow C_z of this surface"
     return Statement(
         "fig4",
         "two magnification factors fit C_z, one for both lengths does not",
@@ -121,7 +143,7 @@ def _one_or_two(inputs: Inputs, road: str, two: float, one: float) -> Statement:
         f"height), with one at least {ONE_FACTOR_RATIO:g} times as much",
         f"two: {two:.3f}, one: {one:.3f} decades ({one / two:.2f} times)",
         holds,
-        "" if holds else why,
+        why,
     )
 
 

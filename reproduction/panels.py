@@ -8,17 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.experiment import Task
-from reproduction.inputs import (
-    DENSE,
-    FAST,
-    FASTEST,
-    ROAD,
-    SBR,
-    SPEED,
-    SPEEDS,
-    TREAD,
-    Inputs,
-)
+from reproduction.inputs import FAST, SPEED, SPEEDS, Inputs
 
 Panels = dict[str, dict[str, Task]]
 """Predictions by panel of a figure and by name of the line."""
@@ -34,33 +24,37 @@ def speed_name(speed: float) -> str:
     return f"{speed * 1e3:g} mm/s" if speed > 0.0 else STATIC
 
 
+def pair_name(pair: tuple[str, str], speed: float) -> str:
+    """Return what a panel of two compounds at one speed is called."""
+    return f"{pair[1]} and {pair[0]}, {speed_name(speed)}"
+
+
 def panels_of(figure: str, inputs: Inputs) -> Panels:
     """Return the predictions of a figure by panel and line; none for figures of the inputs."""
+    surface, rubber = inputs.surface, inputs.rubber
     if figure in ("fig5a", "fig5b", "fig8a"):
         speed = 0.0 if figure == "fig5a" else SPEED
         return {
-            surface: {
-                name: inputs.task(surface, TREAD, speed, stack)
-                for name, stack in inputs.magnified(surface).items()
-            }
-            for surface in (DENSE, ROAD)
+            road: {name: inputs.task(road, rubber, speed, stack) for name, stack in stacks.items()}
+            for road, stacks in inputs.stacks.items()
         }
     if figure == "fig6a":
-        return {TREAD: {speed_name(v): inputs.task(ROAD, TREAD, v) for v in (0.0, *SPEEDS)}}
+        return {rubber: {speed_name(v): inputs.task(surface, rubber, v) for v in (0.0, *SPEEDS)}}
     if figure == "fig8b":
         return {
-            rubber: {speed_name(v): inputs.task(ROAD, rubber, v) for v in SPEEDS}
-            for rubber in (SBR, TREAD)
+            compound: {speed_name(v): inputs.task(surface, compound, v) for v in SPEEDS}
+            for compound in (rubber, *(second for _, second in inputs.pairs))
         }
     if figure in ("fig6b", "fig9a"):
-        speeds = (SPEED,) if figure == "fig6b" else (SPEED, FAST, FASTEST)
+        pairs = inputs.pairs[:1] if figure == "fig6b" else inputs.pairs
+        speeds = (FAST,) if figure == "fig6b" else (SPEED, FAST)
         return {
-            speed_name(v): {rubber: inputs.task(ROAD, rubber, v) for rubber in (TREAD, SBR)}
+            pair_name(pair, v): {compound: inputs.task(surface, compound, v) for compound in pair}
+            for pair in pairs
             for v in speeds
         }
-    if figure in ("fig7a", "fig7b", "fig9b"):
-        speed = FAST if figure == "fig7b" else SPEED
-        return {speed_name(speed): {r: inputs.task(r, TREAD, speed) for r in (ROAD, DENSE)}}
+    if figure in ("fig7b", "fig9b"):
+        return {speed_name(SPEED): {r: inputs.task(r, rubber, SPEED) for r in inputs.surfaces}}
     return {}
 
 

@@ -11,7 +11,7 @@ from gripscale.core import checks
 from gripscale.experiment import Bench, Progress, Store, Task
 from gripscale.io import netcdf
 from reproduction.figures import TITLES, make
-from reproduction.inputs import DATA, read_inputs
+from reproduction.inputs import DATA, OwnInputs, read_inputs
 from reproduction.panels import Panels, panels_of, results_of
 from reproduction.statement import Statement, write_statements
 
@@ -27,6 +27,7 @@ def reproduce(
     output: str | Path = "results/reproduction",
     *,
     data: str | Path | None = None,
+    own: OwnInputs | None = None,
     workers: int | None = None,
     client: Any = None,
     on_task: Callable[[Progress], None] | None = None,
@@ -43,6 +44,8 @@ def reproduce(
         again.
     data
         Folder of the example data; by default the one beside this folder.
+    own
+        Surfaces, rubbers and factors in place of those of `reproduction.inputs`.
     workers, client, on_task
         As for `gripscale.experiment.Bench`.
 
@@ -54,10 +57,10 @@ def reproduce(
     Raises
     ------
     InputError, FileError
-        An unknown figure, data that are not there, a result that cannot be written.
+        An unknown figure, inputs that cannot be read or used, a result that cannot be written.
     """
     names = chosen(figures)
-    inputs = read_inputs(DATA if data is None else Path(data))
+    inputs = read_inputs(DATA if data is None else Path(data), own)
     wanted = {name: panels_of(name, inputs) for name in _with_needed(names)}
     store = Store(Path(output) / "predictions")
     solved = Bench(store, workers, client, on_task).solve(_labelled(wanted))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
+from itertools import groupby
 from pathlib import Path
 
 from gripscale.io.netcdf import write_whole
@@ -24,44 +25,58 @@ class Statement:
     """What has to come out for the statement to hold, and why that much."""
     number: str
     """What came out."""
-    holds: bool
+    holds: bool | None
+    """None where the inputs cannot judge it, such as waves that end before a maximum."""
     why_not: str = ""
-    """Where it does not hold: different inputs or another model, and what shows it."""
+    """What shows in the inputs or the predictions why it does not hold; empty where it holds."""
+
+    def __post_init__(self) -> None:
+        if self.holds:
+            object.__setattr__(self, "why_not", "")
 
     @property
     def verdict(self) -> str:
-        """`holds` or `does not hold`."""
-        return "holds" if self.holds else "does not hold"
+        """`holds`, `does not hold` or `not judged`."""
+        return {True: "holds", False: "does not hold", None: "not judged"}[self.holds]
+
+
+def count(statements: Sequence[Statement]) -> str:
+    """Return how many statements hold, as a sentence without its end."""
+    held, open_ = (sum(s.holds is verdict for s in statements) for verdict in (True, None))
+    words = f"{held} of {len(statements)} statements hold"
+    return words + (f", {open_} cannot be judged with these inputs" if open_ else "")
 
 
 def write_statements(statements: Sequence[Statement], folder: Path) -> list[Path]:
     """Write `statements.json` and `statements.md` into `folder`; return their paths."""
     table = [{**asdict(s), "verdict": s.verdict} for s in statements]
+    page = "# The paper's statements, and what came out\n\n"
+    page += f"Lind & Wangenheim 2014, IMECE2014-37998, Figs 2 to 9. {count(statements)}.\n"
     texts = {
         "statements.json": json.dumps(table, indent=1, ensure_ascii=False) + "\n",
-        "statements.md": as_markdown(statements),
+        "statements.md": page + as_markdown(statements, lambda figure: f"\n## {figure}\n"),
     }
     return [write_whole(folder / name, partial(_write, text)) for name, text in texts.items()]
 
 
-def as_markdown(statements: Sequence[Statement]) -> str:
-    """Return the statements as a table of a Markdown page."""
-    held = sum(s.holds for s in statements)
-    lines = [
-        "# The paper's statements, and what came out",
-        "",
-        "Lind & Wangenheim 2014, IMECE2014-37998, Figs 2 to 9. Its own data are not published:",
-        "a measured coarse road and a synthetic dense asphalt, a filled tread rubber and an",
-        f"unfilled SBR stand in for them. {held} of {len(statements)} statements hold.",
-        "",
-        "| figure | statement | looked for at | holds if | number | verdict |",
-        "|---|---|---|---|---|---|",
-    ]
-    for s in statements:
-        verdict = f"**{s.verdict}**" + (f": {s.why_not}" if s.why_not else "")
-        cells = (s.figure, s.said, s.where, s.criterion, s.number, verdict)
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines) + "\n"
+def as_markdown(statements: Sequence[Statement], heading: Callable[[str], str]) -> str:
+    """Return a table for each statement of each figure, below the `heading` of the figure."""
+    lines = []
+    for figure, of_figure in groupby(statements, lambda s: s.figure):
+        lines.append(heading(figure))
+        in_order = sorted(of_figure, key=lambda s: (s.said, s.criterion))
+        for (said, criterion), same in groupby(in_order, lambda s: (s.said, s.criterion)):
+            lines += [f"**{said[0].upper()}{said[1:]}.** Holds if: {criterion}.", ""]
+            lines += ["| at | number | verdict |", "|---|---|---|"]
+            lines += [_row(s) for s in same]
+            lines.append("")
+    return "\n".join(lines)
+
+
+def _row(statement: Statement) -> str:
+    why = f": {statement.why_not}" if statement.why_not else ""
+    cells = (statement.where, statement.number, f"**{statement.verdict}**{why}")
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
 
 
 def _write(text: str, path: Path) -> None:

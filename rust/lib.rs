@@ -11,7 +11,7 @@
 //! | `cancel` | whether to go on: a caller who stops, a time limit |
 //! | `executor` | the one file with rayon: work shared between threads, in parts that do not depend on them |
 //! | `spectral` | the one file with realfft: transforms, convolutions and correlations of lines |
-//! | `linear` | the one room with faer: dense LU, small complex blocks, sparse L D L^T, GMRES |
+//! | `linear` | the one module with faer: dense LU, small complex blocks, sparse L D L^T, GMRES |
 //! | `material` | kinematics, stress, strain energies, Maxwell elements and their memory |
 //! | `fem` | element, mesh, block, element rows, their Jacobian applied, averaged or assembled |
 //! | `contact` | profile, compliance of the averaged surface, linear complementarity, edges between nodes |

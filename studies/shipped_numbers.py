@@ -16,7 +16,7 @@ import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.estimate import large_strain_answer
-from gripscale.questions.answer.reliance import headline
+from gripscale.questions.answer.variables import answer_number
 from gripscale.questions.compare.page import with_half_widths
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -28,8 +28,8 @@ def of_run() -> dict[str, Any]:
     """Return what `gripscale run` answers."""
     data = answer(read_case(CASE)).data
     return {
-        "run: friction": str(headline(data, "friction")),
-        "run: contact area": str(headline(data, "contact_fraction")),
+        "run: friction": str(answer_number(data, "friction")),
+        "run: contact area": str(answer_number(data, "contact_fraction")),
     }
 
 

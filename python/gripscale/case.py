@@ -37,8 +37,8 @@ from gripscale.core.units import (
     stated_units,
 )
 from gripscale.experiment.measured_friction import MeasuredFriction
-from gripscale.experiment.task import canonical_json
-from gripscale.model import Load, LoadTime, load_doubts
+from gripscale.experiment.task import Task, canonical_json
+from gripscale.model import FOOTPRINT, Load, LoadTime, Model, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import (
@@ -53,6 +53,7 @@ from gripscale.surface import (
     height_difference,
 )
 from gripscale.surface.cut_off import CutOffRule, find_cut_off
+from gripscale.surface.long_waves import longest_held
 from gripscale.surface.surface import SURFACE_KIND, SURFACE_KINDS, SurfaceKind
 from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
@@ -140,6 +141,10 @@ class Case(Described):
         Thickness of the rubber on a rigid base [m]; without it the rubber has no end.
     smallest_wavelength : float or str, optional
         Shortest wave of the roughness that counts [m]; by default the shortest one measured.
+    longest_wavelength : float or str, optional
+        Longest wave that presses into the block [m]; longer ones are taken out of the profiles. By
+        default what the footprint holds, 1.5 times its length, where longer waves hold most of the
+        mean square height; a length beyond the profiles keeps all.
     kind : str
         What the surface is called in titles, one of `SURFACE_KINDS`.
     waves : int
@@ -188,6 +193,7 @@ class Case(Described):
         tester: str | None = None,
         thickness: Quantity | None = None,
         smallest_wavelength: Quantity | None = None,
+        longest_wavelength: Quantity | None = None,
         kind: SurfaceKind = "surface",
         waves: int = _WAVES,
         conditions: Conditions | None = None,
@@ -218,7 +224,7 @@ class Case(Described):
         }
         self.origin = origin or Origin(units=stated_units(tables))
         values: dict[str, Any] = {
-            name: getattr(preset, name, 0.1) if value is None else value
+            name: getattr(preset, name, FOOTPRINT) if value is None else value
             for name, value in chosen.items()
         }
         self.load = Load(**values, load_time=load_time, thickness=thickness)
@@ -247,12 +253,16 @@ class Case(Described):
         self._arguments = arguments
         end = si_value("smallest_wavelength", smallest_wavelength, "m")
         self.cleaning = {} if cleaning is None else _CLEANED_AS_USUAL | dict(cleaning)
-        self.surface = _surface(surface, end, waves, self.cleaning)
+        longest = si_value("longest_wavelength", longest_wavelength, "m")
+        held = longest, self.load.footprint
+        self.surface = _surface(surface, end, waves, self.cleaning, held)
+        measured = self.surface.measured
+        if self.cleaning and measured is not None:
+            self.cleaning["longest_wavelength"] = measured.longest
         self.below_measurement = below_measurement or BelowMeasurement()
         self.klueppel_heinrich = klueppel_heinrich
         self.friction = friction
         self.options = dict(options or {})
-        measured = self.surface.measured
         if conditions is not None and conditions.water and (measured is None or not measured.map):
             raise InputError(
                 "water needs a map: what closes a pool lies beside a line; got "
@@ -283,11 +293,16 @@ class Case(Described):
         """
         checks.allowed_names("argument of a case", changes, self._arguments)
         kept: dict[str, Any] = {"rubber": self.measured_rubber, "chain": self.chain}
-        if not {"smallest_wavelength", "waves", "cleaning"} & changes.keys():
+        described = {"smallest_wavelength", "longest_wavelength", "waves", "cleaning"}
+        if not described & changes.keys():
             kept["surface"] = self.surface
         # the text of a file is that of another case
         kept["origin"] = Origin(self.origin.name, units=self.origin.units)
         return Case(**(self._arguments | kept | changes))
+
+    def task(self, model: Model | None = None) -> Task:
+        """Return how the case is predicted: by a model as it stands, or by its chain of waves."""
+        return Task(self.rubber, self.surface, self.load, self.chain if model is None else model)
 
     @property
     def softening_doubts(self) -> Sequence[Finding]:
@@ -504,13 +519,18 @@ def described_surface(
     fit: Mapping[str, Any],
     cut_off: CutOffRule | None,
     source: str,
+    footprint: float | None = None,
 ) -> Surface:
     """Return a measured surface with its correlation and the sine waves that follow it.
 
     `counted` and `fit` are arguments of `height_difference` and `fit_sines`, `cut_off` says where
-    the roughness ends; None: where `fit` does. Raises `InputError` if the heights have no
+    the roughness ends; None: where `fit` does. Profiles lose waves that a `footprint` [m] does not
+    hold, if these are most of their heights. Raises `InputError` if the heights have no
     correlation, or no waves fit it.
     """
+    if footprint is not None and measured.map is None and measured.longest is None:
+        longest = longest_held(measured.cleaned, footprint)
+        measured = measured if longest is None else measured.without_long_waves(longest)
     try:
         correlation = height_difference(measured.followed, **counted)
     except InputError as error:  # a wrong unit may leave no heights
@@ -527,15 +547,22 @@ def described_surface(
 
 
 def _surface(
-    surface: SurfaceLike, end: float | None, waves: int, cleaning: Mapping[str, Any]
+    surface: SurfaceLike,
+    end: float | None,
+    waves: int,
+    cleaning: Mapping[str, Any],
+    held: tuple[float | None, float],
 ) -> Surface:
+    """Return a surface described; `held` are the longest wavelength, if stated, and footprint."""
+    longest, footprint = held
     if isinstance(surface, Surface):
         return surface
     if isinstance(surface, SineStack):
         return Surface(surface, "sine waves")
     if isinstance(surface, HeightMap):
-        if cleaning:
-            raise InputError("cleaning must be left out for a map: use gripscale.clean_map; got it")
+        if cleaning or longest is not None:
+            name = "cleaning" if cleaning else "longest_wavelength"
+            raise InputError(f"{name} must be left out for a map: use gripscale.clean_map; got it")
         measured, sources = Measured.of_map(surface, surface), [surface.source]
     else:
         lines = [surface] if isinstance(surface, Profile) else list(surface)
@@ -545,8 +572,12 @@ def _surface(
                 for number, line in enumerate(lines, start=1)
             ]
         measured = Measured.of_raw(lines, cleaning) if cleaning else Measured.of(lines)
+        if longest is not None:
+            measured = measured.without_long_waves(longest)
         sources = [line.source for line in lines]
     rule: CutOffRule | None = "instrument" if end is None else None
     fit = {"scales": waves, "smallest_wavelength": end}
     source = ", ".join(filter(None, sources))
-    return described_surface(measured, counted={}, fit=fit, cut_off=rule, source=source)
+    return described_surface(
+        measured, counted={}, fit=fit, cut_off=rule, source=source, footprint=footprint
+    )

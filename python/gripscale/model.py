@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 
 from gripscale.core import Checked, InputError, Status, checked, checks, display_unit, labelled
 from gripscale.core.finding import Finding, Topic, doubt, from_json, to_json
+from gripscale.core.units import unit_of
 from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
 
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 # Attribute of an answer: findings that it may be of another road, rubber or load.
 INPUT_DOUBTS = "input_doubts"
 # Loads of rubber on rough surfaces, with room: [Pa], [m/s], [m]. Others suggest a wrong unit.
+FOOTPRINT = 0.1  # length of the nominal contact where none is stated [m]
 PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-5, 10.0)}
 
 
@@ -86,10 +88,15 @@ def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[Finding
 LoadTime = Literal["passage"] | float
 
 
-def _load_time(name: str, value: Any) -> LoadTime:
-    if isinstance(value, str):
-        checks.one_of(name, value, ["passage"])
-        return "passage"
+LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
+
+
+def checked_load_time(name: str, value: Any) -> LoadTime:
+    """Return a load time [s], or "passage"; raise `InputError` for what is neither."""
+    if isinstance(value, str) and value in ("passage", "infinite"):
+        return "passage" if value == "passage" else math.inf
+    if isinstance(value, str) and not unit_of(value, "time"):
+        raise InputError(f"{name} must be {LOAD_TIME}; got {checks.short_repr(value)}")
     return checks.positive(name, value, unit="s", infinite=True)
 
 
@@ -117,7 +124,7 @@ class Load(Checked):
     pressure: float = checked(checks.positive, unit="Pa")
     speed: float = checked(checks.not_negative, unit="m/s")
     footprint: float = checked(checks.positive, unit="m")
-    load_time: LoadTime = checked(_load_time, default="passage")
+    load_time: LoadTime = checked(checked_load_time, default="passage")
     thickness: float | None = checked(checks.positive, unit="m", default=None)
 
     def time_under(self, contact_length: float) -> float:
@@ -214,7 +221,7 @@ def status_words(data: xr.Dataset, sentences: str = STATUS) -> xr.DataArray:
 
 # Names and meanings of the numbers every model answers with.
 TOTALS = {
-    "total_contact_fraction": "real over nominal contact area",
+    "total_contact_fraction": "real contact area",
     "total_friction": "friction coefficient",
     "total_friction_from_dissipation": "friction coefficient from the energy lost in the rubber",
 }

@@ -1,4 +1,4 @@
-//! Linear algebra, the only room that uses faer: dense LU, small complex blocks, sparse L D L^T, and GMRES
+//! Linear algebra, the only module that uses faer: dense LU, small complex blocks, sparse L D L^T, and GMRES
 //! for matrices that are never formed.
 
 mod dense;

@@ -141,11 +141,15 @@ WRONG = [
     (
         'speed = "300 mm/s"',
         'speed = 1\nload_time = "soon"',
-        "[load] load_time = 'soon': expected a",
+        'load_time must be "passage", "infinite" or a time such as "1 s"; got',
     ),
     ("scales = 8", "scales = 8.5", "[surface] scales = 8.5: expected a whole number"),
-    ("scales = 8", "scales = 0", "[surface] scales = 0: expected at least 1"),
-    ("scales = 8", "scales = 25", "[surface] scales = 25: expected at most 24"),
+    (
+        "scales = 8",
+        "scales = 0",
+        "[surface] scales = 0: expected a whole number, at least 1, at most 24",
+    ),
+    ("scales = 8", "scales = 25", "scales = 25: expected a whole number, at least 1, at most 24"),
     ("scales = 8", 'scales = "8"', "[surface] scales = '8': expected a whole number"),
     ("scales = 8", "", "[surface]: expected scales (number of waves), smallest_wavelength"),
     (
@@ -156,26 +160,38 @@ WRONG = [
     (
         "scales = 8",
         "scales = 8\ntop_height_fraction = 1.5",
-        "top_height_fraction = 1.5: expected at most 1",
+        "top_height_fraction = 1.5: expected a number, above 0, at most 1",
     ),
-    ("[load]", "[chain]\npressure_classes = 65\n[load]", "pressure_classes = 65: expected at most"),
-    ("scales = 8", "scales = 8\ns_wavelength = 1", "s_wavelength = 1: expected greater than 1"),
-    ("scales = 8", 'scales = 8\ncrop = ["1 mm"]', "[surface] crop = ['1 mm']: expected at least 2"),
+    ("[load]", "[chain]\npressure_classes = 65\n[load]", "pressure_classes = 65: expected a whole"),
+    ("scales = 8", "scales = 8\ns_wavelength = 1", "s_wavelength = 1: expected a number, above 1"),
+    (
+        "scales = 8",
+        'scales = 8\ncrop = ["1 mm"]',
+        "[surface] crop = ['1 mm']: expected a list of 2, each",
+    ),
     (
         "scales = 8",
         "scales = 8\ncrop = [2, 1]",
         "crop runs from 2000 mm to 1000 mm; expected its start",
     ),
     ("scales = 8", 'scales = 8\ncrop = [0, "1 ell"]', "[surface] crop[1] = '1 ell': unknown unit"),
-    ("scales = 8", 'scales = 8\ndetrend = "cubic"', "detrend = 'cubic': expected 'linear', 'mean'"),
+    (
+        "scales = 8",
+        'scales = 8\ndetrend = "cubic"',
+        'detrend = \'cubic\': expected "linear" or "mean"',
+    ),
     ("scales = 8", 'scales = 8\nz_unit = "furlong"', "z_unit = 'furlong': expected one of m, cm,"),
     (
         "scales = 8",
         'scales = 8\nspikes = "no"',
-        'spikes = \'no\': expected "isolated", "iso13473"',
+        'spikes = \'no\': expected "isolated" or "iso13473"',
     ),
-    ('["road.dat"]', "[]", "[surface] files = []: expected at least 1 item"),
-    ('["road.dat"]', '"road.dat"', "[surface] files = 'road.dat': expected a list"),
+    ('["road.dat"]', "[]", "[surface] files = []: expected a list of at least 1, each a text"),
+    (
+        '["road.dat"]',
+        '"road.dat"',
+        "[surface] files = 'road.dat': expected a list of at least 1, each a text",
+    ),
     (
         'files = ["road.dat"]',
         "",
@@ -197,7 +213,11 @@ WRONG = [
         "expected sines in order of falling wavelength",
     ),
     ('file = "dma.txt"', "", "[rubber]: expected either file (a master curve) or name"),
-    ('file = "dma.txt"', 'name = "butyl"', "[rubber] name = 'butyl': expected 'styrene_butadiene'"),
+    (
+        'file = "dma.txt"',
+        'name = "butyl"',
+        "[rubber] name = 'butyl': expected \"styrene_butadiene\"",
+    ),
     (
         'file = "dma.txt"',
         'name = "styrene_butadiene"\nterms = 3',
@@ -205,11 +225,23 @@ WRONG = [
     ),
     ('"dma.txt"', '"dma.txt"\nmodulus_unit = "ell"', "modulus_unit = 'ell': expected one of Pa"),
     ('"dma.txt"', '"dma.txt"\nbulk_modulus = 0', "bulk_modulus = 0: expected a value greater than"),
-    ('"dma.txt"', '"dma.txt"\nterms = -1', "[rubber] terms = -1: expected at least 1"),
-    ("[load]", "[solver]\ncolumns = 2\n[load]", "[solver] columns = 2: expected at least 4"),
-    ("[load]", "[solver]\ncolumns = 9\n[load]", "columns = 9: expected a multiple of 2"),
+    (
+        '"dma.txt"',
+        '"dma.txt"\nterms = -1',
+        "[rubber] terms = -1: expected a whole number, at least 1",
+    ),
+    (
+        "[load]",
+        "[solver]\ncolumns = 2\n[load]",
+        "[solver] columns = 2: expected a whole number, at least 4",
+    ),
+    (
+        "[load]",
+        "[solver]\ncolumns = 9\n[load]",
+        "columns = 9: expected a whole number, at least 4, at most 4096, a multiple of",
+    ),
     ("[load]", "[solver]\nelement_order = 3\n[load]", "element_order = 3: expected 1 or 2"),
-    ("[load]", "[solver]\ntolerance = 0\n[load]", "tolerance = 0: expected greater than 0"),
+    ("[load]", "[solver]\ntolerance = 0\n[load]", "tolerance = 0: expected a number, above 0"),
     (
         "[load]",
         '[solver]\nmodel = "half_plane"\ncolumns = 64\n[load]',
@@ -218,19 +250,22 @@ WRONG = [
     ("[load]", "[[load]]", "expected a table"),
     (GOOD, "", "an empty case; expected at least [surface], [rubber] and [load], as"),
     (GOOD, "[output]", "[surface] is missing; expected a table with files,"),
-    ("scales = 8", "scales = 8\ncrop = [1, 2, 3]", "crop = [1, 2, 3]: expected at most 2 items"),
+    ("scales = 8", "scales = 8\ncrop = [1, 2, 3]", "crop = [1, 2, 3]: expected a list of 2"),
     ("scales = 8", "scales = 8\nspike_slope = inf", "spike_slope = inf: expected a finite number"),
     ("scales = 8", 'scales = 8\nspike_slope = "2"', "spike_slope = '2': expected a number"),
-    ("scales = 8", "scales = 8\nx_unit = 3", "[surface] x_unit = 3: expected a string"),
-    ("[load]", "[solver]\ntolerance = 1\n[load]", "tolerance = 1: expected less than 1"),
+    ("scales = 8", "scales = 8\nx_unit = 3", "[surface] x_unit = 3: expected one of m, cm"),
+    (
+        "[load]",
+        "[solver]\ntolerance = 1\n[load]",
+        "tolerance = 1: expected a number, above 0, below 1",
+    ),
     ("[load]", "[solver]\ntime_limit = 0\n[load]", "time_limit = 0: expected a value greater than"),
     (
         "[load]",
         '[solver]\nmodel = "half_plane"\ntime_limit = "1 s"\n[load]',
         '[solver]: time_limit is not an option of model = "half_plane"',
     ),
-    ('"dma.txt"', '"dma.txt"\nextrapolate = "no"', "extrapolate = 'no': expected 'warn' or 'refus"),
-    ('"dma.txt"', '"dma.txt"\nextrapolate = "say"', '"say" is called "warn" now'),
+    ('"dma.txt"', '"dma.txt"\nextrapolate = "no"', 'extrapolate = \'no\': expected "warn" or "ref'),
     (
         '"dma.txt"',
         '"dma.txt"\nstrain_energy = "yeoh"',
@@ -263,7 +298,7 @@ WRONG = [
     ('"dma.txt"', '"dma.txt"\ncolumns = { loss = 0 }', "columns, channels and sheets are counted"),
     ('"dma.txt"', '"dma.txt"\ncolumns = { los = 3 }', "in columns los; did you mean loss?"),
     ('"dma.txt"', '"dma.txt"\ncolumns = 3', "columns = 3: expected three names or numbers from 1"),
-    ('"dma.txt"', '"dma.txt"\nheader = -1', "header = -1: expected at least 0"),
+    ('"dma.txt"', '"dma.txt"\nheader = -1', "header = -1: expected a whole number, at least 0"),
 ]
 
 
@@ -324,12 +359,6 @@ def test_the_rubber_of_a_case_has_its_strain_energy(tmp_path: Path) -> None:
         assert all(rubber.strain_energy == law for law, rubber in made.items())
         plain, other = (rubber.to_dict() | {"strain_energy": 0} for rubber in made.values())
         assert plain == other
-
-
-def test_one_item_is_not_plural() -> None:
-    tables = tomllib.loads(GOOD)
-    tables["surface"]["files"] = []
-    assert complaint(tables).endswith("files = []: expected at least 1 item")
 
 
 def test_text_that_is_no_toml_is_named_with_its_line(tmp_path: Path) -> None:

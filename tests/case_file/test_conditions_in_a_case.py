@@ -270,12 +270,12 @@ WRONG = [
     (
         "storage_ratio = 0.3",
         "storage_ratio = 1.3",
-        "softening: storage_ratio = 1.3: expected at most 1",
+        "softening: storage_ratio = 1.3: expected a number, above 0, at most 1",
     ),
     (
         "[conditions]\n",
         '[compare]\nmeasured = "mu.csv"\n[conditions]\n',
-        "unknown key [compare] measured",
+        "[compare]: unknown key measured; expected one of layer_ratio",
     ),
 ]
 

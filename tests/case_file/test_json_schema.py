@@ -12,8 +12,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.case_file.examples import EXAMPLES, write_example
-from gripscale.case_file.json_schema import SCHEMA_FILE, SCHEMA_LINE, case_schema
-from gripscale.case_file.keys import sections
+from gripscale.case_file.keys import SCHEMA_FILE, SCHEMA_LINE, case_schema, sections
 from tests.samples import EXAMPLES as EXAMPLE_FILES
 from tests.samples import Shell
 
@@ -37,7 +36,7 @@ def complaints(value: Any, schema: dict[str, Any], at: str = "") -> Iterator[str
     """Yield where a value is not as a schema with the keywords used here wants it."""
     if "anyOf" in schema and all(list(complaints(value, part)) for part in schema["anyOf"]):
         yield at
-    if "enum" in schema and value not in schema["enum"]:
+    if value not in schema.get("enum", [schema.get("const", value)]):
         yield at
     kinds = schema.get("type", [*KINDS])
     allowed = [kinds] if isinstance(kinds, str) else kinds

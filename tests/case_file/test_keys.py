@@ -11,8 +11,8 @@ from pydantic import BaseModel
 from typer.testing import CliRunner
 
 from gripscale.case_file import CaseTables
-from gripscale.case_file.keys import NEEDED, sections
-from gripscale.case_file.schema import KeyQuantity, Reading, table_of
+from gripscale.case_file.keys import NEEDED, KeyQuantity, sections
+from gripscale.case_file.schema import Reading, table_of
 from gripscale.cli import app
 from gripscale.core.units import UNITS, example_unit
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES

@@ -70,7 +70,8 @@ def test_the_shipped_files_give_the_shipped_case(tmp_path: Path) -> None:
     for end, other in zip((first, last), shipped["crop"], strict=True):
         assert end == pytest.approx(float(other.removesuffix(" mm")), abs=50.0)  # "some cm"
     assert [Path(name).name for name in surface["files"]] == [path.name for path in ROADS]
-    assert {path.name for path in case.skipped} == {"LICENSE", "SOURCE.txt"}
+    unused = {file.path.name for file in case.files if file.kind == "unused"}
+    assert unused == {"LICENSE", "SOURCE.txt"}
     assert keys(case)["rubber"]["reference_temperature"] == "20 C"
     assert "states no temperature" in doubted(case, OF_ANOTHER_CASE)
     assert "between plates or supports" in doubted(case, BY_A_FACTOR)
@@ -469,10 +470,10 @@ def test_a_folder_of_a_rubber_names_what_is_not_moduli(tmp_path: Path) -> None:
     (laboratory / "master.csv").write_text(
         "f [Hz],E' [MPa],E'' [MPa]\n" + "\n".join(f"{10.0**n},{5 + n},0.5" for n in range(8))
     )
-    with pytest.raises(
-        InputError, match=r"^master\.csv cannot be joined with .* of raw\.csv; name"
-    ):
-        new_case([path, laboratory], tmp_path / "other.toml")
+    both = new_case([path, laboratory], tmp_path / "other.toml")
+    words = "master.csv is taken as the rubber, not raw.csv: --as states another"
+    assert words in doubted(both, BY_A_FACTOR)
+    assert keys(both)["rubber"]["shift"] == "laboratory/shifts.csv"
 
 
 def test_cases_in_one_folder_have_results_of_their_own(tmp_path: Path) -> None:

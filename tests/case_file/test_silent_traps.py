@@ -6,6 +6,7 @@ Each trap changes one thing of a case that has no doubt.
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -291,6 +292,57 @@ def test_an_answer_under_an_impossible_load_is_none_to_rely_on(
 ) -> None:
     direct = answer(read_case(write(tmp_path, case=CASE.replace(stated, wrong)))).data
     assert no_answer(direct).startswith(f"none to rely on. {words}: is its unit right?")
+
+
+MIRROR = road_text(1e-5 * ROUGH.z)
+SOFT = dma_text(5.0, 1.0, "E' [kPa],E'' [kPa]")
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"road": road_text(titles="x [mm]\tz [um]"), "dma": SOFT},
+        {"road": MIRROR, "dma": SOFT},
+        {"road": road_text(1e3 * ROUGH.z)},
+        {
+            "road": road_text(titles="x [um]\tz [mm]"),
+            "case": CASE.replace('smallest_wavelength = "1 mm"', 'cut_off = "instrument"'),
+        },
+        {"dma": dma_text(5.0, 1.0, "E' [Pa],E'' [Pa]")},
+        {
+            "dma": dma_text(5e3, 1e3),
+            "case": CASE.replace("[load]", 'bulk_modulus = "1e5 GPa"\n[load]'),
+        },
+    ],
+    ids=["heights", "mirror", "heights too large", "distances", "too soft", "too stiff"],
+)
+def test_an_answer_that_no_road_or_rubber_has_doubts_its_units_first(
+    tmp_path: Path, changes: dict[str, Any]
+) -> None:
+    direct = answer(read_case(write(tmp_path, **changes))).data
+    first = no_answer(direct).partition("?")[0]
+    assert first.startswith(("none to rely on. ", "none. "))
+    assert re.search(r"(is|are) the units? of (the )?(heights|distances|moduli)", first)
+
+
+@pytest.mark.parametrize(
+    ("area", "friction", "speed", "doubted"),
+    [
+        (0.995, 5e-4, 1.0, True),
+        (0.985, 5e-4, 1.0, False),
+        (0.995, 2e-3, 1.0, False),
+        (0.995, 5e-4, 0.0, False),  # at rest there is no friction
+    ],
+)
+def test_an_answer_of_a_smooth_plate_doubts_its_units(
+    area: float, friction: float, speed: float, doubted: bool
+) -> None:
+    numbers = {"contact_fraction": area, "friction": friction}
+    values = {f"answer_{name}": value for name, value in numbers.items()}
+    values |= {f"answer_{name}_half_width": 0.1 for name in numbers}
+    said = no_answer(xr.Dataset({**values, "nominal_speed": speed}))
+    plate = "as on a smooth plate: are the units of heights, distances and moduli right?"
+    assert (plate in said) is doubted
 
 
 def test_the_answer_of_the_case_without_a_trap_stands(tmp_path: Path) -> None:

@@ -11,11 +11,11 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from gripscale.questions import contact_figure
+from gripscale.questions.answer.variables import ANSWER, JUDGE
 from gripscale.questions.calibration.charts import profiles_figure, residual_figure
 from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.cut_off.curve import AREA, FRICTION, SLOPE_IN_CONTACT
 from gripscale.questions.uncertainty.charts import distribution_figure
-from gripscale.questions.words import ANSWER, JUDGE
 
 BEST = {"friction": 0.461, "contact_fraction": 0.0047}
 

@@ -125,7 +125,7 @@ MISTAKES: list[tuple[Callable[[Place], list[str]], str]] = [
     (lambda at: at.fit("--columns", "1,3,2"), "dma.txt: storage and loss modulus look exchanged"),
     (lambda at: at.fit("--columns", "f,E',E''"), "among the header's names (Frequency, E', E'');"),
     (lambda at: at.fit("--columns", "los=2"), "unknown quantity in columns los; did you mean loss"),
-    (lambda at: at.fit("--header", "-1"), "header = -1: expected at least 0"),
+    (lambda at: at.fit("--header", "-1"), "header = -1: expected a whole number, at least 0"),
     (lambda at: ["compare-rubbers", "a.txt", "b.txt"], "--case must be given: the surface and"),
     (lambda at: ["compare-rubbers", str(at.case)], "rubbers must be 2 to 6 compounds to"),
     (lambda at: ["compare-rubbers", str(at.case), "styrene_butadiene", "--temperature", "20"],

@@ -10,7 +10,7 @@ import pytest
 
 import gripscale
 from gripscale.case_file import EXAMPLES, read_case, read_case_file, write_example
-from gripscale.case_file.json_schema import SCHEMA_FILE, SCHEMA_LINE
+from gripscale.case_file.keys import SCHEMA_FILE, SCHEMA_LINE
 from gripscale.cli.inputs import ExampleName
 from gripscale.core.errors import FileError, InputError
 from tests.samples import ROOT, Shell

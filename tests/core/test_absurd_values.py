@@ -14,7 +14,7 @@ import pytest
 
 from gripscale.core.checks import short_repr
 from gripscale.core.errors import ConvergenceError, FileError, InputError
-from tests.core.doors import Door, doors
+from tests.core.public_functions import PublicFunction, public_functions
 
 FOLLOWS = ("omega", "wavelength", "amplitude", "load_time", "profile", "heights")
 """What else a sentence may name: it follows from the arguments."""
@@ -36,18 +36,18 @@ NUMBERS = [
 ]
 LONGEST = 300
 COMPLEX = ("plane_strain_modulus", "youngs_modulus")
-DOORS = list(doors())
+DOORS = list(public_functions())
 
 
-def fault(door: Door, argument: str, value: Any) -> str | None:
+def fault(function: PublicFunction, argument: str, value: Any) -> str | None:
     """Return what is wrong with the answer to an absurd value, None if nothing is."""
     try:
-        found = door.call(**{**door.good, argument: value})
+        found = function.call(**{**function.good, argument: value})
     except InputError as error:
         said = str(error)
         if not said.isprintable() or len(said) > LONGEST:
             return f"no sentence: {said[:400]!r}"
-        names = [name.removesuffix("s") for name in (*door.good, *FOLLOWS)]
+        names = [name.removesuffix("s") for name in (*function.good, *FOLLOWS)]
         return None if any(name in said for name in names) else f"names nothing: {said}"
     except (FileError, ConvergenceError):
         return None
@@ -57,35 +57,37 @@ def fault(door: Door, argument: str, value: Any) -> str | None:
     return None if np.isfinite(told).all() else "converged to NaN"
 
 
-def faults(door: Door, values: list[Any]) -> list[str]:
+def faults(function: PublicFunction, values: list[Any]) -> list[str]:
     """Return what is wrong with any argument at any of the values."""
     return [
         f"{argument} = {short_repr(value)} ({type(value).__name__}): {found}"
-        for argument in door.good
+        for argument in function.good
         for value in values
-        if (found := fault(door, argument, value))
+        if (found := fault(function, argument, value))
     ]
 
 
-@pytest.mark.parametrize("door", DOORS, ids=lambda door: door.name)
-def test_absurd_values(door: Door) -> None:
-    found = faults(door, NEVER if door.slow else [*NEVER, *WORDS, *NUMBERS])
+@pytest.mark.parametrize("function", DOORS, ids=lambda function: function.name)
+def test_absurd_values(function: PublicFunction) -> None:
+    found = faults(function, NEVER if function.slow else [*NEVER, *WORDS, *NUMBERS])
     assert not found, f"{len(found)}\n" + "\n".join(found[:12])
 
 
 @pytest.mark.verification
-@pytest.mark.parametrize("door", [d for d in DOORS if d.slow], ids=lambda door: door.name)
-def test_absurd_values_that_may_be_solved(door: Door) -> None:
-    found = faults(door, [*WORDS, *NUMBERS])
+@pytest.mark.parametrize(
+    "function", [d for d in DOORS if d.slow], ids=lambda function: function.name
+)
+def test_absurd_values_that_may_be_solved(function: PublicFunction) -> None:
+    found = faults(function, [*WORDS, *NUMBERS])
     assert not found, f"{len(found)}\n" + "\n".join(found[:12])
 
 
-@pytest.mark.parametrize("door", DOORS, ids=lambda door: door.name)
-def test_what_nothing_takes_is_refused(door: Door) -> None:
+@pytest.mark.parametrize("function", DOORS, ids=lambda function: function.name)
+def test_what_nothing_takes_is_refused(function: PublicFunction) -> None:
     """Not only no other exception: an answer to such a value would be a wrong one."""
-    for argument in door.good:
+    for argument in function.good:
         for value in (object(), 1 + 1j, [object()]):
             if argument in COMPLEX and value == 1 + 1j:
                 continue
             with pytest.raises((InputError, FileError)):
-                door.call(**{**door.good, argument: value})
+                function.call(**{**function.good, argument: value})

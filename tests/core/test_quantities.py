@@ -11,7 +11,7 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.core.units import readable, si_value
-from tests.core.doors import Door, doors
+from tests.core.public_functions import PublicFunction, public_functions
 
 UNITS = {
     "Pa": "pressure full_contact_pressure nominal_pressure stress_0 stress_at shear_stress storage "
@@ -47,13 +47,13 @@ OTHERS = {
 """Tables of numbers, depths in wavelengths, and numbers of a file that is not there."""
 
 
-def pairs() -> list[tuple[Door, str]]:
+def pairs() -> list[tuple[PublicFunction, str]]:
     """Return public functions with each argument that has a unit."""
     return [
-        (door, name)
-        for door in doors()
-        for name, value in door.good.items()
-        if name in UNIT_OF and (door.name, name) not in OTHERS
+        (function, name)
+        for function in public_functions()
+        for name, value in function.good.items()
+        if name in UNIT_OF and (function.name, name) not in OTHERS
         if np.asarray(value).dtype.kind == "f" and np.isfinite(value).all()
     ]
 
@@ -73,16 +73,16 @@ def numbers(result: Any) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("door", "name"), [pytest.param(*pair, id=f"{pair[0].name}-{pair[1]}") for pair in pairs()]
+    ("function", "name"), [pytest.param(*pair, id=f"{pair[0].name}-{pair[1]}") for pair in pairs()]
 )
-def test_a_text_with_a_unit_is_its_number(door: Door, name: str) -> None:
-    value, unit = door.good[name], UNIT_OF[name]
+def test_a_text_with_a_unit_is_its_number(function: PublicFunction, name: str) -> None:
+    value, unit = function.good[name], UNIT_OF[name]
     text = (
         f"{value!r} {unit}"
         if np.ndim(value) == 0
         else [f"{float(entry)!r} {unit}" for entry in value]
     )
-    expected, result = (door.call(**door.good | {name: each}) for each in (value, text))
+    expected, result = (function.call(**function.good | {name: each}) for each in (value, text))
     assert str(numbers(result)) == str(numbers(expected))
 
 

@@ -1,4 +1,4 @@
-"""What a room needs only in one function it must not load when it is imported."""
+"""What a package needs only in one function it must not load when it is imported."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 
 import gripscale
 
-# A bare parent package, so that only the room itself is loaded.
+# A bare parent package, so that only the package itself is loaded.
 PROGRAM = """
 import importlib, sys, types
 parent = types.ModuleType("gripscale")
@@ -22,7 +22,7 @@ print(*sorted({name.partition(".")[0] for name in sys.modules}))
 
 
 @pytest.mark.parametrize(
-    ("room", "light"),
+    ("package", "light"),
     [
         ("gripscale.surface", set()),
         ("gripscale.surface.surface", {"numpy"}),
@@ -31,10 +31,26 @@ print(*sorted({name.partition(".")[0] for name in sys.modules}))
         ("gripscale.case_file.read", {"numpy", "pydantic"}),
     ],
 )
-def test_a_room_loads_only_what_it_must(room: str, light: set[str]) -> None:
+def test_a_package_loads_only_what_it_must(package: str, light: set[str]) -> None:
     folder = str(Path(gripscale.__file__).parent)
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM, folder, room], capture_output=True, text=True, check=True
+        [sys.executable, "-c", PROGRAM, folder, package], capture_output=True, text=True, check=True
     )
     heavy = {"numpy", "scipy", "xarray", "pandas", "matplotlib", "pydantic", "typer", "rich"}
     assert set(done.stdout.split()) & heavy == light
+
+
+def test_a_saved_result_needs_no_dask(tmp_path: Path) -> None:
+    """Dask, where it is installed, takes longer to import than a prediction to be solved."""
+    program = (
+        "import sys, xarray; from gripscale.io import netcdf; "
+        "netcdf.save(xarray.Dataset({'friction': 0.2}), sys.argv[1]); "
+        "print('distributed' in sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path / "saved.nc")],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.strip() == "False"

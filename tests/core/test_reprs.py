@@ -13,10 +13,10 @@ import numpy as np
 import gripscale as gs
 from gripscale import conditions, experiment, export, half_space, rubber, surface, theory, wave
 from gripscale.core.described import Described
-from tests.core.doors import doors
+from tests.core.public_functions import public_functions
 from tests.public_objects import public_objects
 
-ROOMS = (
+PACKAGES = (
     *(gs, gs.chain, conditions, gs.continuation, experiment, export, half_space, gs.questions),
     *(rubber, surface, theory, wave),
 )
@@ -29,7 +29,7 @@ HTML = {
 
 @cache
 def objects() -> dict[str, Any]:
-    """Return the named small objects, what functions make of them, and what the doors make."""
+    """Return the named small objects, and what public functions make of them and of others."""
     made = public_objects()
     road, solid, case = made["road"], made["rubber"], made["case"]
     correlation = gs.height_difference(road)
@@ -49,14 +49,22 @@ def objects() -> dict[str, Any]:
         export.abaqus_rubber(solid),
         gs.Layers([(solid, 4e-3), (solid, 4e-3)]),
     ]
-    classes = [door.call(**door.good) for door in doors() if inspect.isclass(door.call)]
+    classes = [
+        function.call(**function.good)
+        for function in public_functions()
+        if inspect.isclass(function.call)
+    ]
     return made | {"answers": answers, "classes": classes}
 
 
 def public_classes() -> dict[type, str]:
-    """Return the classes of the rooms by their names, without errors and protocols."""
-    rooms = [(room, name) for room in ROOMS for name in getattr(room, "__all__", dir(room))]
-    items = [(getattr(room, name), name) for room, name in rooms]
+    """Return the classes of the names by their names, without errors and protocols."""
+    names = [
+        (package, name)
+        for package in PACKAGES
+        for name in getattr(package, "__all__", dir(package))
+    ]
+    items = [(getattr(package, name), name) for package, name in names]
     return {
         item: name
         for item, name in items

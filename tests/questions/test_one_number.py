@@ -18,9 +18,8 @@ from gripscale.charts.figure_folder import FigureFolder
 from gripscale.conditions import Conditions
 from gripscale.conditions.area_term import ConstantStress
 from gripscale.io.table import significant
-from gripscale.questions.answer.reliance import headline
+from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, answer_number, believed
 from gripscale.questions.page_of_folder import page_of, read_result
-from gripscale.questions.words import HEADINGS, SYMBOLS, believed
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane
 from tests.samples import GENTLE_SINES, SHIFTED_RUBBER, Shell
@@ -110,7 +109,7 @@ class Asked:
 
     def of(self, data: xr.Dataset) -> list[float]:
         """Return the numbers of another result."""
-        return [headline(data, name).value for name in self.names]
+        return [answer_number(data, name).value for name in self.names]
 
 
 @pytest.fixture(scope="module", params=CASES)
@@ -140,8 +139,8 @@ def shell_of_module() -> Shell:
     return lambda *words: CliRunner().invoke(app, list(map(str, words)), env={"COLUMNS": "100"})
 
 
-def doors(asked: Asked) -> Iterator[tuple[str, list[float]]]:
-    """Yield the numbers behind each door but the slow ones."""
+def ways(asked: Asked) -> Iterator[tuple[str, list[float]]]:
+    """Yield the numbers that each way to ask gives, but the slow ones."""
     yield "file of the run", asked.of(gs.load(asked.folder / "answer.nc").data)
     yield "saved", asked.of(gs.load(asked.answer.save(asked.folder / "saved.nc")).data)
     columns = [believed(asked.answer.data, name) for name in asked.names]
@@ -155,9 +154,9 @@ def doors(asked: Asked) -> Iterator[tuple[str, list[float]]]:
 
 
 def test_one_number_through_every_door(asked: Asked) -> None:
-    for door, numbers in doors(asked):
+    for way, numbers in ways(asked):
         # a study weighs profiles by the length of their grids, an answer as they were measured
-        assert numbers == pytest.approx(asked.expected, rel=1e-4), door
+        assert numbers == pytest.approx(asked.expected, rel=1e-4), way
 
 
 def test_run_prints_the_answer_first_and_last(asked: Asked) -> None:
@@ -219,7 +218,7 @@ def test_large_strain_is_no_second_answer() -> None:
     answer = gs.answer(case)
     compared = gs.compare(case, models=["direct", "windows"])
     for name in ("friction", "contact_fraction"):
-        number, large = (headline(data, name) for data in (answer.data, compared.data))
+        number, large = (answer_number(data, name) for data in (answer.data, compared.data))
         assert large.value == pytest.approx(number.value, rel=1e-12)
         factor = float(compared.data[f"{name}_factor"].sel(model="windows_finite_strain"))
         solved = float(compared.data[f"large_strain_{name}"])

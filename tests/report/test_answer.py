@@ -93,8 +93,9 @@ def test_at_rest_there_is_an_area_only() -> None:
 def test_with_an_area_term_the_friction_is_the_sum_with_its_parts() -> None:
     total = {"": 0.9, "_low": 0.7, "_high": 1.2}
     data = answered(
-        answer_adhesive_friction=0.7,
-        **{f"answer_total_friction{end}": v for end, v in total.items()},
+        answer_hysteresis_friction=0.2,
+        answer_interface_friction=0.7,
+        **{f"answer_friction{end}": v for end, v in total.items()},
     )
     first, *below = answer_lines(data)
     assert HYSTERESIS_ALONE not in " ".join(below)

@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from reproduction import judge_area, judge_friction
-from reproduction.inputs import DENSE, FAST, FASTEST, ROAD, SBR, SPEED, TREAD
-from reproduction.panels import Solved, speed_name
-from reproduction.statement import Statement, as_markdown
+from reproduction.inputs import DENSE, FAST, R20, R60, ROAD, SBR, SPEED, TREAD, Inputs
+from reproduction.panels import Solved, pair_name
+from reproduction.statement import Statement, as_markdown, count
 
 WAVELENGTHS = 20e-3 / 3.0 ** np.arange(5)
 
@@ -24,7 +24,10 @@ def prediction(area: Any, friction: Any = None, factor: float = 3.0, **per_wave:
         "running_contact_fraction": area,
         "friction": friction,
         "running_friction": np.cumsum(friction),
+        "contact_fraction": area / np.append(1.0, area[:-1]),
         "slope": np.full(area.size, 0.5),
+        "loss_factor": np.linspace(0.1, 0.5, area.size),
+        "modulus": np.full(area.size, 5e6),
         **{name: np.asarray(values, dtype=float) for name, values in per_wave.items()},
     }
     data = {name: ("scale", values) for name, values in columns.items()}
@@ -32,135 +35,187 @@ def prediction(area: Any, friction: Any = None, factor: float = 3.0, **per_wave:
     return xr.Dataset(data | {"prediction_status": "converged"}, coords={"scale": scale})
 
 
-def verdicts(statements: list[Statement]) -> list[bool]:
+def verdicts(statements: list[Statement]) -> list[bool | None]:
     for statement in statements:
-        assert statement.holds in (True, False)
+        assert statement.figure
         assert statement.criterion
         assert statement.number
-        assert statement.holds or statement.figure
+        assert bool(statement.why_not) == (statement.holds is not True)
     return [statement.holds for statement in statements]
 
 
 SETTLING = [0.3, 0.15, 0.11, 0.095, 0.09]
+DENSE_PAIRS = ("3.5/2.4", "3/2.2", "6/3")
+"""The last fits worst."""
 
 
-def three(worst: list[float]) -> Solved:
-    good = prediction(SETTLING)
-    return {DENSE: {"a": good, "b": good, "c": prediction(worst)}}
+def three(worst: Any) -> Solved:
+    areas = (SETTLING, SETTLING, worst)
+    lines = {name: prediction(area) for name, area in zip(DENSE_PAIRS, areas, strict=True)}
+    return {DENSE: lines}
 
 
-def test_progression() -> None:
-    assert verdicts(judge_area.judge_progression("fig5a", three(SETTLING))) == [True, True]
-    away = [0.3, 0.15, 0.10, 0.07, 0.06]
-    same, _ = judge_area.judge_progression("fig5a", three(away))
-    assert not same.holds
-    assert "without the pair that fits worst the others are 0% apart" in same.why_not
-    steeper = [0.3, 0.25, 0.2, 0.13, 0.072]
-    assert not judge_area.judge_progression("fig5a", three(steeper))[1].holds
+def test_progression(inputs: Inputs) -> None:
+    def judge(solved: Solved) -> list[Statement]:
+        return judge_area.judge_progression("fig5a", solved, inputs)
+
+    assert verdicts(judge(three(SETTLING))) == [True, True]
+    same, _ = judge(three([0.3, 0.15, 0.10, 0.07, 0.06]))
+    assert same.holds is False
+    assert "without 6/3, which fits C_z worst, the others are 0% apart" in same.why_not
+    assert judge(three([0.3, 0.25, 0.2, 0.13, 0.072]))[1].holds is False
 
 
-def test_motion() -> None:
-    rest = {DENSE: {"a": prediction(SETTLING)}}
-    moving = {DENSE: {"a": prediction([0.2, 0.08, 0.05, 0.035])}}  # its last wave failed
-    assert verdicts(judge_area.judge_motion(rest, moving)) == [True]
-    assert verdicts(judge_area.judge_motion(moving, rest)) == [False]
-    flatter = {DENSE: {"a": prediction([0.1, 0.08, 0.07, 0.068, 0.067])}}
-    assert verdicts(judge_area.judge_motion(rest, flatter)) == [False]
+def test_a_curve_settles_if_it_is_level_before_as_many_decades_again(inputs: Inputs) -> None:
+    def judge(*slopes: float) -> Statement:
+        area = 0.3 * 3.0 ** -np.append(0.0, np.cumsum(slopes))
+        *_, settles = judge_area.judge_progression("fig5a", three(area), inputs)
+        return settles
+
+    # Factor 3, four waves: 3 steps so far. The slope falls over the 2 steps between its middles;
+    # from 0.4 to 0.2 it is zero 2 steps after the last middle, 1.5 steps after the last wave.
+    found = judge(0.4, 0.3, 0.2)
+    assert found.holds
+    assert f"6/3: 0.40 to 0.20, level {1.5 * np.log10(3.0):.1f} decades on" in found.number
+    assert judge(0.44, 0.36, 0.28 - 1e-6).holds  # 0.28/0.16 * 2 - 0.5 = 3 steps
+    found = judge(0.44, 0.36, 0.28 + 1e-3)
+    assert found.holds is False
+    assert "from each wave to the next, 2.00 times in 6/3, of 1.4 decades" in found.why_not
+    assert judge(0.41, 0.40, 0.39).holds is False
+    assert judge(0.3, 0.3, 0.4).holds is False
 
 
-def test_speed_and_area() -> None:
-    def over_speed(*areas: list[float]) -> Solved:
-        static = {"static": prediction([0.01, 0.01, 0.01])}
-        return {TREAD: static | {f"{i} mm/s": prediction(area) for i, area in enumerate(areas)}}
+def test_motion(inputs: Inputs) -> None:
+    def judge(rest: list[float], moving: list[float]) -> list[bool | None]:
+        solved = ({DENSE: {"a": prediction(area)}} for area in (rest, moving))
+        return verdicts(judge_area.judge_motion(*solved, inputs))
 
-    falling = over_speed([0.3, 0.1, 0.05], [0.25, 0.08, 0.03], [0.2, 0.06])
-    assert verdicts(judge_area.judge_speed(falling)) == [True]
-    assert verdicts(judge_area.judge_speed(over_speed([0.3, 0.1], [0.2, 0.11]))) == [False]
-    assert verdicts(judge_area.judge_speed(over_speed([0.3, 0.1], [0.1, 0.05]))) == [False]
+    moving = [0.2, 0.08, 0.05, 0.035]  # its last wave failed
+    assert judge(SETTLING, moving) == [True]
+    assert judge([*moving, 0.03], SETTLING) == [False]
+    assert judge(SETTLING, [0.1, 0.08, 0.07, 0.068, 0.067]) == [False]
 
 
-def test_stiffness() -> None:
-    def compounds(modulus: list[float], area: list[float]) -> Solved:
+def test_speed_and_area(inputs: Inputs) -> None:
+    def over_speed(*areas: list[float]) -> list[bool | None]:
+        lines = {"static": prediction([0.01, 0.01, 0.01])}
+        lines |= {f"{i} mm/s": prediction(area) for i, area in enumerate(areas)}
+        return verdicts(judge_area.judge_speed({TREAD: lines}, inputs))
+
+    assert over_speed([0.3, 0.1, 0.05], [0.25, 0.08, 0.03], [0.2, 0.06]) == [True]
+    assert over_speed([0.3, 0.1], [0.2, 0.11]) == [False]
+    assert over_speed([0.3, 0.1], [0.1, 0.05]) == [False]
+
+
+def test_stiffness(inputs: Inputs) -> None:
+    def judge(modulus: list[float], area: list[float]) -> list[bool | None]:
         sbr = prediction([0.5, 0.3], modulus=[1e6, 2e6])
-        return {speed_name(SPEED): {TREAD: prediction(area, modulus=modulus), SBR: sbr}}
+        lines = {TREAD: prediction(area, modulus=modulus), SBR: sbr}
+        panel = pair_name((TREAD, SBR), FAST)
+        return verdicts(judge_area.judge_stiffness({panel: lines}, inputs))
 
-    assert verdicts(judge_area.judge_stiffness(compounds([5e6, 6e6], [0.2, 0.1]))) == [True]
-    assert verdicts(judge_area.judge_stiffness(compounds([5e6, 6e6], [0.2, 0.4]))) == [False]
-    assert verdicts(judge_area.judge_stiffness(compounds([5e6, 1e6], [0.2, 0.1]))) == [False]
+    assert judge([5e6, 6e6], [0.2, 0.1]) == [True]
+    assert judge([5e6, 6e6], [0.2, 0.4]) == [False]
+    assert judge([5e6, 1e6], [0.2, 0.1]) == [None]
+    assert judge([0.5e6, 0.6e6], [0.6, 0.4]) == [True]  # the other one is stiffer
 
 
-def test_surfaces() -> None:
+def test_surfaces(inputs: Inputs) -> None:
     coarse = prediction([0.2, 0.1, 0.06, 0.05, 0.04])
     for last, holds in ((0.055, True), (0.0785, False), (0.2, False)):
-        dense = prediction([0.4, 0.2, 0.12, 0.1, last])
-        solved = {"300 mm/s": {ROAD: coarse, DENSE: dense}}
-        assert verdicts(judge_area.judge_surfaces("fig7a", solved)) == [holds]
+        solved = {"300 mm/s": {ROAD: coarse, DENSE: prediction([0.4, 0.2, 0.12, 0.1, last])}}
+        assert verdicts(judge_area.judge_surfaces(solved, inputs)) == [holds]
 
 
-def test_worst_fit_departs_at_small_waves_only() -> None:
+def test_worst_fit_departs_at_small_waves_only(inputs: Inputs) -> None:
     good = prediction(SETTLING, [0.02, 0.03, 0.05, 0.08, 0.12])
 
-    def with_worst(*friction: float) -> Solved:
+    def with_worst(*friction: float) -> list[bool | None]:
         worst = prediction([0.3, 0.1, 0.05], friction, factor=9.0)
-        return {DENSE: {"a": good, "b": good, "c": worst}}
+        lines = dict(zip(DENSE_PAIRS, (good, good, worst), strict=True))
+        return verdicts(judge_friction.judge_factors_friction({DENSE: lines}, inputs))
 
-    assert verdicts(judge_friction.judge_factors_friction(with_worst(0.02, 0.055, 0.2))) == [True]
-    assert verdicts(judge_friction.judge_factors_friction(with_worst(0.02, 0.055, 0.13))) == [False]
-    assert verdicts(judge_friction.judge_factors_friction(with_worst(0.02, 0.09, 0.2))) == [False]
+    assert with_worst(0.02, 0.055, 0.2) == [True]
+    assert with_worst(0.02, 0.055, 0.13) == [False]
+    assert with_worst(0.02, 0.09, 0.2) == [False]
 
 
-def test_maximum_of_friction_comes_sooner(inputs: Any) -> None:
-    def speeds(*frictions: list[float]) -> Solved:
-        lines = {f"{i} mm/s": prediction(SETTLING, each) for i, each in enumerate(frictions)}
-        return {SBR: lines}
+PEAKED = [0.2, 0.3, 0.4, 0.5, 0.4]
+"""A loss factor with its maximum before the smallest wave."""
+
+
+def test_maximum_of_friction_comes_sooner(inputs: Inputs) -> None:
+    def judge(*frictions: list[float], loss: list[float] = PEAKED) -> list[Statement]:
+        lines = {
+            f"{i} mm/s": prediction(SETTLING, each, loss_factor=loss)
+            for i, each in enumerate(frictions)
+        }
+        return judge_friction.judge_speed_friction({SBR: lines}, inputs)
 
     slow, middle, fast = (
         [0.02, 0.03, 0.05, 0.08, 0.1],
         [0.03, 0.05, 0.08, 0.11, 0.1],
         [0.05, 0.08, 0.1, 0.09, 0.07],
     )
-    judge = judge_friction.judge_speed_friction
-    assert verdicts(judge(speeds(slow, middle, fast), inputs)) == [True, True]
-    assert verdicts(judge(speeds(slow, fast, middle), inputs)) == [True, False]
-    rises, sooner = judge(speeds(slow, slow), inputs)
-    assert (rises.holds, sooner.holds) == (True, False)
-    assert "different inputs: the loss factor of this compound" in sooner.why_not
-    assert verdicts(judge(speeds([0.05, 0.02, 0.06, 0.07, 0.08], fast), inputs))[0] is False
+    assert verdicts(judge(slow, middle, fast)) == [True, True]
+    assert verdicts(judge(slow, fast, middle)) == [True, False]
+    assert verdicts(judge(slow, slow)) == [True, False]
+    rises, sooner = judge(slow, middle, fast, loss=[0.1, 0.2, 0.3, 0.4, 0.5])
+    assert (rises.holds, sooner.holds) == (True, None)
+    assert "the loss factor of unfilled SBR is largest at 1.9e+06 rad/s" in sooner.why_not
+    rises, _ = judge([0.05, 0.02, 0.06, 0.07, 0.08], fast)
+    assert rises.holds is False
+    assert "at 0 mm/s the wave of 6.67 mm has 40% of the friction of the first" in rises.why_not
 
 
-def test_compounds(inputs: Any) -> None:
+def test_compounds(inputs: Inputs) -> None:
     def at(lead: list[float], loss: list[float]) -> dict[str, xr.Dataset]:
-        tread = np.full(5, 0.1)
-        return {
-            TREAD: prediction(SETTLING, tread, loss_factor=np.full(5, 0.2)),
-            SBR: prediction(SETTLING, tread + lead, loss_factor=loss),
-        }
+        friction = np.full(5, 0.1)
+        one = prediction(SETTLING, friction, loss_factor=np.full(5, 0.2))
+        other = prediction(SETTLING, friction + lead, loss_factor=loss)
+        return {TREAD: one, SBR: other, R20: one, R60: other}
 
-    lossier = [0.2, 0.19, 0.3, 0.4, 0.5]
+    def judge(*solved: dict[str, xr.Dataset]) -> list[Statement]:
+        names = [pair_name(pair, v) for pair in inputs.pairs for v in (SPEED, FAST)]
+        return judge_friction.judge_compounds(dict(zip(names, solved, strict=True)), inputs)
+
+    lossier = [0.2, 0.19, 0.3, 0.4, 0.3]
     together = at([0.01, -0.01, 0.1, 0.2, 0.02], lossier)
-    names = [speed_name(speed) for speed in (SPEED, FAST, FASTEST)]
-    judge = judge_friction.judge_compounds
-    assert verdicts(judge(dict.fromkeys(names, together), inputs)) == [True] * 7
+    assert verdicts(judge(*[together] * 4)) == [True] * 12
     apart = at([0.1, -0.01, -0.1, 0.15, 0.2], lossier)
-    judged = judge({names[0]: apart, names[1]: together, names[2]: together}, inputs)
-    assert verdicts(judged) == [False, False, True, True, False, True, True]
-    assert "the lead falls from 0.200 to 0.020" in judged[4].why_not
+    unreached = at([0.01, -0.01, 0.1, 0.2, 0.02], [0.2, 0.19, 0.3, 0.4, 0.5])
+    crossed = at([0.01, -0.01, 0.1, 0.2, -0.3], [0.2, 0.19, 0.5, 0.4, 0.15])
+    judged = judge(apart, together, unreached, crossed)
+    assert verdicts(judged) == [
+        *(False, False, False),
+        *(True, True, True),
+        *(True, True, None),
+        *(True, True, False),
+    ]
+    assert "the loss factor of R60, 0 °C is largest at" in judged[8].why_not
+    assert "they meet between 0.74 and 0.25 mm and cross" in judged[11].why_not
 
 
-def test_steeper_surface(inputs: Any) -> None:
-    def surfaces(coarse: xr.Dataset, dense: xr.Dataset) -> Solved:
-        return {"300 mm/s": {ROAD: coarse, DENSE: dense}}
+def test_steeper_surface(inputs: Inputs) -> None:
+    def judge(coarse: xr.Dataset, dense: xr.Dataset) -> list[bool | None]:
+        solved = {"300 mm/s": {ROAD: coarse, DENSE: dense}}
+        return verdicts(judge_friction.judge_surface_friction(solved, inputs))
 
     more, less = prediction([0.2, 0.05], [0.1, 0.2]), prediction([0.3, 0.1], [0.05, 0.1])
-    judge = judge_friction.judge_surface_friction
-    assert verdicts(judge(surfaces(more, less), inputs)) == [True]
-    assert verdicts(judge(surfaces(less, more), inputs)) == [False]
+    assert judge(more, less) == [True]
+    assert judge(less, more) == [False]
+    assert judge(prediction([0.2, 0.05], [0.04, 0.2]), less) == [False]  # less at the first wave
 
 
 def test_table_holds_every_statement() -> None:
     kept = Statement("fig6a", "area | falls", "here", "less than 1", "0.5", True)
-    broken = Statement("fig7a", "less", "there", "more", "2", False, "different inputs: steeper")
-    page = as_markdown([kept, broken])
-    assert "1 of 2 statements hold" in page
-    assert "| fig6a | area \\| falls | here | less than 1 | 0.5 | **holds** |" in page
-    assert "**does not hold**: different inputs: steeper |" in page
+    broken = Statement("fig7b", "less", "there", "more", "2", False, "steeper")
+    unknown = Statement("fig7b", "less", "beyond", "more", "1", None, "no wave gets there")
+    assert count([kept, broken]) == "1 of 2 statements hold"
+    assert count([kept, broken, unknown]).endswith("hold, 1 cannot be judged with these inputs")
+    page = as_markdown([kept, broken, unknown], lambda figure: f"## {figure}")
+    assert "**Area | falls.** Holds if: less than 1." in page
+    assert "| here | 0.5 | **holds** |" in page
+    assert "| there | 2 | **does not hold**: steeper |" in page
+    assert "| beyond | 1 | **not judged**: no wave gets there |" in page
+    assert page.count("**Less.**") == 1

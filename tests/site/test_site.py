@@ -104,7 +104,7 @@ def test_every_key_of_a_case_is_on_its_page(site):
 
 def test_every_public_name_has_its_entry(site):
     ids = set().union(*(read(page).ids for page in (site / "reference").glob("*.html")))
-    rooms = {
+    packages = {
         "charts",
         "conditions",
         "continuation",
@@ -118,7 +118,7 @@ def test_every_public_name_has_its_entry(site):
         "wave",
     }
     same = {"ScaleResult"}  # another name of ScaleResult
-    names = [f"gripscale.{name}" for name in gripscale.__all__ if name not in rooms | same]
+    names = [f"gripscale.{name}" for name in gripscale.__all__ if name not in packages | same]
     names += [f"gripscale.theory.{name}" for name in gripscale.theory.__all__]
     assert not [name for name in names if name not in ids]
     entries = {identifier.rpartition(".")[2] for identifier in ids}

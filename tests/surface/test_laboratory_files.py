@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import struct
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import gripscale as gs
 from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.surface.read import _topography
 
 HEIGHTS = 1e-3 * np.sin(np.arange(120) / 7.0)
 """Heights of a profile [m] in steps of 0.1 mm, from 0 to 1 mm with six digits."""
@@ -46,6 +49,29 @@ PROFILES = {
     "point numbers": "Point No.,Distance (mm),Height (mm)\n" + INDEXED,
     "quoted decimals": '"x [mm]","z [mm]"\n'
     + "\n".join('"' + row.replace(";", '","') + '"' for row in MINUS_DECIMALS.splitlines()),
+    "units behind numbers": "Weg;Hoehe\n"
+    + "\n".join(
+        f"{x:.4f} mm;{z:.8f} mm".replace(".", ",")
+        for x, z in zip(1e3 * STEP * np.arange(120), 1e3 * HEIGHTS, strict=True)
+    ),
+    "bars": "| x [mm] | z [mm] |\n"
+    + "\n".join(f"| {row} |" for row in rows(separator="|").split()),
+    "inches as a mark": "Distance (\u2033),Height (mils)\n" + rows(0.0254, 2.54e-5),
+    "scale of a digit": "x [mm];z [digits]\n# z scale: 0.25 um/digit\n" + rows(1e-3, 2.5e-7, ";"),
+    "microns per count": "Scale factor: 0.25 um per count\nx [mm],z [counts]\n"
+    + rows(1e-3, 2.5e-7),
+    "points per length": "Sampling: 10 points/mm\nHeight (mm)\n" + heights(),
+    "points per length, behind": "Points per mm: 10\nHeight (mm)\n" + heights(),
+    "length without a sign": "Traverse length 11.9 mm\nZ (mm)\n" + heights(),
+    "Dutch": "Afstand (mm);Hoogte (mm)\n" + rows(separator=";"),
+    "Japanese, heights first": "\u9ad8\u3055 (mm),\u8ddd\u96e2 (mm)\n"
+    + "\n".join(",".join(row.split(",")[::-1]) for row in rows().splitlines()),
+    "a deflection beside": "x [mm],Deflection [mm],Height [mm]\n"
+    + "\n".join(f"{row.replace(',', ',0.5,')}" for row in rows().splitlines()),
+    "a speed beside": "Distance [mm],Elevation [mm],Speed [km/h]\n"
+    + "\n".join(f"{row},60" for row in rows().splitlines()),
+    "waviness beside": "Distance [mm],Primary profile [mm],Waviness profile [mm]\n"
+    + "\n".join(f"{row},0.1" for row in rows().splitlines()),
     "road profile": "ERDFILEV2.00\n  1, 120, -1, 1, 5, 1.0E-04, -1\nTITLE road\n"
     "LONGNAMEElevation\nUNITSNAMmm\nXUNITS  m\nEND\n" + heights(),
 }
@@ -194,9 +220,64 @@ def test_a_map_with_a_trailer(tmp_path: Path, name: str) -> None:
     np.testing.assert_allclose(gs.read_map(path).z, MAP.T, atol=2e-12)
 
 
-def test_a_spectrum_is_named_as_one(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "titles",
+    [
+        "q (1/m),C (m^4)",
+        "Spatial frequency (1/m),Power spectral density (m^3)",
+        "Wavelength,PSD",
+        "wavenumber q [1/m],areal spectrum C(q) [m^4]",
+    ],
+)
+def test_a_spectrum_is_named_as_one(tmp_path: Path, titles: str) -> None:
     path = tmp_path / "spectrum.csv"
     q = np.geomspace(50.0, 1e5, 80)
-    np.savetxt(path, np.c_[q, q**-3.6], delimiter=",", header="q (1/m),C (m^4)")
+    np.savetxt(path, np.c_[q, q**-3.6], delimiter=",", header=titles)
     with pytest.raises(GripscaleError, match="power spectrum of a surface"):
         gs.read_profile(path)
+
+
+def test_tracks_are_profiles_of_one_surface(tmp_path: Path) -> None:
+    from gripscale.case_file import SurfaceTable
+    from gripscale.case_file.prepare import raw_surface
+    from gripscale.case_file.proposals import surface_proposal
+
+    path = tmp_path / "road.csv"
+    path.write_text(TRACKS)
+    keys = surface_proposal([path], [str(path)]).keys
+    assert keys["channel"] == ["Left", "Right"]
+    left, right = raw_surface(SurfaceTable(**keys))
+    assert (left.name, right.name) == ("road Left", "road Right")
+    np.testing.assert_allclose(left.z, HEIGHTS, atol=2e-9)
+    np.testing.assert_allclose(right.z, 2.0 * HEIGHTS, atol=2e-9)
+
+
+@pytest.mark.parametrize("name", ["map.nms", "map", "map.dat"])
+def test_an_instrument_file_is_known_without_its_name(tmp_path: Path, name: str) -> None:
+    """The layout of NanoFocus has no first bytes of its own: numbers at fixed places."""
+    low, high = float(MAP.min()), float(MAP.max())
+    head = bytearray(3468)
+    struct.pack_into("<dd", head, 16, 1e6 * low, 1e6 * high)  # um
+    struct.pack_into("<IIdd", head, 1368, *MAP.T.shape, 0.1, 0.1)  # mm
+    levels = np.rint((MAP - low) / (high - low) * 65534).astype("<u2")
+    path = tmp_path / name
+    path.write_bytes(bytes(head) + levels.tobytes())
+    pytest.importorskip("SurfaceTopography")
+    surface = gs.read_map(path)
+    assert surface.x[1] - surface.x[0] == pytest.approx(1e-4)
+    np.testing.assert_allclose(surface.z, MAP.T, atol=(high - low) / 65534)
+
+
+def test_deflections_are_no_heights_of_an_instrument() -> None:
+    channels = [
+        SimpleNamespace(
+            name=name, index=at, is_height_channel=True, physical_sizes=(1.0, 1.0), topography=str
+        )
+        for at, name in enumerate(("Deflection Error", "Height Sensor"))
+    ]
+    taken: list[str] = []
+    for channel in channels:
+        channel.topography = lambda name=channel.name: taken.append(name)
+    _topography(Path("scan.spm"), channels, None, None)
+    _topography(Path("scan.spm"), channels, "Deflection Error", None)
+    assert taken == ["Height Sensor", "Deflection Error"]

@@ -6,8 +6,8 @@ A field that is left empty removes its key from the case.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Sequence
-from typing import Any, Literal, get_args, get_origin
+from collections.abc import Callable, Collection, Sequence
+from typing import Any
 
 import panel as pn
 
@@ -22,8 +22,8 @@ from gripscale.app.elements import (
     work_button,
 )
 from gripscale.case_file import CaseFile
-from gripscale.case_file.keys import NEEDED, NOTHING, TABLES, Key, KeySection, sections
-from gripscale.case_file.schema import KeyQuantity, table_of
+from gripscale.case_file.keys import NEEDED, NOTHING, Key, KeyQuantity, KeySection, sections
+from gripscale.case_file.schema import choices_of
 from gripscale.conditions.conditions import DEFAULTED, OFF
 from gripscale.core.units import UNITS, example_unit, number_and_unit
 
@@ -41,7 +41,7 @@ WITHOUT_FIELD = {"surface.sines", "surface.files", "surface.map", "rubber.file"}
 def table_form(state: CaseState, name: str, first: Collection[str]) -> pn.Column:
     """Return the form of the table `name` of a case: the keys of `first`, the others to open."""
     section = next(section for section in sections() if section.name == name)
-    laws = [table for table, _, _ in TABLES if table.startswith(f"{name}.")]
+    laws = list(dict.fromkeys(s.name for s in sections() if s.name.startswith(f"{name}.")))
     fields = {
         key.name: field(state, section, key)
         for key in section.keys
@@ -109,8 +109,9 @@ def field(state: CaseState, section: KeySection, key: Key) -> Any:
     path = (*section.name.split("."), key.name)
     if key.quantity is not None:
         return quantity_field(state, path, key, key.quantity)
-    annotation = table_of(section.law).model_fields[key.name].annotation
-    choices, is_text = list(literals(annotation)), annotation in (str, str | None)
+    kind = key.schema.get("type")
+    choices = [True, False] if kind == "boolean" else choices_of(key.schema)
+    is_text = kind == "string"
     look = {**_words(key), **LOOK}
     has_default = key.default not in (NEEDED, NOTHING)
     by_default = f"{BY_DEFAULT}: {key.default}" if has_default else BY_DEFAULT
@@ -208,17 +209,6 @@ def _words(key: Key) -> dict[str, str]:
 
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
-
-
-def literals(annotation: Any) -> Iterator[Any]:
-    """Yield the values of a `Literal` or a bool, optional or not."""
-    parts = [part for part in get_args(annotation) or () if part is not type(None)]
-    if annotation is bool:
-        yield from (True, False)
-    elif get_origin(annotation) is Literal:
-        yield from parts
-    elif len(parts) == 1 and get_origin(annotation) is not list:
-        yield from literals(parts[0])
 
 
 def _bind(

@@ -14,7 +14,6 @@ from .rubber_tables import ConditionsTable as ConditionsTable
 from .rubber_tables import RubberSource as RubberSource
 from .tables import CaseTables as CaseTables
 from .tables import ChainOptions as ChainOptions
-from .tables import CompareTable as CompareTable
 from .tables import LoadTable as LoadTable
 from .tables import MeasuredTable as MeasuredTable
 from .tables import OutputTable as OutputTable

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gripscale.case_file.json_schema import SCHEMA_LINE, write_schema
+from gripscale.case_file.keys import SCHEMA_LINE, write_schema
 from gripscale.core import ZERO_CELSIUS, Described, FileError, checks
 from gripscale.io.folders import nearest_existing, write_bytes
 

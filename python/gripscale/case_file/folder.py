@@ -19,7 +19,7 @@ from itertools import count
 from pathlib import Path
 from typing import get_args
 
-from gripscale.case_file.json_schema import write_schema
+from gripscale.case_file.keys import write_schema
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.tables import CaseTables, FigureKind
 from gripscale.core.errors import GripscaleError, InputError

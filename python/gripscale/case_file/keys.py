@@ -1,62 +1,69 @@
 """Every key of a case file: what it takes, its default, its meaning, where it is explained.
 
-Made from the tables that read the file: what they do not know is not listed, what they know is.
+Made from the JSON Schema of the tables that read the file: what they do not know is not listed,
+what they know is. `case_schema` is that schema for an editor, which completes keys by it and marks
+what is wrong:
+
+    gripscale keys --schema > case.schema.json
+
+The first line of a case that is written refers to a copy beside it, `#:schema ./.case.schema.json`,
+which language servers for TOML follow (Taplo, in VS Code: Even Better TOML).
 """
 
 from __future__ import annotations
 
-import ast
-import inspect
 import json
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
-from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple
 
-from gripscale.case_file import tables
-from gripscale.case_file.rubber_tables import SHIFT_LAWS, SOFTENING, ConditionsTable, RubberSource
-from gripscale.case_file.schema import CaseTable, KeyQuantity, expected, quantity_of, table_of
-from gripscale.conditions.area_term import SHEAR_STRESSES, FittedPoints
-from gripscale.conditions.flash_temperature import ThermalProperties
-from gripscale.rubber.strain_energy import STRAIN_ENERGIES, StrainEnergy
+from gripscale.case_file.schema import expected, table_schema, toml_text
+from gripscale.case_file.tables import CaseTables
+from gripscale.io.folders import write_text
+
+SCHEMA_FILE = ".case.schema.json"
+# First line of a case file with its schema beside it.
+SCHEMA_LINE = f"#:schema ./{SCHEMA_FILE}\n"
 
 # The default of a key that must be there, and of one that may be left out for nothing.
 NEEDED, NOTHING = "needed", "-"
 
-# Tables of a case by name, those of one kind or another by their kinds, and their chapters.
-TABLES: tuple[tuple[str, type | Mapping[str, type], str], ...] = (
-    ("surface", tables.SurfaceTable, "inputs.md"),
-    ("surface.sines", tables.WaveTable, "method.md"),
-    ("rubber", RubberSource, "temperature.md"),
-    ("rubber.shift", SHIFT_LAWS, "temperature.md"),
-    ("rubber.strain_energy", STRAIN_ENERGIES, "material.md"),
-    ("load", tables.LoadTable, "method.md"),
-    ("solver", tables.SolverTable, "method.md"),
-    ("chain", tables.ChainOptions, "chain-and-direct-contact.md"),
-    ("conditions", ConditionsTable, "conditions.md"),
-    ("conditions.softening", SOFTENING, "conditions.md"),
-    ("conditions.heat", ThermalProperties, "conditions.md"),
-    ("conditions.counterface", ThermalProperties, "conditions.md"),
-    ("conditions.shear_stress", SHEAR_STRESSES, "conditions.md"),
-    ("conditions.shear_stress.fitted_to", FittedPoints, "measured-friction.md"),
-    ("below_measurement", tables.BelowMeasurementTable, "below-measurement.md"),
-    ("below_measurement.finer", tables.FinerTable, "below-measurement.md"),
-    ("measured", tables.MeasuredTable, "direct-contact.md"),
-    ("output", tables.OutputTable, "reading-results.md"),
-    ("compare", tables.CompareTable, "theories.md"),
-    ("uncertainty", tables.UncertaintyTable, "uncertainty.md"),
-    ("uncertainty.ranges", tables.RangesTable, "uncertainty.md"),
-)
-
+# Chapters of tables, with those inside them where these have none of their own.
+_CHAPTERS = {
+    "surface": "inputs.md",
+    "surface.sines": "method.md",
+    "rubber": "temperature.md",
+    "rubber.strain_energy": "material.md",
+    "load": "method.md",
+    "solver": "method.md",
+    "chain": "chain-and-direct-contact.md",
+    "conditions": "conditions.md",
+    "conditions.shear_stress.fitted_to": "measured-friction.md",
+    "below_measurement": "below-measurement.md",
+    "measured": "direct-contact.md",
+    "output": "reading-results.md",
+    "compare": "theories.md",
+    "uncertainty": "uncertainty.md",
+}
 _OF_THE_METHOD = ("scales", "smallest_wavelength", "s_wavelength", "s_amplitude", "single_factor")
 # Chapters of keys that are explained elsewhere than their tables.
-CHAPTERS = {
+_CHAPTERS_OF_KEYS = {
     **dict.fromkeys(("top_height_fraction", "cut_off"), "chain-and-direct-contact.md"),
     **dict.fromkeys(_OF_THE_METHOD, "method.md"),
     **dict.fromkeys(("strain_energy", "terms"), "material.md"),
     **dict.fromkeys(("extrapolate", "time_limit"), "inputs.md"),
 }
+
+
+class KeyQuantity(NamedTuple):
+    """A quantity with a unit that a key takes."""
+
+    kind: str
+    pair: bool
+    """Whether it takes a list of two, such as both ends of a range."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +75,15 @@ class Key:
     default: str
     meaning: str
     chapter: str
-    quantity: KeyQuantity | None = None
-    """The quantity with a unit that it takes; None for anything else."""
+    schema: Mapping[str, Any] = field(repr=False)
+    """JSON Schema of what it takes."""
+
+    @property
+    def quantity(self) -> KeyQuantity | None:
+        """The quantity with a unit that it takes; None for anything else."""
+        pair = self.schema.get("maxItems") == 2
+        kind = (self.schema["items"] if pair else self.schema).get("quantity")
+        return KeyQuantity(kind, pair) if kind else None
 
 
 @dataclass(frozen=True)
@@ -78,7 +92,6 @@ class KeySection:
 
     name: str
     kind: str
-    law: type
     about: str
     keys: list[Key]
 
@@ -91,44 +104,59 @@ class KeySection:
 @cache
 def sections() -> list[KeySection]:
     """Return all tables of a case with their keys, in the order of the documentation."""
-    return [
-        KeySection(name, kind, law, _about(law), list(table_keys(law, page)))
-        for name, table, page in TABLES
-        for kind, law in (table.items() if isinstance(table, Mapping) else [("", table)])
-    ]
+    tables = table_schema(CaseTables)["properties"]
+    return [section for name, table in tables.items() for section in _sections(name, table)]
 
 
-def table_keys(law: type, page: str = "") -> Iterator[Key]:
-    """Yield the keys of a table or a law, its own before those it shares with others."""
-    table = table_of(law)
-    meanings = {"kind": _about(law)}
-    for source in [base for base in law.__mro__[:0:-1] if issubclass(base, CaseTable)] + [law]:
-        body = ast.parse(inspect.getsource(source)).body[0]
-        assert isinstance(body, ast.ClassDef)
-        for field, below in pairwise(body.body):
-            match field, below:
-                case (
-                    ast.AnnAssign(target=ast.Name(id=name)),
-                    ast.Expr(value=ast.Constant(value=text)),
-                ):  # without units: a case states them as it likes
-                    meanings[name] = re.sub(r" \[[^\]]*\]", "", " ".join(str(text).split()))
-    for name in sorted(table.model_fields, key=lambda name: name not in table.__annotations__):
-        item = table.model_fields[name]
-        match item.default:
-            case _ if item.is_required():
-                default = NEEDED
-            case None | CaseTable():
-                default = NOTHING
-            case StrainEnergy(kind=kind):
-                default = f'{{ kind = "{kind}" }}'
-            case float(value):
-                default = f"{value:g}"
-            case value:
-                default = json.dumps(value)
-        meaning, chapter = meanings.get(name, ""), CHAPTERS.get(name, page)
-        takes = expected(item.annotation, item.metadata)
-        yield Key(name, takes, default, meaning, chapter, quantity_of(item))
+def _sections(name: str, schema: Mapping[str, Any]) -> Iterator[KeySection]:
+    """Yield the tables that a key takes, then those inside them."""
+    value = schema.get("items", schema)
+    tables = [table for table in value.get("anyOf", [value]) if "properties" in table]
+    for table in tables:
+        kind = table["properties"].get("kind", {}).get("const", "")
+        yield KeySection(name, kind, table["about"], list(_keys(name, table)))
+    for key, inner in {k: v for table in tables for k, v in table["properties"].items()}.items():
+        yield from _sections(f"{name}.{key}", inner)
 
 
-def _about(law: type) -> str:
-    return (law.__doc__ or "").partition("\n")[0]
+def _keys(table: str, schema: Mapping[str, Any]) -> Iterator[Key]:
+    chapter = table
+    while chapter not in _CHAPTERS:
+        chapter = chapter.rpartition(".")[0]
+    for name, key in schema["properties"].items():
+        default = NEEDED if name in schema.get("required", ()) else NOTHING
+        if key.get("default") is not None and "properties" not in key:
+            value = key["default"]
+            default = f"{value:g}" if isinstance(value, float) else toml_text(value)
+        # without units: a case states them as it likes
+        meaning = re.sub(r" \[[^\]]*\]", "", " ".join(key.get("description", "").split()))
+        page = _CHAPTERS_OF_KEYS.get(name, _CHAPTERS[chapter])
+        yield Key(name, expected(key), default, meaning, page, key)
+
+
+@cache
+def case_schema() -> str:
+    """Return the JSON Schema of a case file."""
+    about = {"$schema": "http://json-schema.org/draft-07/schema#", "title": "Case of gripscale"}
+    return json.dumps(about | _for_editors(table_schema(CaseTables)), indent=1, ensure_ascii=False)
+
+
+def _for_editors(schema: Any) -> Any:
+    """Return a JSON Schema with the keywords of editors alone, and with all words of `sections`."""
+    if not isinstance(schema, dict):
+        return [_for_editors(part) for part in schema] if isinstance(schema, list) else schema
+    parts = {key: _for_editors(part) for key, part in schema.items() if key not in _OURS}
+    for key in _keys("surface", schema) if "properties" in schema else ():
+        default = "" if key.default in (NEEDED, NOTHING) else f"; by default {key.default}"
+        words = f"{key.meaning} Takes {key.takes}{default}."
+        parts["properties"][key.name]["description"] = words
+    return parts
+
+
+_OURS = ("expected", "quantity", "about", "gone", "default")
+
+
+def write_schema(case: str, folder: Path) -> None:
+    """Write the schema into the folder of a case whose text refers to it."""
+    if case.startswith(SCHEMA_LINE):
+        write_text(folder / SCHEMA_FILE, case_schema())

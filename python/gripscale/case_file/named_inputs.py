@@ -70,7 +70,9 @@ def read_surface(value: Any, file: CaseFile, options: Mapping[str, Any] = _NO_KE
         settings["scales"] = len(table.sines)
     source = {"files": [str(path)]} if table.map is None else {"map": str(path)}
     settings |= {**source, **options}
-    surface = prepare_surface(validate(SurfaceTable, settings, "vary surface"))
+    surface = prepare_surface(
+        validate(SurfaceTable, settings, "vary surface"), footprint=file.case.load.footprint
+    )
     if not outside:
         return surface
     keys = table.model_fields_set - SOURCES_OF_SURFACE

@@ -7,27 +7,25 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from gripscale.case import Case
-from gripscale.case_file.json_schema import SCHEMA_LINE, write_schema
-from gripscale.case_file.keys import sections
+from gripscale.case_file.keys import SCHEMA_LINE, sections, write_schema
+from gripscale.case_file.kinds import RUBBERS, SURFACES, FileKeys, Taken
+from gripscale.case_file.laboratory import Ask, Laboratory, first_choice, laboratory
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import (
     BY_A_FACTOR,
+    OF_ANOTHER_CASE,
     TENS_OF_PERCENT,
-    UNITS_OF_SURFACE,
     Proposal,
+    add_shift,
+    add_softening,
     assumption,
+    celsius_text,
     conditions_proposal,
-    holds_moduli,
-    open_rubber,
-    open_surface,
-    reading_keys,
     rubber_proposal,
     surface_proposal,
 )
@@ -36,16 +34,14 @@ from gripscale.case_file.rubber_tables import NAMED_RUBBERS
 from gripscale.case_file.schema import toml_text
 from gripscale.core import CaseKey, ExtrapolationError, FileError, GripscaleError, InputError, Words
 from gripscale.core.finding import Finding, ranked
-from gripscale.core.units import si_value
+from gripscale.core.units import plain, si_value
 from gripscale.io.folders import make_folder, path_between, write_text
 from gripscale.io.text_table import files_read_once
-from gripscale.rubber import read_shift_table
-from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.extrapolation import require_measured
-from gripscale.rubber.sweeps import holds_sweeps
 
 # What is taken where the caller states nothing.
 _LOAD = {"pressure": "3 bar", "speed": "1 m/s", "footprint": "100 mm"}
+_UNITS_OF_LOAD = {"pressure": ("bar", 1e5), "speed": ("m/s", 1.0)}
 _HEAD = f"""{SCHEMA_LINE}\
 # Written by `gripscale new`. Quantities are texts with their unit; paths start at this file.
 # `gripscale keys` lists every key with its default and meaning.
@@ -72,8 +68,8 @@ class NewCase:
     path: Path
     findings: Sequence[Finding]
     """What was taken for granted, the most important first."""
-    skipped: tuple[Path, ...] = ()
-    """Files of a folder that hold neither a surface nor moduli."""
+    files: tuple[Taken, ...] = ()
+    """What each file is taken for."""
 
 
 @files_read_once()
@@ -87,7 +83,7 @@ def new_case(files: Sequence[str | Path], path: str | Path, **options: Any) -> N
     target = Path(path)
     if target.exists():
         raise FileError(f"{target} is there already and is not overwritten; give another name")
-    tables, skipped = propose(files, target.parent, **options)
+    tables, taken = propose(files, target.parent, **options)
     if "modulus" in tables["rubber"].keys.keys() - (options.get("layout") or {}).keys():
         words = " must be given, E for Young's moduli or G for shear moduli, a third of them: the "
         key, file = CaseKey("modulus"), tables["rubber"].keys["file"]
@@ -102,7 +98,7 @@ def new_case(files: Sequence[str | Path], path: str | Path, **options: Any) -> N
         raise
     write_text(target, case_text(tables, of_inputs, results))
     write_schema(_HEAD, target.parent)
-    return NewCase(target, ranked_findings(tables, of_inputs), skipped)
+    return NewCase(target, ranked_findings(tables, of_inputs), taken)
 
 
 def propose(
@@ -118,16 +114,19 @@ def propose(
     filled: bool | None = None,
     interface: str | None = None,
     surface: Mapping[str, Any] | None = None,
-) -> tuple[dict[str, Proposal], tuple[Path, ...]]:
-    """Return the tables of a case in a directory for measured files, and the files without use.
+    kinds: Mapping[str | Path, str] | None = None,
+    ask: Ask = first_choice,
+) -> tuple[dict[str, Proposal], tuple[Taken, ...]]:
+    """Return the tables of a case in a directory, and what each of its files is taken for.
 
     Raises `InputError` or `FileError` if the files hold no surface or no moduli, or cannot be read.
 
     Parameters
     ----------
     files : sequence of path-like
-        Profiles or a map, and a master curve or sweeps, in any order, or folders of them; in place
-        of moduli the name of a rubber of `NAMED_RUBBERS`.
+        Profiles or a map, a master curve, sweeps or a Prony series, and if there are any shift
+        factors, strain sweeps and measured friction, in any order, or folders of them; in place of
+        moduli the name of a rubber of `NAMED_RUBBERS`.
     directory : Path
         Where the case file will be.
     load : mapping, optional
@@ -149,38 +148,53 @@ def propose(
         Whether the rubber is filled; without it the answer has both numbers, with a doubt.
     interface : str, optional
         "dry" adds the interface of a dry road to the friction of the hysteresis.
+    kinds : mapping, optional
+        Kinds of files (`gripscale.case_file.kinds.NAMES`) that go before their content.
+    ask : callable, optional
+        Returns one of several answers to a question; the first, the likeliest, by default.
     """
     kelvin = si_value("temperature", temperature, "K")
     layout, of_surface = dict(layout or {}), dict(surface or {})
     reference = layout.pop("reference_temperature", None)
-    named = [str(name) for name in files if str(name) in NAMED_RUBBERS and not Path(name).exists()]
-    paths = [Path(file) for file in files if str(file) not in named]
-    surfaces, rubbers, shifts, skipped = _sorted(paths, step, layout, named, of_surface)
-    names = {file: path_between(directory, file) for file in (*surfaces, *rubbers, *shifts)}
-    of_load = Proposal()
-    for key, default in _LOAD.items():
-        if load and load.get(key) is not None:
-            of_load.add(key, load[key])
-        else:
-            effect = TENS_OF_PERCENT if key == "footprint" else BY_A_FACTOR
-            of_load.add(key, default, f"not stated; --{key} states another", effect)
-    road = surface_proposal(
-        surfaces, [names[file] for file in surfaces], step=step, keys=of_surface
-    )
-    if named:
+    names = [str(name) for name in files if str(name) in NAMED_RUBBERS and not Path(name).exists()]
+    measured = [file for file in files if str(file) not in names]
+    lab = laboratory(measured, FileKeys(step, of_surface, layout), kinds or {}, ask)
+    _require_both(lab, names)
+    inside = {file.path: path_between(directory, file.path) for file in lab.files}
+    friction = lab.of("friction")
+    if kelvin is None and friction:
+        kelvin = friction[0].measured.middle("temperature")
+    paths = [file.path for file in lab.of(*SURFACES)]
+    road = surface_proposal(paths, [inside[path] for path in paths], step=step, keys=of_surface)
+    rubbers, shifts = [file.path for file in lab.of(*RUBBERS)], lab.of("shift")
+    if names:
         rubber = Proposal()
-        rubber.add("name", named[0], "known by published parameters")
-        if shift is not None:
-            rubber.add("shift", dict(shift), "as stated")
+        rubber.add("name", names[0], "known by published parameters")
+        add_shift(rubber, shift)
     else:
-        measurement = {"temperature": kelvin, "shift": shift, "layout": layout}
-        measurement["reference"] = reference
-        rubber = _one_rubber(rubbers, [names[file] for file in rubbers], **measurement)
-    if shift is None:
-        for name in (names[file] for file in shifts):
-            cure = f'shift = "{name}" in [rubber] takes them'
-            unused = f"{name} holds shift factors and is not used: {cure}"
-            rubber.findings.append(assumption(BY_A_FACTOR, unused))
+        units: Mapping[str, str] = {}
+        options: dict[str, Any] = {"shift": shift, "reference": reference}
+        if shifts and shift is None and lab.of(*RUBBERS)[0].kind != "sweeps":
+            options["shift"] = inside[shifts[0].path]
+            unity = shifts[0].measured.unity
+            if reference is None and unity is not None:
+                reason = f"a_T of {shifts[0].path.name} is 1 there"
+                options |= {"reference": celsius_text(unity), "reason": reason}
+            units, shifts = shifts[0].missing, []
+        rubber = rubber_proposal(
+            rubbers,
+            [inside[path] for path in rubbers],
+            temperature=kelvin,
+            layout=layout,
+            **options,
+        )
+        for key, unit in units.items():
+            rubber.add(key, unit, "the shift factors do not state it", OF_ANOTHER_CASE)
+    for file in () if shift is not None else shifts:
+        cure = f'shift = "{inside[file.path]}" in [rubber] takes them'
+        unused = f"{inside[file.path]} holds shift factors and is not used: {cure}"
+        rubber.findings.append(assumption(BY_A_FACTOR, unused))
+        lab.leave_out([file], "the sweeps find their own")
     if thickness is None:
         rubber.findings.append(assumption(TENS_OF_PERCENT, _WITHOUT_END))
     else:
@@ -188,10 +202,46 @@ def propose(
     if filled is not None:
         rubber.add("filled", filled, "as stated")
     conditions = conditions_proposal(rubber, rubbers, kelvin)
+    if strain := [file.path for file in lab.of("strain-sweep")]:
+        add_softening(conditions, strain, [inside[path] for path in strain])
     if interface is not None:
         conditions.add("interface", interface, "as stated")
-    tables = {"surface": road, "rubber": rubber, "load": of_load, "conditions": conditions}
-    return tables, skipped
+    rubber.findings += lab.findings
+    tables = {"surface": road, "rubber": rubber, "load": _load(load or {}, friction)}
+    tables |= {"conditions": conditions, "measured": Proposal()}
+    if friction:
+        words = "drawn over the answer, and what `gripscale calibrate` fits the area term to"
+        tables["measured"].add("friction", inside[friction[0].path], words)
+    return tables, tuple(lab.files)
+
+
+def _require_both(lab: Laboratory, named: Sequence[str]) -> None:
+    """Raise `InputError` unless there is a surface, and a rubber that is measured or `named`."""
+    surfaces, rubbers = lab.of(*SURFACES), lab.of(*RUBBERS)
+    every = ", ".join([*(file.path.name for file in lab.files), *named])
+    if named and (rubbers or named[1:]):
+        raise InputError(f"expected one rubber, measured or known by name; got {every}")
+    if not surfaces or not (rubbers or named):
+        moduli = f"moduli (frequency, storage and loss) or a name ({', '.join(NAMED_RUBBERS)})"
+        what = moduli if surfaces else "a surface"
+        raise InputError(f"expected a file with {what}, too; got {every or 'no file'}")
+
+
+def _load(load: Mapping[str, str | None], friction: Sequence[Taken]) -> Proposal:
+    """Return the table [load]: as stated, else as friction was measured, else usual values."""
+    proposal = Proposal()
+    for key, default in _LOAD.items():
+        measured = friction and key in _UNITS_OF_LOAD and friction[0].measured.middle(key)
+        if load.get(key) is not None:
+            proposal.add(key, load[key])
+        elif measured:
+            unit, size = _UNITS_OF_LOAD[key]
+            words = f"the middle one of {friction[0].path.name}; --{key} states another"
+            proposal.add(key, f"{plain(measured / size, 4)} {unit}", words, TENS_OF_PERCENT)
+        else:
+            effect = TENS_OF_PERCENT if key == "footprint" else BY_A_FACTOR
+            proposal.add(key, default, f"not stated; --{key} states another", effect)
+    return proposal
 
 
 def ranked_findings(
@@ -200,70 +250,6 @@ def ranked_findings(
     """Return the findings of proposals and further ones, the most important first."""
     proposed = (finding for table in tables.values() for finding in table.findings)
     return ranked(dict.fromkeys([*proposed, *further]))
-
-
-def _sorted(
-    files: Sequence[Path],
-    step: str | list[str] | None,
-    layout: Mapping[str, Any],
-    named: Sequence[str] = (),
-    of_surface: Mapping[str, Any] = MappingProxyType({}),
-) -> tuple[list[Path], list[Path], list[Path], tuple[Path, ...]]:
-    """Return the files of surfaces, of moduli and of shifts, and those of folders without use.
-
-    Where a rubber is `named` there are no moduli.
-    """
-    surfaces: list[Path] = []
-    rubbers: list[Path] = []
-    shifts: list[Path] = []
-    skipped: list[Path] = []
-    refused: list[tuple[Path, GripscaleError]] = []
-    for file in files:
-        for path in sorted(file.glob("[!.]*")) if file.is_dir() else [file]:
-            if holds_moduli(path, FileLayout(**layout)):
-                rubbers.append(path)
-                continue
-            with suppress(GripscaleError):
-                read_shift_table(path)
-                shifts.append(path)
-                continue
-            try:
-                open_surface(path, step, UNITS_OF_SURFACE, **reading_keys(of_surface))
-            except GripscaleError as error:
-                if file.is_dir():
-                    skipped.append(path)
-                else:
-                    refused.append((path, error))
-            else:
-                surfaces.append(path)
-    if refused:
-        path, refusal = refused[0]
-        if surfaces and not rubbers:
-            open_rubber([path], layout)  # raises why there are no moduli in it
-        raise refusal
-    every = ", ".join([*(path.name for path in (*surfaces, *rubbers, *shifts, *skipped)), *named])
-    if named and (rubbers or named[1:]):
-        raise InputError(f"expected one rubber, measured or known by name; got {every}")
-    if not surfaces or not (rubbers or named):
-        moduli = f"moduli (frequency, storage and loss) or a name ({', '.join(NAMED_RUBBERS)})"
-        what = moduli if surfaces else "a surface"
-        raise InputError(f"expected a file with {what}, too; got {every or 'no file'}")
-    return surfaces, rubbers, shifts, tuple(skipped)
-
-
-def _one_rubber(files: list[Path], names: list[str], **options: Any) -> Proposal:
-    """Return the proposal for files of one rubber; name those of a folder that do not fit."""
-    try:
-        return rubber_proposal(files, names, **options)
-    except GripscaleError as error:
-        sweeps = [file.name for file in files if holds_sweeps(file)]
-        others = [file.name for file in files if file.name not in sweeps]
-        if not sweeps or not others:
-            raise
-        raise InputError(
-            f"{' and '.join(others)} cannot be joined with the sweeps of {' and '.join(sweeps)}; "
-            "name the file of one of them in place of the folder"
-        ) from error
 
 
 def case_text(

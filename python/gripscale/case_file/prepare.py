@@ -28,10 +28,20 @@ from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
-from gripscale.core import FileError, InputError, about_file, about_keys, unstated
+from gripscale.core import (
+    CaseKey,
+    FileError,
+    InputError,
+    Words,
+    about_file,
+    about_keys,
+    unstated,
+)
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.experiment.measured_friction import read_measured_friction
-from gripscale.io.text_table import read_bytes
+from gripscale.half_space.grid import MOST_POINTS
+from gripscale.io.text_table import is_text, read_bytes
+from gripscale.model import FOOTPRINT
 from gripscale.rubber import (
     MasterCurve,
     Rubber,
@@ -50,7 +60,6 @@ from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
-from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 Resolve = Callable[[str], Path]
 # What the files of a surface hold, before any cleaning.
@@ -66,12 +75,16 @@ def _options(table: CaseTable, function: Callable[..., Any]) -> dict[str, Any]:
 
 @about_keys("surface")
 def prepare_surface(
-    surface: SurfaceTable, resolve: Resolve = Path, raw: RawHeights | None = None
+    surface: SurfaceTable,
+    resolve: Resolve = Path,
+    raw: RawHeights | None = None,
+    *,
+    footprint: float = FOOTPRINT,
 ) -> surfaces.Surface:
     """Read, clean and describe the profiles or the map of `surface`, or take its waves as stated.
 
     `resolve` turns the name of a file into its path. `raw` is what `raw_surface` returns, where the
-    files are read already.
+    files are read already; `footprint` [m] holds waves of profiles.
 
     Raises `FileError` and `InputError` as reading, cleaning and fitting do.
     """
@@ -79,11 +92,11 @@ def prepare_surface(
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     raw = raw_surface(surface, resolve) if raw is None else raw
-    return _described(surface, _cleaned(surface, raw, resolve), resolve)
+    return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
 
 
 def _described(
-    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve
+    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve, footprint: float
 ) -> surfaces.Surface:
     """Return a cleaned measurement with its correlation and waves, as the keys of `surface` ask."""
     paths = [resolve(name) for name in surface.measured_files]
@@ -96,6 +109,7 @@ def _described(
             fit=_options(surface, surfaces.fit_sines),
             cut_off=surface.cut_off,
             source=", ".join(str(path) for path in paths),
+            footprint=footprint if surface.clean else None,
         )
 
 
@@ -103,13 +117,13 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     """Return the surface of a case, its cut-off by the slope in contact solved."""
     table = file.case.surface
     rule = table.cut_off
+    load = file.case.load
     if not isinstance(rule, surfaces.ContactSlope):
-        return prepare_surface(table, file.resolve)
+        return prepare_surface(table, file.resolve, footprint=load.footprint)
     if table.map is not None:
         raise InputError(f"cut_off = {rule} needs measured profiles; got a map")
     measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
     lines = measured.cleaned
-    load = file.case.load.nominal
     curve = contact_by_cut_off(
         prepare_rubber(file.case.rubber, file.resolve).rubber,
         lines,
@@ -131,7 +145,27 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
         )
     solved = replace(rule, wavelength=wavelength)
     with about_keys("surface"):
-        return _described(table.model_copy(update={"cut_off": solved}), measured, file.resolve)
+        table = table.model_copy(update={"cut_off": solved})
+        return _described(table, measured, file.resolve, load.footprint)
+
+
+def _require_few_points(file: CaseFile) -> None:
+    """Raise `InputError` for a text of more points than a contact takes, before it is read."""
+    table = file.case.surface
+    ends = (table.smallest_wavelength, table.crop, table.map)
+    if any(end is not None for end in ends) or table.cut_off not in (None, "instrument"):
+        return
+    for path in map(file.resolve, table.measured_files):
+        if path.is_file() and path.stat().st_size > 2 * MOST_POINTS:
+            raw = read_bytes(path)
+            points = raw.count(b"\n") if is_text(raw) else 0
+            if points > MOST_POINTS:
+                words = (
+                    f" must be a length, at least {points / MOST_POINTS:.2g} times what the "
+                    f"measurement carries: {path} has {points} lines, a contact at most "
+                    f"{MOST_POINTS} points, four in each wave"
+                )
+                raise InputError(Words(f"{file.path}: ", CaseKey("cut_off"), words))
 
 
 @about_keys("surface")
@@ -144,10 +178,18 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     if surface.map is None:
         options = _options(surface, surfaces.read_profile)
         lays = surface.lay or ["along"] * len(paths)
+        channels = surface.channel if isinstance(surface.channel, list) else [surface.channel]
         lines = [
-            replace(surfaces.read_profile(path, **options), lay=lay)
+            replace(surfaces.read_profile(path, **options | {"channel": channel}), lay=lay)
             for path, lay in zip(paths, lays, strict=True)
+            for channel in channels
         ]
+        if len(channels) > 1:
+            names = (channel for _ in paths for channel in channels)
+            lines = [
+                replace(line, name=f"{line.name} {name}")
+                for line, name in zip(lines, names, strict=True)
+            ]
         if surface.reliable is None:
             return lines
         return [replace(line, reliable=surface.reliable) for line in lines]
@@ -170,12 +212,13 @@ def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfac
     if not surface.clean:
         return surfaces.Measured.of(raw)
     profiles, reports = [], []
-    for line, name in zip(raw, surface.measured_files, strict=True):
-        with about_file(resolve(name), InputError):
+    for line in raw:
+        with about_file(line.source, InputError):
             cleaned, report = surfaces.clean(line, **_options(surface, surfaces.clean))
         profiles.append((line, cleaned))
         reports.append(report)
-    return surfaces.Measured.of_pairs(profiles, reports)
+    measured = surfaces.Measured.of_pairs(profiles, reports)
+    return replace(measured, longest=surface.longest_wavelength)
 
 
 # Keys of the case's [rubber] that only sweeps at several temperatures have.
@@ -330,8 +373,15 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
 
 
 def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
-    shift = source.shift
-    return read_shift_table(resolve(shift)) if isinstance(shift, str) else shift
+    if not isinstance(source.shift, str):
+        return source.shift
+    path = resolve(source.shift)
+    try:
+        return read_shift_table(path)
+    except InputError as error:
+        if error.missing != "temperature_unit" or source.temperature_unit is None:
+            raise
+        return read_shift_table(path, temperature_unit=source.temperature_unit)
 
 
 _EFFECTS = {field.name for field in fields(Conditions)} & ConditionsTable.model_fields.keys()
@@ -378,16 +428,13 @@ def _below_measurement(file: CaseFile) -> BelowMeasurement:
     return BelowMeasurement(table.down_to, roughness, table.seed)
 
 
-def case_chain(file: CaseFile) -> Chain:
-    """Return the chain of a case.
+def case_chain(file: CaseFile, conditions: Conditions | None = None) -> Chain:
+    """Return the chain of a case, under its own conditions where they are not given.
 
     Raises `FileError` and `InputError` for conditions that cannot be used.
     """
-    return _chain(file, prepare_conditions(file.case.conditions, file.resolve))
-
-
-def _chain(file: CaseFile, conditions: Conditions | None) -> Chain:
     case = file.case
+    conditions = conditions or prepare_conditions(case.conditions, file.resolve)
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
@@ -428,35 +475,29 @@ def read_case(path: CaseFile | str | Path) -> Case:
         with about_keys("measured"):
             friction = read_measured_friction(file.resolve(name))
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    chain = _chain(file, conditions)
+    chain = case_chain(file, conditions)
+    _require_few_points(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    load, theory, table = file.case.load, file.case.compare, file.case.surface
+    table = file.case.surface
     cleaned = table.clean and surface.measured is not None
-    klueppel_heinrich = None
-    if theory.layer_ratio is not None and theory.penetration_depth is not None:
-        klueppel_heinrich = KlueppelHeinrich(theory.layer_ratio, theory.penetration_depth)
     with about_keys("rubber.shift"):
         try:
             return Case(
                 surface,
                 rubber,
-                pressure=load.pressure,
-                speed=load.speed,
-                footprint=load.footprint,
-                tester=load.tester,
+                **file.case.load.model_dump(),
                 kind=table.kind,
-                load_time=load.nominal.load_time,
                 thickness=file.case.rubber.thickness,
                 chain=chain,
                 conditions=conditions,
                 filled=_filled(file.case.rubber, file.case.conditions.softening),
                 interface=file.case.conditions.interface,
                 below_measurement=_below_measurement(file),
-                klueppel_heinrich=klueppel_heinrich,
+                klueppel_heinrich=file.case.compare,
                 friction=friction,
                 cleaning=_options(table, surfaces.clean) if cleaned else None,
-                options={"uncertainty": file.case.uncertainty.options()},
+                options={"uncertainty": file.case.uncertainty.model_dump(exclude_none=True)},
                 origin=Origin(
                     str(file.path),
                     file.text,

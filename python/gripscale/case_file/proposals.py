@@ -29,22 +29,36 @@ from gripscale.core import (
     Words,
     in_mm,
 )
-from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
+from gripscale.io.cells import SEPARATORS, cells_of, is_comment
+from gripscale.io.text_table import TextTable, is_excel, read_lines
+from gripscale.rubber import (
+    MasterCurve,
+    ShiftTable,
+    Sweeps,
+    read_master_curve,
+    read_shift_table,
+    read_sweeps,
+)
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
 from gripscale.rubber.prony import largest_modulus
 from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
+from gripscale.rubber.softening import softening_of_sweeps
+from gripscale.rubber.strain_sweeps import StrainSweep, read_strain_sweeps
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, read_map, read_profile
+from gripscale.surface.low_pass import POINTS_IN_CUT_OFF
 from gripscale.surface.plausibility import has_likely_units
 from gripscale.surface.read import POINT_SUFFIXES, is_text_surface
 from gripscale.surface.supports import road_between, support_plates
 
 _Measurement = TypeVar("_Measurement")
 
+_STATED = "as stated"
 _SCALES = 8  # waves of a surface that states none, as in `gripscale fit-surface`
 _CUT_OFF = "instrument"  # where its roughness ends: where the measurement does
+_ENOUGH_POINTS = 2**18  # of a line in a contact that is solved within a minute
 ROOM = 293.15  # temperature taken where neither a file nor the caller states one [K]
 # Effects of what is taken for granted on the friction [-]: tens of per cent, a factor, or it is the
 # friction of another road or rubber.
@@ -89,7 +103,7 @@ UNITS_OF_RUBBER = {
 }
 
 
-def _read_with(
+def read_with(
     read: Callable[..., _Measurement], path: Any, defaults: Mapping[str, str], **options: Any
 ) -> tuple[_Measurement, dict[str, str]]:
     """Return what a file holds, and the keys without which it cannot be read, by default."""
@@ -132,8 +146,16 @@ def surface_proposal(
     if step is not None:
         proposal.add("step", step)
     for key, value in keys.items():
-        proposal.add(key, value, "as stated")
+        proposal.add(key, value, _STATED)
     read = read_map if isinstance(surface, HeightMap) else read_profile
+    tracks = [keys.get("channel")]
+    if (channel := missing.pop("channel", None)) is not None:
+        tracks = channel if isinstance(channel, list) else [channel]
+        several = isinstance(channel, list)
+        words = "each column of heights is a profile" if several else "the first of the channels"
+        effect = TENS_OF_PERCENT if several else OF_ANOTHER_CASE
+        proposal.add("channel", channel, f"{words}; --channel states another", effect)
+    options |= {} if tracks == [None] else {"channel": tracks[0]}
     units: dict[str, Any] = {}
     # units that the file does not state with which its heights are those of a texture, if any are
     for choice in product(LENGTHS, repeat=len(missing)) if missing else ():
@@ -149,7 +171,11 @@ def surface_proposal(
         words = f"{paths[0].name} names no unit; with this one the heights are a texture"
         proposal.add(key, unit, words, OF_ANOTHER_CASE)
     if isinstance(surface, Profile) and "crop" not in keys:
-        profiles = [read_profile(path, **options, **units) for path in paths]
+        profiles = [
+            read_profile(path, **options | units | {"channel": track})
+            for path in paths
+            for track in tracks
+        ]
         ends = [part for profile in profiles if (part := road_between(profile)) is not None]
         if ends:
             first, last = max(part[0] for part in ends), min(part[1] for part in ends)
@@ -162,7 +188,11 @@ def surface_proposal(
             proposal.add("crop", [in_mm(first), in_mm(last)], words, BY_A_FACTOR)
     proposal.add("scales", _SCALES, "sine waves of the chain")
     words = "roughness below what the measurement carries is left out; it may add friction"
-    proposal.add("cut_off", _CUT_OFF, words, TENS_OF_PERCENT)
+    cut_off = _CUT_OFF
+    if isinstance(surface, Profile) and len(surface) > _ENOUGH_POINTS:
+        cut_off = in_mm(POINTS_IN_CUT_OFF * surface.length / _ENOUGH_POINTS, 2)
+        words = f"the contact of all {len(surface)} points takes too long; shorter {words}"
+    proposal.add("cut_off", cut_off, words, TENS_OF_PERCENT)
     return proposal
 
 
@@ -185,9 +215,10 @@ def open_surface(
     step: str | list[str] | None = None,
     defaults: Mapping[str, str] = MappingProxyType({}),
     **reading: Any,
-) -> tuple[Profile | HeightMap, dict[str, str]]:
+) -> tuple[Profile | HeightMap, dict[str, Any]]:
     """Return the profile or the map of a file, and those of the `defaults` that it needs.
 
+    With `defaults` the first of several channels is read, and of a text all are named, as tracks.
     `reading` are further arguments of the readers. Raises `FileError` and `InputError` as
     reading does.
     """
@@ -198,9 +229,16 @@ def open_surface(
     refusals = []
     for read in readers:
         try:
-            return _read_with(read, path, defaults, **options)
+            return read_with(read, path, defaults, **options)
         except GripscaleError as error:
             refusals.append(error)
+            if error.choices and defaults:
+                channel = {"channel": error.choices[0]}
+                surface: Any
+                surface, missing = read_with(read, path, defaults, **options, **channel)
+                if lines and isinstance(surface, Profile):
+                    return surface, {**missing, "channel": list(error.choices)}
+                return surface, {**missing, **channel}
     # a reader that only misses a key is the right one, and one that wants less stated the wrong one
     raise min(refusals, key=lambda error: (not error.missing, isinstance(error, InputError)))
 
@@ -210,25 +248,25 @@ def rubber_proposal(
     names: list[str],
     *,
     temperature: float | None = None,
-    shift: Mapping[str, Any] | None = None,
+    shift: Mapping[str, Any] | str | None = None,
     layout: Mapping[str, Any] = MappingProxyType({}),
     reference: str | None = None,
+    reason: str = _STATED,
 ) -> Proposal:
     """Return the table [rubber] for a master curve or sweeps, to be used at a temperature [K].
 
     `names` are those of the files in the case, the `layout` what is stated of them, `reference` the
-    temperature that a curve holds for or sweeps are shifted to. Raises `FileError` and
-    `InputError` as reading does.
+    temperature that a curve holds for or sweeps are shifted to, and `reason` why. Raises
+    `FileError` and `InputError` as reading does.
     """
     proposal, settings = Proposal(), dict(layout)
     proposal.add("file", names[0] if len(names) == 1 else names)
     for key, value in settings.items():
-        proposal.add(key, value, "as stated")
+        proposal.add(key, value, _STATED)
     if len(paths) == 1 and holds_prony_table(paths[0]):
         read_prony_table(paths[0], **settings)
-        _add_reference(proposal, None, temperature, reference)
-        if shift is not None:
-            proposal.add("shift", dict(shift), "as stated")
+        _add_reference(proposal, None, temperature, reference, reason)
+        add_shift(proposal, shift)
         return proposal
     measured, asked = open_rubber(paths, settings)
     for key in asked:
@@ -237,7 +275,7 @@ def rubber_proposal(
         proposal.add(key, settings[key], reason, OF_ANOTHER_CASE)
     if asked:
         measured, _ = open_rubber(paths, settings)
-    _add_reference(proposal, measured, temperature, reference)
+    _add_reference(proposal, measured, temperature, reference, reason)
     if isinstance(measured, Sweeps) and not measured.is_ramp:
         try:
             replace(measured, tolerance=TEMPERATURE_TOLERANCE)
@@ -246,8 +284,7 @@ def rubber_proposal(
                 "the temperatures have no gaps: moduli are interpolated at multiples of this step"
             )
             proposal.add("temperature_step", NOMINAL_STEP, words, TENS_OF_PERCENT)
-    if shift is not None:
-        proposal.add("shift", dict(shift), "as stated")
+    add_shift(proposal, shift)
     stiffest = float(measured.storage.max())
     if stiffest > _NO_SOLID:
         words = (
@@ -276,13 +313,46 @@ def open_rubber(
 ) -> tuple[MasterCurve | Sweeps, dict[str, str]]:
     """Return sweeps or a master curve, and the keys of the layout that nothing states."""
     if len(paths) > 1 or holds_sweeps(paths[0], FileLayout(**layout)):
-        return _read_with(read_sweeps, paths, UNITS_OF_RUBBER, tolerance=0.0, **layout)
-    return _read_with(read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
+        return read_with(read_sweeps, paths, UNITS_OF_RUBBER, tolerance=0.0, **layout)
+    return read_with(read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
 
 
+_UNITS_OF_STRAIN = {"amplitude": "single", "strain_unit": "%", **UNITS_OF_RUBBER}
+_LEAST_STRAIN = 5e-3  # largest strain of sweeps below which the numbers are no per cent
 _NO_SOLID = 1.2e12  # Young's modulus of diamond [Pa]
 _SOFTEST, _STIFFEST = 2e4, 1e8  # between these lies the smallest modulus of a measured rubber [Pa]
 _HOTTEST = ZERO_CELSIUS + 180.0  # mean temperature that no sweeps have [K]
+
+
+def open_strain_sweeps(paths: list[Path]) -> tuple[list[StrainSweep], dict[str, str]]:
+    """Return strain sweeps that give a law of softening, and the keys that nothing states."""
+    read: Callable[..., list[StrainSweep]] = read_strain_sweeps
+    sweeps, asked = read_with(read, paths, _UNITS_OF_STRAIN)
+    if "strain_unit" in asked and max(sweep.strain[-1] for sweep in sweeps) < _LEAST_STRAIN:
+        asked["strain_unit"] = "1"
+        sweeps = read(paths, **asked)
+    softening_of_sweeps(sweeps)
+    return sweeps, asked
+
+
+def open_shift(path: Path) -> tuple[ShiftTable, dict[str, str]]:
+    """Return shift factors, and the unit of their temperatures if nothing states it."""
+    table, asked = read_with(read_shift_table, path, UNITS_OF_RUBBER)
+    if asked and table.temperature.mean() > _HOTTEST:
+        asked = {"temperature_unit": "K"}
+        table = read_shift_table(path, **asked)
+    return table, asked
+
+
+def add_softening(proposal: Proposal, paths: list[Path], names: list[str]) -> None:
+    """Add the softening of strain sweeps to the table [conditions]."""
+    _, asked = open_strain_sweeps(paths)
+    softening = {"kind": "table", "files": names, **asked}
+    proposal.add("softening", softening, "measured strain sweeps")
+    for key in asked.keys() - {"modulus", "modulus_unit"}:  # the law is one of ratios
+        effect = TENS_OF_PERCENT if key == "amplitude" else BY_A_FACTOR
+        text = f'softening, {key} = "{asked[key]}": {paths[0].name} does not state it'
+        proposal.findings.append(assumption(effect, text))
 
 
 def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str, str]:
@@ -309,9 +379,11 @@ def _add_reference(
     measured: MasterCurve | Sweeps | None,
     temperature: float | None,
     reference_text: str | None,
+    reason: str,
 ) -> None:
-    if reference_text is not None:
-        proposal.add("reference_temperature", reference_text, "as stated")
+    curve = isinstance(measured, MasterCurve) and measured.reference_temperature is not None
+    if reference_text is not None and not (curve and reason != _STATED):
+        proposal.add("reference_temperature", reference_text, reason)
         return
     target = ROOM if temperature is None else temperature
     if not isinstance(measured, Sweeps):
@@ -334,6 +406,14 @@ def _add_reference(
     if temperature is None:
         text = f"no temperature of the contact stated: {reference - ZERO_CELSIUS:.4g} °C assumed"
         proposal.findings.append(assumption(BY_A_FACTOR, f"{text}; --temperature states another"))
+
+
+def add_shift(proposal: Proposal, shift: Mapping[str, Any] | str | None) -> None:
+    """Add a shift, the name of a table or a law with its constants, to the table [rubber]."""
+    if isinstance(shift, str):
+        proposal.add("shift", shift, "the measured shift factors")
+    elif shift is not None:
+        proposal.add("shift", dict(shift), _STATED)
 
 
 NOMINAL_STEP = "5 K"  # step of nominal temperatures of ramps at several frequencies
@@ -380,7 +460,7 @@ def holds_moduli(path: Path, layout: FileLayout) -> bool:
             if layout.columns is None:
                 return True
             continue
-        if not any(table.names) and len(table.columns) == 3:
+        if not any(table.names) and len(table.columns) == 3 and not _titled(path, table):
             frequency, *moduli = (table.numbers(at, "a number", missing=True) for at in range(3))
             rising = frequency[0] > 0.0 and bool((np.diff(frequency) > 0.0).all())
             if rising and all(float(np.nanmin(column)) > 0.0 for column in moduli):
@@ -388,9 +468,20 @@ def holds_moduli(path: Path, layout: FileLayout) -> bool:
     return False
 
 
+def _titled(path: Path, table: TextTable) -> bool:
+    """Return whether words stand above the columns of a table, which then are of something else."""
+    lines = [] if is_excel(path) else read_lines(path)
+    above = [text for number, text in lines if number < table.line_numbers[0]][-1:]
+    counts = {len(cells_of(text, separator)) for text in above for separator in SEPARATORS[:3]}
+    return len(table.columns) in counts and not is_comment(above[0])
+
+
 def conditions_proposal(rubber: Proposal, paths: list[Path], temperature: float | None) -> Proposal:
     """Return the table [conditions] with a temperature [K], or the doubt that it is not reached."""
     proposal = Proposal()
+    if temperature is None and isinstance(rubber.keys.get("shift"), str):
+        words = "no temperature of the contact is stated; --temperature states another"
+        proposal.add("temperature", celsius_text(ROOM), words, BY_A_FACTOR)
     if temperature is None:
         return proposal
     if has_shift(paths, rubber):

@@ -86,10 +86,10 @@ def validate(model: type[M], values: Mapping[str, Any], where: str) -> M:
         refused = InputError(f"{where}: {sentence(error, model, in_table=whole)}")
         if not whole:
             raise refused from error
-        from gripscale.case_file.keys import TABLES  # all tables with it: not for reading a case
+        from gripscale.case_file.keys import sections  # not for reading a case
 
         location = [part for part in first_complaint(error)["loc"] if isinstance(part, str)]
         longer_first = [".".join(location[:count]) for count in range(len(location), 0, -1)]
-        names = {name for name, _, _ in TABLES}
+        names = {section.name for section in sections()}
         with about_keys(next((name for name in longer_first if name in names), "")):
             raise refused from error

@@ -21,12 +21,13 @@ from numpy.typing import ArrayLike
 
 from gripscale.case import Case
 from gripscale.case_file.folder import SavedCase, free_target, saved_case, saved_inputs, write_saved
-from gripscale.case_file.json_schema import SCHEMA_LINE
+from gripscale.case_file.keys import SCHEMA_LINE
 from gripscale.case_file.prepare import named_files
 from gripscale.case_file.read import CaseFile, validate
-from gripscale.case_file.schema import kelvin_text, law_keys, toml_text
-from gripscale.case_file.tables import CaseTables, SurfaceTable
-from gripscale.chain.chain import Chain, wave_solver
+from gripscale.case_file.rubber_tables import ConditionsTable
+from gripscale.case_file.schema import case_value, law_keys, table_schema, toml_text
+from gripscale.case_file.tables import CaseTables, SolverTable, SurfaceTable
+from gripscale.chain.chain import WAVE_SOLVERS, Chain, wave_solver
 from gripscale.conditions.conditions import OFF, Conditions
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent
 from gripscale.core import Array, FileError, InputError, quantity_in_si
@@ -38,9 +39,6 @@ from gripscale.rubber.softening import SofteningTable
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface import HeightMap, Profile, fit_sines
 from gripscale.surface.cut_off import ContactSlope, RmsSlope
-from gripscale.theory.half_plane import HalfPlane
-from gripscale.uncertainty_options import UncertaintyOptions
-from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.problem import Mesh
 
 
@@ -64,8 +62,7 @@ def write_case(case: Case, path: Path) -> Path:
         "of files start at this file.",
     ]
     for name, keys in tables.items():
-        if keys:
-            lines += ["", f"[{name}]", *(f"{key} = {toml_text(keys[key])}" for key in keys)]
+        lines += ["", f"[{name}]", *(f"{key} = {toml_text(keys[key])}" for key in keys)]
     saved = SavedCase("\n".join([*lines, ""]), inputs.contents)
     write_saved(saved, path.parent, path.name)
     return path
@@ -121,8 +118,7 @@ def _even_distances(x: Array) -> tuple[str, Array]:
 
 def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
     """Return the tables of a case by name, each with the keys that have a value."""
-    load, options = case.load, case.options.get("uncertainty", UncertaintyOptions())
-    continued = case.below_measurement
+    load, continued = case.load, case.below_measurement
     below: dict[str, Any] = {"down_to": continued.down_to, "seed": continued.seed}
     match continued.roughness:
         case HurstExponent(hurst=hurst):
@@ -143,8 +139,7 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         "rubber": _rubber_keys(case.measured_rubber, inputs)
         | {"thickness": load.thickness, "extrapolate": case.chain.extrapolate}
         | {"filled": case.filled},
-        "load": {name: getattr(load, name) for name in ("pressure", "speed", "footprint")}
-        | {"load_time": load.load_time, "tester": case.tester or None},
+        "load": vars(load) | {"thickness": None, "tester": case.tester or None},
         "solver": _solver_keys(case.chain),
         "chain": {"pressure_classes": case.chain.pressure_classes},
         "conditions": _conditions_keys(case.stated_conditions, inputs)
@@ -152,12 +147,16 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         "below_measurement": below,
         "measured": measured,
         "compare": {} if case.klueppel_heinrich is None else law_keys(case.klueppel_heinrich),
-        "uncertainty": asdict(options) | {"without": list(options.without)},
+        "uncertainty": case.options.get("uncertainty", {}),
     }
-    return {
-        name: {key: value for key, value in keys.items() if value not in (None, [], {})}
-        for name, keys in tables.items()
-    }
+    schemas = table_schema(CaseTables)["properties"]
+    for name, keys in tables.items():
+        tables[name] = {
+            key: case_value(value, schemas[name]["properties"][key])
+            for key, value in keys.items()
+            if value not in (None, (), [], {})
+        }
+    return {name: keys for name, keys in tables.items() if keys}
 
 
 def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
@@ -226,9 +225,8 @@ def _rubber_keys(measured: MeasuredRubber, inputs: _Inputs) -> dict[str, Any]:
     keys: dict[str, Any] = {"file": inputs.add_table(name, columns), "source": rubber.source}
     keys["bulk_modulus"] = rubber.bulk_modulus
     if rubber.strain_energy != NeoHookean():
-        keys["strain_energy"] = law_keys(rubber.strain_energy)
-    if rubber.reference_temperature is not None:
-        keys["reference_temperature"] = kelvin_text(rubber.reference_temperature)
+        keys["strain_energy"] = rubber.strain_energy
+    keys["reference_temperature"] = rubber.reference_temperature
     match rubber.shift:
         case ShiftTable() as table:
             factors = {
@@ -241,21 +239,18 @@ def _rubber_keys(measured: MeasuredRubber, inputs: _Inputs) -> dict[str, Any]:
             kelvin = table.reference_temperature
             head = "" if kelvin is None else f"# reference temperature (K): {kelvin!r}"
             keys["shift"] = inputs.add_table(f"{name}_shift", factors, head)
-        case law if law is not None:
-            keys["shift"] = law_keys(law)
+        case law:
+            keys["shift"] = law
     return keys
 
 
 def _solver_keys(chain: Chain) -> dict[str, Any]:
     solver = chain.solver
-    options: dict[str, Any] = {}
-    if isinstance(solver, FiniteStrainBlock):
-        options = asdict(solver.mesh) if solver.mesh != Mesh() else {}
-        options |= {"tolerance": solver.tolerance, "time_limit": solver.time_limit}
-    elif isinstance(solver, HalfPlane):
-        options = {"points": solver.points}
-    else:
+    if solver.name not in WAVE_SOLVERS:
         raise InputError(f"a case file cannot state the solver {solver.name} of the chain")
+    mesh = getattr(solver, "mesh", Mesh())
+    stating = vars(solver) | (vars(mesh) if mesh != Mesh() else {})
+    options = {key: stating[key] for key in SolverTable.model_fields if key in stating}
     if wave_solver(solver.name, options) != solver:
         raise InputError(f"a case file cannot state all options of the solver {solver.name}")
     if chain.rubber_at is not None:
@@ -266,12 +261,12 @@ def _solver_keys(chain: Chain) -> dict[str, Any]:
 def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str, Any]:
     if conditions is None:
         return {}
-    names = ("softening", "heat", "counterface", "shear_stress")
-    effects = {name: getattr(conditions, name) for name in names}
-    keys: dict[str, Any] = {
-        name: None if law is None else law_keys(law) for name, law in effects.items()
-    }
-    law, kelvin = conditions.softening, conditions.temperature
+    names = ConditionsTable.model_fields.keys() - {"interface"}
+    keys = {name: getattr(conditions, name) for name in names} | dict.fromkeys(conditions.off, OFF)
+    keys["water"] = conditions.to_dict()["water"]
+    law = conditions.softening
+    if law is None:
+        keys["strain_norm"] = None
     if isinstance(law, SofteningTable):  # shear moduli are read as thirds of Young's
         letter, divisor = ("G", 3.0) if law.deformation == "shear" else ("E", 1.0)
         files = []
@@ -288,13 +283,4 @@ def _conditions_keys(conditions: Conditions | None, inputs: _Inputs) -> dict[str
         sweeps["amplitude"] = None if law.amplitude_assumed else "single"
         stating = {key: value for key, value in sweeps.items() if value is not None}
         keys["softening"] = {"kind": "table", "files": files, **stating}
-    keys |= dict.fromkeys(conditions.off, OFF)
-    return {
-        "temperature": None if kelvin is None else kelvin_text(kelvin),
-        "softening": keys["softening"],
-        "strain_norm": None if law is None else conditions.strain_norm,
-        "heat": keys["heat"],
-        "counterface": keys["counterface"],
-        "shear_stress": keys["shear_stress"],
-        "water": conditions.to_dict()["water"],
-    }
+    return {name: keys[name] for name in ConditionsTable.model_fields if name in keys}

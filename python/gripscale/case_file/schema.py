@@ -5,25 +5,24 @@ from __future__ import annotations
 import difflib
 import json
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields
-from types import MappingProxyType, UnionType
-from typing import (
-    Annotated,
-    Any,
-    ClassVar,
-    Literal,
-    NamedTuple,
-    Union,
-    cast,
-    get_args,
-    get_origin,
-    get_type_hints,
-)
+from functools import cache
+from types import MappingProxyType
+from typing import Annotated, Any, ClassVar, Literal, cast, get_args, get_origin, get_type_hints
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError, create_model
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    TypeAdapter,
+    ValidationError,
+    create_model,
+    with_config,
+)
 from pydantic import Field as PydanticField
-from pydantic.fields import FieldInfo
+from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import ErrorDetails, core_schema
 
 from gripscale.core import checks
@@ -31,20 +30,19 @@ from gripscale.core.checks import short_repr
 from gripscale.core.units import UNITS, listed, parse_quantity, size_of_count, spelled, such_as
 from gripscale.rubber.columns import FileLayout
 
-# Plain types in words, and in JSON Schema.
-PLAIN: dict[Any, tuple[str, str]] = {
-    bool: ("true or false", "boolean"),
-    int: ("a whole number", "integer"),
-    float: ("a number", "number"),
-    str: ("a text", "string"),
+# Types of JSON Schema in words, and its limits of numbers.
+_TYPES = {
+    "boolean": "true or false",
+    "integer": "a whole number",
+    "number": "a number",
+    "string": "a text",
 }
-# What pydantic calls a limit, and what it is called here and in JSON Schema.
-LIMITS = {
-    "ge": ("at least {:g}", "minimum"),
-    "gt": ("above {:g}", "exclusiveMinimum"),
-    "le": ("at most {:g}", "maximum"),
-    "lt": ("below {:g}", "exclusiveMaximum"),
-    "multiple_of": ("a multiple of {:g}", "multipleOf"),
+_LIMITS = {
+    "minimum": "at least {:g}",
+    "exclusiveMinimum": "above {:g}",
+    "maximum": "at most {:g}",
+    "exclusiveMaximum": "below {:g}",
+    "multipleOf": "a multiple of {:g}",
 }
 
 
@@ -56,97 +54,101 @@ class Reading:
     """What is expected."""
     read: Callable[[Any], Any]
     """Returns what the type asks for; raises `ValueError` with one sentence."""
-    laws: Mapping[str, type] = field(default_factory=dict, hash=False)
-    """The laws whose tables it reads, by kind."""
     quantity: str = ""
     """Kind of the quantity that it reads, such as length; empty for anything else."""
+    laws: Mapping[str, type] = field(default_factory=dict, hash=False)
+    """The laws whose tables it reads, by kind."""
+    words_for_a_law: Sequence[Mapping[str, Any]] = field(default=(), hash=False)
+    """JSON Schemas of the texts it takes in place of such a table."""
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> core_schema.CoreSchema:
-        """Read the value before pydantic looks at it."""
+        """Read the value before pydantic looks at its type."""
         return core_schema.no_info_before_validator_function(self.read, handler(source))
 
-
-class KeyQuantity(NamedTuple):
-    """A quantity with a unit that a key takes."""
-
-    kind: str
-    pair: bool
-    """Whether it takes a list of two, such as both ends of a range."""
-
-
-def quantity_of(field: FieldInfo) -> KeyQuantity | None:
-    """Return the quantity that a key takes, or None of a key that takes anything else."""
-    annotation, marks = type_and_marks(field.annotation, field.metadata)
-    pair = get_origin(annotation) is list
-    if pair:
-        if not any(getattr(mark, "max_length", None) == 2 for mark in marks):
-            return None
-        _, marks = type_and_marks(get_args(annotation)[0])
-    kind = next((mark.quantity for mark in marks if isinstance(mark, Reading)), "")
-    return KeyQuantity(kind, pair) if kind else None
+    def __get_pydantic_json_schema__(
+        self, core: core_schema.CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """Return what an editor allows: whatever may be read, with the words for a person."""
+        words = {"expected": self.words, "quantity": self.quantity}
+        if self.laws:
+            options = [*self.words_for_a_law, *map(table_schema, self.laws.values())]
+            return {**(options[0] if len(options) == 1 else {"anyOf": options}), **words}
+        kind = handler(core).get("type")
+        if kind == "number":
+            kind = "string" if self.quantity == "temperature" else ["string", "number"]
+        return words if kind in (None, "object") else {"type": kind, **words}
 
 
-def type_and_marks(annotation: Any, metadata: Iterable[Any] = ()) -> tuple[Any, list[Any]]:
-    """Return a type without None and `Annotated` around it, and the marks of both."""
-    marks = list(metadata)
-    if get_origin(annotation) is Annotated:
-        inner, *more = get_args(annotation)
-        inside = [part for mark in more if isinstance(mark, FieldInfo) for part in mark.metadata]
-        return type_and_marks(inner, [*more, *inside, *marks])
-    parts = [part for part in get_args(annotation) if part is not type(None)]
-    optional = len(parts) == 1 and get_origin(annotation) in (Union, UnionType)
-    return type_and_marks(parts[0], marks) if optional else (annotation, marks)
+class _PlainSchema(GenerateJsonSchema):
+    """JSON Schema of a table without null, which TOML does not have, and without titles."""
+
+    def nullable_schema(self, schema: core_schema.NullableSchema) -> dict[str, Any]:
+        """Return the schema of what may be left out."""
+        return self.generate_inner(schema["schema"])
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        """Return that keys have a name, and no title."""
+        return False
+
+    def encode_default(self, dft: Any) -> Any:
+        """Return a default as a case states it."""
+        return law_keys(dft) if isinstance(dft, checks.Checked) else super().encode_default(dft)
 
 
-def expected(annotation: Any, metadata: Iterable[Any] = ()) -> str:
-    """Return what a value of a type must be, such as "a whole number, at least 1"."""
-    annotation, marks = type_and_marks(annotation, metadata)
-    for mark in marks:
-        if isinstance(mark, Reading):
-            return mark.words
-    limits = [
-        words.format(value)
-        for mark in marks
-        for name, (words, _) in LIMITS.items()
-        if (value := getattr(mark, name, None)) is not None
-    ]
-    origin, parts = get_origin(annotation), get_args(annotation)
-    if origin is Literal:
-        words = " or ".join(json.dumps(part) for part in parts)
-    elif origin is list:
-        least = max((getattr(mark, "min_length", 1) for mark in marks), default=1)
-        words = f"a list{f' of {least}' * (least > 1)}, each {expected(parts[0])}"
-    elif parts:
-        words = " or ".join(expected(part) for part in parts if part is not type(None))
-    elif isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        words = f"a table with {', '.join(annotation.model_fields)}"
-    else:
-        words = PLAIN.get(annotation, ("a value",))[0]
+@cache
+def table_schema(law: type) -> dict[str, Any]:
+    """Return the JSON Schema of the table that states a law, with all tables in it.
+
+    Beside the keywords of JSON Schema a table has what it is `about`, and the earlier keys that are
+    `gone`; a key has what is `expected` in words and the kind of `quantity` it takes.
+    """
+    table = table_of(law)
+    linked = table.model_json_schema(schema_generator=_PlainSchema)
+    schema: dict[str, Any] = _inlined(linked, linked.get("$defs", {}))
+    if table is not law:  # the class of the law explains its fields, not the table made of it
+        options = ConfigDict(use_attribute_docstrings=True, arbitrary_types_allowed=True)
+        explained = TypeAdapter(with_config(options)(law)).json_schema()
+        for name, key in explained.get("properties", {}).items():
+            schema["properties"][name]["description"] = key["description"]
+    return schema
+
+
+def _inlined(schema: Any, definitions: Mapping[str, Any]) -> Any:
+    """Return a JSON Schema with its definitions where it refers to them."""
+    if isinstance(schema, list):
+        return [_inlined(part, definitions) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    if "$ref" in schema:
+        schema = definitions[schema["$ref"].rpartition("/")[2]] | schema
+    parts = {key: part for key, part in schema.items() if key not in ("$defs", "$ref", "title")}
+    return {key: _inlined(part, definitions) for key, part in parts.items()}
+
+
+def choices_of(schema: Mapping[str, Any]) -> list[Any]:
+    """Return the values that a JSON Schema lists; none where it does not."""
+    return list(schema.get("enum", [schema["const"]] if "const" in schema else []))
+
+
+def expected(schema: Mapping[str, Any]) -> str:
+    """Return what a value with a JSON Schema must be, such as "a whole number, at least 1"."""
+    if "expected" in schema:
+        return str(schema["expected"])
+    if "anyOf" in schema:
+        return " or ".join(map(expected, schema["anyOf"]))
+    if "properties" in schema:
+        return f"a table with {', '.join(schema['properties'])}"
+    if "items" in schema:
+        least, most = (schema.get(name, 0) for name in ("minItems", "maxItems"))
+        count = f" of {'at least ' * (least != most)}{least}" * (least > 0)
+        return f"a list{count}, each {expected(schema['items'])}"
+    words = " or ".join(map(json.dumps, choices_of(schema))) or _TYPES.get(
+        schema.get("type", ""), "a value"
+    )
+    limits = [text.format(schema[name]) for name, text in _LIMITS.items() if name in schema]
     return ", ".join([words, *limits])
-
-
-# What is said of a value that pydantic refused with an error of this type.
-_REFUSALS = {
-    "bool_type": "expected true or false",
-    "finite_number": "expected a finite number",
-    "float_type": "expected a number",
-    "greater_than": "expected greater than {gt:g}",
-    "greater_than_equal": "expected at least {ge:g}",
-    "int_parsing_size": "expected a whole number of fewer digits",
-    "int_type": "expected a whole number",
-    "less_than": "expected less than {lt:g}",
-    "less_than_equal": "expected at most {le:g}",
-    "list_type": "expected a list",
-    "literal_error": "expected {expected}",
-    "model_type": "expected a table",
-    "multiple_of": "expected a multiple of {multiple_of:g}",
-    "string_type": "expected a string",
-    "too_long": "expected at most {max_length} items",
-    "too_short": "expected at least {min_length} items",
-    "value_error": "{error}",
-}
 
 
 def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool = False) -> str:
@@ -155,28 +157,34 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
     `in_table`: the model is a whole file, whose first names are those of tables.
     """
     first = first_complaint(error)
-    owner, key = model, str(first["loc"][-1]) if first["loc"] else ""
-    for part in first["loc"][:-1]:
-        if isinstance(part, str):
-            owner = _model_in(owner.model_fields[part].annotation) or owner
-    where = _location(first["loc"], in_table=in_table)
-    kind, value = first["type"], first["input"]
-    if kind == "extra_forbidden":
-        names = list(owner.model_fields)
-        if instead := getattr(owner, "gone", {}).get(key):
-            return f"unknown key {where}; it is gone: {instead}"
-        near = difflib.get_close_matches(key, names, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
-        return f"unknown key {where}; {hint}"
-    if kind == "missing":
-        field = owner.model_fields[key]
-        return f"{where} is missing; expected {expected(field.annotation, field.metadata)}"
-    words = _REFUSALS[kind].format(**first.get("ctx", {}))
-    reason = words.removesuffix("s") if words.endswith(" 1 items") else words
+    where, value = _location(first["loc"], in_table=in_table), first["input"]
+    if first["type"] == "value_error":
+        reason = str(first["ctx"]["error"])
+    else:
+        key, owner, schema = "", {}, table_schema(model)
+        for part in first["loc"]:
+            key, owner = str(part), schema
+            inside = schema["items"] if isinstance(part, int) else schema["properties"]
+            schema = inside if isinstance(part, int) else inside.get(part, {})
+        if first["type"] == "extra_forbidden":
+            return f"unknown key {where}; {_instead_of(key, owner)}"
+        finite = first["type"] == "finite_number"
+        reason = f"expected {'a finite number' if finite else expected(schema)}"
+    if first["type"] == "missing":
+        return f"{where} is missing; {reason}"
     if isinstance(value, dict):
         return f"{where}: {reason}" if where else reason
     text = repr(value)
     return f"{where} = {text if len(text) <= 60 else f'{text[:57]}...'}: {reason}"
+
+
+def _instead_of(key: str, table: Mapping[str, Any]) -> str:
+    """Return what to state in place of a key that a table does not have."""
+    if instead := table["gone"].get(key):
+        return f"it is gone: {instead}"
+    names = list(table["properties"])
+    near = difflib.get_close_matches(key, names, n=1)
+    return f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
 
 
 def first_complaint(error: ValidationError) -> ErrorDetails:
@@ -188,22 +196,20 @@ def first_complaint(error: ValidationError) -> ErrorDetails:
 
 def _location(loc: tuple[int | str, ...], *, in_table: bool) -> str:
     """Return `[table] key[index]` or `[table.table] key` for pydantic's location."""
-    if in_table and loc and all(isinstance(part, str) for part in loc):
-        *tables, key = map(str, loc) if len(loc) > 1 else (*loc, "")
-        return f"[{'.'.join(map(str, tables))}] {key}".strip()
-    words = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)
-    words = words.removeprefix(".")
-    if not (in_table and words):
-        return words
-    table, _, key = words.partition(".")
-    return f"[{table}] {key}".strip()
+    names = next((at for at, part in enumerate(loc) if isinstance(part, int)), len(loc))
+    depth = min(max(names - 1, 1), len(loc)) if in_table else 0
+    table = f"[{'.'.join(map(str, loc[:depth]))}] " if depth else ""
+    key = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc[depth:])
+    return f"{table}{key.removeprefix('.')}".strip()
 
 
-def _model_in(annotation: Any) -> type[BaseModel] | None:
-    """Return the model inside `annotation`, such as Wave in `list[Wave] | None`."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return annotation
-    return next((m for part in get_args(annotation) if (m := _model_in(part))), None)
+def _explain(schema: dict[str, Any], model: type[BaseModel]) -> None:
+    """Say what a table is about, and list its keys before those it shares with others."""
+    keys = schema["properties"]
+    first = {name: keys[name] for name in keys if name in model.__annotations__}
+    schema["properties"] = first | keys
+    schema["about"] = (model.__doc__ or "").partition("\n")[0]
+    schema["gone"] = dict(getattr(model, "gone", {}))
 
 
 class CaseTable(BaseModel):
@@ -213,9 +219,22 @@ class CaseTable(BaseModel):
     """
 
     # the tables that a case names are checked when it is read, the others never
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, defer_build=True)
+    model_config = ConfigDict(
+        extra="forbid",
+        strict=True,
+        frozen=True,
+        defer_build=True,
+        use_attribute_docstrings=True,
+        json_schema_extra=_explain,
+    )
     # keys of earlier versions, and what to state instead
     gone: ClassVar[Mapping[str, str]] = MappingProxyType({})
+
+
+class _LawTable(CaseTable):
+    """A table that is made of the class of a law, which has the text below each key."""
+
+    model_config = ConfigDict(use_attribute_docstrings=False)
 
 
 def _positive(value: float) -> float:
@@ -276,6 +295,7 @@ _NUMBERS: dict[Any, dict[str, Any]] = {
 }
 
 
+@cache
 def table_of(law: Any) -> type[CaseTable]:
     """Return the table that states a law: a key for each field, read as its check says.
 
@@ -285,7 +305,10 @@ def table_of(law: Any) -> type[CaseTable]:
     if issubclass(law, CaseTable):
         return cast(type[CaseTable], law)
     hints = get_type_hints(law)
-    keys: dict[str, Any] = {"kind": (Literal[law.kind], ...)} if hasattr(law, "kind") else {}
+    about = (law.__doc__ or "").partition("\n")[0]
+    keys: dict[str, Any] = {}
+    if hasattr(law, "kind"):
+        keys["kind"] = (Literal[law.kind], PydanticField(description=about))
     for item in fields(law):
         check, hint = item.metadata["check"], hints[item.name]
         rule = check.keywords.get("rule", check.func)
@@ -305,7 +328,7 @@ def table_of(law: Any) -> type[CaseTable]:
             value = Annotated[Any, stated_law(value)]
         default = ... if item.default is MISSING else item.default
         keys[item.name] = (value | None if optional else value, default)
-    return create_model(law.__name__, __base__=CaseTable, **keys)
+    return create_model(law.__name__, __base__=_LawTable, __doc__=about, **keys)
 
 
 def law_from_table(law: type, value: Any) -> Any:
@@ -320,22 +343,21 @@ def law_from_table(law: type, value: Any) -> Any:
     return law(**{item.name: getattr(read, item.name) for item in fields(law)})
 
 
+def case_value(value: Any, schema: Mapping[str, Any]) -> Any:
+    """Return a value as a case states it in a key with this schema, in SI units, exactly."""
+    if isinstance(value, checks.Checked):
+        return law_keys(value)
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [case_value(item, schema.get("items", {})) for item in value]
+    return kelvin_text(value) if schema.get("quantity") == "temperature" else value
+
+
 def law_keys(law: Any) -> dict[str, Any]:
     """Return the keys with which a case states a law, in SI units, exactly."""
-    keys: dict[str, Any] = {"kind": law.kind} if hasattr(law, "kind") else {}
-    for item in fields(law):
-        value = getattr(law, item.name)
-        if value is None:
-            continue
-        check = item.metadata["check"]
-        kind = item.metadata["quantity"] or _KIND_OF.get(check.keywords.get("unit", ""))
-        several = isinstance(value, Sequence) and not isinstance(value, str)
-        if isinstance(value, checks.Checked):
-            value = law_keys(value)
-        elif kind == "temperature":
-            value = [kelvin_text(each) for each in value] if several else kelvin_text(value)
-        keys[item.name] = list(value) if several else value
-    return keys
+    keys = table_schema(law.__class__)["properties"]
+    kind = {"kind": law.kind} if hasattr(law, "kind") else {}
+    values = {item.name: getattr(law, item.name) for item in fields(law)}
+    return kind | {k: case_value(v, keys[k]) for k, v in values.items() if v is not None}
 
 
 def kelvin_text(temperature: float) -> str:
@@ -361,43 +383,28 @@ def toml_text(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def stated_law(law: type, *, off: str = "") -> Reading:
-    """Return what reads the table of `law`, such as { conductivity = "0.25 W/(m K)", ... }.
+def stated_law(laws: type | Mapping[str, type], *, or_file: bool = False, off: str = "") -> Reading:
+    """Return what reads the table of a law, or of one of `laws` by its kind.
 
-    The word `off` stands for none.
+    The name of a file may stand for one, or the word `off` for none.
     """
-    words = f"{_or_word(off)}a table with {', '.join(table_of(law).model_fields)}"
+    by_kind = laws if isinstance(laws, Mapping) else {"": laws}
+    kinds = ", ".join(by_kind)
+    keys = f"kind (one of {kinds}) and its keys"
+    if not isinstance(laws, Mapping):
+        keys = ", ".join(table_of(laws).model_fields)
+    instead = [f'"{off}"'] * bool(off) + ["the name of a file"] * or_file
+    words = " or ".join([*instead, f"a table with {keys}"])
+    texts = [{"type": "string"}] * or_file + [{"enum": [off]}] * bool(off)
 
     def read(value: Any) -> Any:
-        if isinstance(value, law) or (off and value == off):
+        is_word = isinstance(value, str) and (or_file or (off and value == off))
+        if value is None or is_word or isinstance(value, tuple(by_kind.values())):
             return value
         if not isinstance(value, Mapping):
             raise ValueError(f"expected {words}")
-        return law_from_table(law, value)
-
-    return Reading(words, read, {"": law})
-
-
-def _or_word(word: str) -> str:
-    return f'"{word}" or ' if word else ""
-
-
-def by_kind(laws: Mapping[str, type], *, or_file: bool = False, off: str = "") -> Reading:
-    """Return what reads the table of one of `laws` by its kind, or the name of a file.
-
-    The word `off` stands for none.
-    """
-    kinds = ", ".join(laws)
-    file = f"{_or_word(off)}{'the name of a file or ' * or_file}"
-    words = f"{file}a table with kind (one of {kinds}) and its keys"
-
-    def read(value: Any) -> Any:
-        if isinstance(value, tuple(laws.values())) or (or_file and isinstance(value, str)):
-            return value
-        if off and value == off:
-            return value
-        if not isinstance(value, Mapping):
-            raise ValueError(f"expected {words}")
+        if not isinstance(laws, Mapping):
+            return law_from_table(laws, value)
         if "kind" not in value:
             raise ValueError(f"kind is missing; expected one of {kinds}")
         kind = value["kind"]
@@ -405,7 +412,7 @@ def by_kind(laws: Mapping[str, type], *, or_file: bool = False, off: str = "") -
             raise ValueError(f"kind = {short_repr(kind)}: expected one of {kinds}")
         return law_from_table(laws[kind], value)
 
-    return Reading(words, read, laws)
+    return Reading(words, read, laws=by_kind, words_for_a_law=texts)
 
 
 COLUMN = "its name or its number from 1"
@@ -415,7 +422,8 @@ _COLUMNS = (
 )
 
 
-def _column(value: Any) -> str | int:
+def column_key(value: Any) -> str | int:
+    """Return the name or number of a column; raise `ValueError` for something else."""
     if isinstance(value, bool) or not isinstance(value, str | int):
         raise ValueError(f"expected {COLUMN}")
     if isinstance(value, int) and value < 1:
@@ -426,8 +434,10 @@ def _column(value: Any) -> str | int:
 def _columns(value: Any) -> dict[str, str | int]:
     if not isinstance(value, dict | list):
         raise ValueError(f"expected {_COLUMNS}")
-    return {name: _column(column) for name, column in FileLayout(columns=value).by_quantity.items()}
+    return {
+        name: column_key(column) for name, column in FileLayout(columns=value).by_quantity.items()
+    }
 
 
-ColumnKey = Annotated[str | int, Reading(COLUMN, _column)]
+ColumnKey = Annotated[str | int, Reading(COLUMN, column_key)]
 Columns = Annotated[dict[str, str | int], Reading(_COLUMNS, _columns)]

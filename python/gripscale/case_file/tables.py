@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
+from functools import partial
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case_file.schema import (
+    COLUMN,
     CaseTable,
     ColumnKey,
     Duration,
@@ -20,20 +21,24 @@ from gripscale.case_file.schema import (
     Reading,
     Speed,
     TemperatureDifference,
+    column_key,
+    expected,
+    stated_law,
     unit_of_file,
 )
 from gripscale.conditions.conditions import OFF
-from gripscale.core.units import in_mm, parse_quantity, such_as
-from gripscale.model import MOST_CLASSES, Load
+from gripscale.core.units import in_mm, parse_quantity
+from gripscale.model import LOAD_TIME, MOST_CLASSES, checked_load_time
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface.surface import SurfaceKind
 from gripscale.testers import TESTERS, TesterName
+from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 from gripscale.uncertainty_options import (
     FEWEST_SAMPLES,
     MOST_SAMPLES,
     MOST_SEED,
     PRESSURE_ERROR,
-    UncertaintyOptions,
+    SAMPLES,
     pressure_error,
 )
 
@@ -62,13 +67,17 @@ def _step(value: Any) -> Any:
     return numbers if isinstance(value, list | tuple) else numbers[0]
 
 
-_SPIKES = '"isolated", "iso13473" or "none"'
+_CHANNEL = f"{COLUMN}, or a list of these"
 
 
-def _spikes(value: Any) -> str | None:
-    if value not in ("isolated", "iso13473", "none", None):
-        raise ValueError(f"expected {_SPIKES}")
-    return None if value == "none" else value
+def _channel(value: Any) -> Any:
+    if isinstance(value, list) and value:
+        return [column_key(item) for item in value]
+    return None if value is None else column_key(value)
+
+
+def _spikes(rule: str | None) -> str | None:
+    return None if rule == "none" else rule
 
 
 class WaveTable(CaseTable):
@@ -104,25 +113,31 @@ class SourceKeys(CaseTable):
         return [self.map] if self.map is not None else self.files or []
 
 
-class ReadingKeys(CaseTable):
-    """How the files of a surface are read."""
+class UnitKeys(CaseTable):
+    """What a file of heights does not state."""
 
     x_unit: Annotated[str, unit_of_file("length")] | None = None
     """Unit of distances where the file does not name it."""
     z_unit: Annotated[str, unit_of_file("length")] | None = None
     """Unit of heights where the file does not name it."""
-    z_axis: Literal["up", "down"] | None = None
-    """Which way the numbers of heights count: down turns depths over; by default up."""
     direction: Literal["x", "y"] = "x"
     """The way of sliding in a map."""
-    reader: Literal["auto", "text", "instrument"] = "auto"
-    """How to read the files; auto goes by the suffix."""
-    channel: ColumnKey | None = None
-    """Channel of an instrument's file that has several of heights."""
-    sheet: ColumnKey | None = None
-    """Sheet of an Excel file, where several hold numbers."""
     step: Annotated[Any, Reading(_STEP, _step, quantity="length")] = None
     """Distance between points, or those of a map along x and y, where the file has none."""
+
+
+class ReadingKeys(UnitKeys):
+    """How the files of a surface are read."""
+
+    z_axis: Literal["up", "down"] | None = None
+    """Which way the numbers of heights count: down turns depths over; by default up."""
+    reader: Literal["auto", "text", "instrument"] = "auto"
+    """How to read the files; auto goes by the suffix."""
+    channel: Annotated[Any, Reading(_CHANNEL, _channel)] = None
+    """Channel of an instrument's file, or column of a text, that has several of heights; of a list
+    of columns each is a profile of the surface."""
+    sheet: ColumnKey | None = None
+    """Sheet of an Excel file, where several hold numbers."""
     reliable: Length | None = None
     """Shortest wavelength the instrument measures reliably, where the file does not tell."""
     assumed: list[str] | None = None
@@ -142,7 +157,9 @@ class CleaningKeys(CaseTable):
     """Lowest and highest height to believe; others become missing."""
     trim: float = Field(default=0.5, ge=0.0, le=1.0, allow_inf_nan=False)
     """Share of missing heights above which a border line of a map is cut off."""
-    spikes: Annotated[str | None, Reading(_SPIKES, _spikes)] = "isolated"
+    spikes: Annotated[Literal["isolated", "iso13473", "none"] | None, AfterValidator(_spikes)] = (
+        "isolated"
+    )
     """Rule by which spikes become missing: runs of up to three samples that go out and back, or
     every steep step of a profile (ISO 13473-1)."""
     spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)
@@ -151,6 +168,9 @@ class CleaningKeys(CaseTable):
     """Hold the points on both sides of a gap to that slope, too, with "iso13473"."""
     detrend: Literal["linear", "mean", "none"] = "linear"
     """Trend subtracted from a profile."""
+    longest_wavelength: Length | None = None
+    """Longest wave kept in profiles. By default 1.5 footprints, where longer waves hold most of the
+    mean square height, else all; a length beyond the profiles keeps all."""
     form: int = Field(default=1, ge=0, le=8)
     """Order of the polynomial subtracted from a map: 0 the mean, 1 a plane, 2 a paraboloid."""
 
@@ -236,7 +256,7 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SourceKeys):
         foreign, owner = (
             (("crop_across", "trim", "form"), "map")
             if self.map is None
-            else (("across_gaps", "detrend", "sheet"), "files")
+            else (("across_gaps", "detrend", "longest_wavelength", "sheet"), "files")
         )
         for name in foreign:
             if getattr(self, name) != type(self).model_fields[name].default:
@@ -244,23 +264,6 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SourceKeys):
         if self.map is None and isinstance(self.step, list):
             raise ValueError("step of a profile is one length; two are those of a map")
         return self
-
-
-LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
-
-
-def _load_time(value: Any) -> float | str:
-    if value == "passage":
-        return "passage"
-    if value in ("infinite", math.inf):
-        return math.inf
-    try:
-        seconds = parse_quantity(value, "time")
-    except ValueError as error:
-        raise ValueError(f'{error}, or "passage", or "infinite"') from error
-    if seconds <= 0.0:
-        raise ValueError("expected a time greater than zero")
-    return seconds
 
 
 class LoadTable(CaseTable):
@@ -274,7 +277,9 @@ class LoadTable(CaseTable):
     """Sliding speed; 0 is the relaxed rubber at rest."""
     footprint: Length
     """Length of the nominal contact: how long the largest wave is loaded."""
-    load_time: Annotated[Any, Reading(LOAD_TIME, _load_time)] = "passage"
+    load_time: Annotated[Any, Reading(LOAD_TIME, partial(checked_load_time, "load_time"))] = (
+        "passage"
+    )
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
     tester: TesterName | None = None
     """A tester, whose pressure, speed and footprint then need not be stated."""
@@ -285,11 +290,6 @@ class LoadTable(CaseTable):
         preset = TESTERS.get(str(values.get("tester"))) if isinstance(values, dict) else None
         keys = ("pressure", "speed", "footprint")
         return values if preset is None else {k: getattr(preset, k) for k in keys} | values
-
-    @property
-    def nominal(self) -> Load:
-        """The load on the whole surface, at the speed stated."""
-        return Load(self.pressure, self.speed, self.footprint, self.load_time)
 
 
 class SolverTable(CaseTable):
@@ -349,35 +349,22 @@ SourceName = Literal[
     "waves",
 ]
 
-FACTOR = "factor"  # kind of values that have no unit
+
+def _rising(values: list[float]) -> list[float]:
+    if any(b <= a for a, b in pairwise(values)):
+        raise ValueError("expected rising values")
+    return values
 
 
-def _values(kind: str) -> Reading:
-    """Return what reads values of a source: quantities of one kind, or factors."""
-    each = f"a {kind}" if kind == FACTOR else f"a {kind} {such_as(kind)}"
-    words = f"a list of two ends or of equally likely values, each {each}"
-
-    def number(value: Any) -> float:
-        if kind != FACTOR:
-            return parse_quantity(value, kind)
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ValueError(f"expected {words}")
-        return float(value)
-
-    def read(value: Any) -> list[float]:
-        if not isinstance(value, list) or not value:
-            raise ValueError(f"expected {words}")
-        numbers = [number(item) for item in value]
-        if numbers[0] <= 0.0 or any(b <= a for a, b in pairwise(numbers)):
-            raise ValueError("expected rising values greater than zero")
-        return numbers
-
-    return Reading(words, read)
+def _in_words(schema: dict[str, Any]) -> None:
+    each = expected(schema["items"])
+    schema["expected"] = f"a list of two ends or of equally likely values, each {each}"
 
 
-Moduli = Annotated[list[float], _values("pressure")]
-Lengths = Annotated[list[float], _values("length")]
-Factors = Annotated[list[float], _values(FACTOR)]
+Ends = (Field(min_length=1, json_schema_extra=_in_words), AfterValidator(_rising))
+Moduli = Annotated[list[Pressure], *Ends]
+Lengths = Annotated[list[Length], *Ends]
+Factors = Annotated[list[Annotated[float, Field(gt=0.0, allow_inf_nan=False)]], *Ends]
 
 
 def _pressure_error(value: Any) -> Any:
@@ -412,7 +399,7 @@ class RangesTable(CaseTable):
 class UncertaintyTable(CaseTable):
     """What `gripscale uncertainty` samples; its options go before what is stated here."""
 
-    samples: int = Field(default=200, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
+    samples: int = Field(default=SAMPLES, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
     """Samples of all that is not known at once."""
     seed: int = Field(default=0, ge=0, le=MOST_SEED)
     """Seed of the random numbers."""
@@ -420,17 +407,12 @@ class UncertaintyTable(CaseTable):
     """What predicts each sample; direct where profiles were measured by default, else the chain."""
     without: list[SourceName] = Field(default=[])
     """Sources that are taken to be known."""
-    ranges: RangesTable | None = None
+    ranges: RangesTable = RangesTable()
     """What is known of a source, in place of its default."""
     block_length: Length | None = None
     """Length of the blocks of profiles that are drawn; four of the largest waves by default."""
     tolerance: float | None = Field(default=None, gt=0.0, lt=1.0)
     """Estimated relative error of each direct contact; that of its first full grid by default."""
-
-    def options(self) -> UncertaintyOptions:
-        """Return what is stated as options of the question."""
-        options = self.model_dump(exclude_none=True)
-        return UncertaintyOptions(**options | {"without": tuple(self.without)})
 
 
 FigureKind = Literal["png", "pdf", "svg"]
@@ -452,21 +434,13 @@ class MeasuredTable(CaseTable):
     """A table of speed and friction, drawn over what is predicted."""
 
 
-class FinerTable(CaseTable):
+class FinerTable(UnitKeys):
     """A finer measurement of a face of a stone: a line or a map, with its units."""
 
     file: str | None = None
     """A measured line."""
     map: str | None = None
     """A measured map, in place of file."""
-    x_unit: Annotated[str, unit_of_file("length")] | None = None
-    """Unit of distances where the file does not name it."""
-    z_unit: Annotated[str, unit_of_file("length")] | None = None
-    """Unit of heights where the file does not name it."""
-    direction: Literal["x", "y"] = "x"
-    """The way of sliding in a map."""
-    step: Annotated[Any, Reading(_STEP, _step, quantity="length")] = None
-    """Distance between points, or those of a map along x and y, where the file has none."""
 
     @model_validator(mode="after")
     def _one_source(self) -> FinerTable:
@@ -494,24 +468,6 @@ class BelowMeasurementTable(CaseTable):
         return self
 
 
-class CompareTable(CaseTable):
-    """What `gripscale compare` puts beside the models: fits of a theory."""
-
-    layer_ratio: float | None = Field(default=None, gt=0.0, allow_inf_nan=False)
-    """Thickness of the strained layer over penetration depth, in Klueppel and Heinrich's theory."""
-    penetration_depth: Length | None = None
-    """Mean penetration depth in that theory."""
-
-    @model_validator(mode="after")
-    def _both_or_none(self) -> CompareTable:
-        if (self.layer_ratio is None) != (self.penetration_depth is None):
-            raise ValueError(
-                "expected layer_ratio and penetration_depth together: Klueppel and Heinrich's "
-                "theory needs both"
-            )
-        return self
-
-
 class CaseTables(CaseTable):
     """A whole case file."""
 
@@ -533,8 +489,8 @@ class CaseTables(CaseTable):
     """Friction measured elsewhere."""
     output: OutputTable = OutputTable()
     """Where results go."""
-    compare: CompareTable = CompareTable()
-    """Further inputs of a comparison."""
+    compare: Annotated[Any, stated_law(KlueppelHeinrich)] = None
+    """What `gripscale compare` puts beside the models: fits of Klueppel and Heinrich's theory."""
     uncertainty: UncertaintyTable = UncertaintyTable()
     """What is not known of all that."""
 

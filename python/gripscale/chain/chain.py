@@ -44,11 +44,11 @@ WaveSolverLike = WaveSolver | str | Callable[..., ScaleResult]
 
 
 def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolver:
-    """Return a solver by its name or its face with options, or the solver itself."""
+    """Return a solver by its name or its function with options, or the solver itself."""
     if isinstance(solver, str):
         kind = WAVE_SOLVERS[checks.one_of("solver", solver, WAVE_SOLVERS)]
     else:
-        kind = next((kind for face, kind in SOLVE_FUNCTIONS if face is solver), None)
+        kind = next((kind for function, kind in SOLVE_FUNCTIONS if function is solver), None)
     if kind is not None:
         out: WaveSolver = kind.of(**options)
         return out
@@ -110,7 +110,7 @@ def solve_chain(
     thickness
         Thickness of the rubber on a rigid base [m], which no block exceeds; None: no limit.
     solver
-        "finite_strain", "half_plane", the function that is its face (`solve_scale`,
+        "finite_strain", "half_plane", its function (`solve_scale`,
         `theory.solve_half_plane`), or any `WaveSolver`.
     smallest_wavelength
         Waves shorter than this are left out [m].

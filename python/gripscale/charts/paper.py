@@ -84,7 +84,7 @@ _STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
 }
 
 
-def house_rules() -> AbstractContextManager[None]:
+def figure_rules() -> AbstractContextManager[None]:
     """Apply `RULES` within a block; matplotlib's own rules stay as they are."""
     return mpl.rc_context(RULES)
 
@@ -93,7 +93,7 @@ def draw_sheet(sheet: chart.PanelGrid) -> Figure:
     """Return the figure of a sheet; matplotlib's own rules stay as they are."""
     columns, count, layout = sheet.columns, len(sheet.panels), sheet.layout
     size: Any = {"figsize": (sheet.width, sheet.height), "dpi": DPI}
-    with house_rules():
+    with figure_rules():
         figure = Figure(layout=ConstrainedLayoutEngine(wspace=sheet.gap), **size)
         options: dict[str, Any] = {"squeeze": False, **layout}
         grid = list(figure.subplots(-(-count // columns), columns, **options).flat)
@@ -135,7 +135,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
         axes.grid(axis.grid, axis=which)
         if axis.margin is not None:
             (axes.set_xmargin if which == "x" else axes.set_ymargin)(axis.margin)
-        if axis.low is not None and axis.high is not None:  # nothing need be drawn between them
+        if axis.low != axis.high and None not in (axis.low, axis.high):  # nothing need be drawn
             (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
     for mark in panel.marks:
         _draw_mark(figure, axes, mark)
@@ -155,7 +155,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
 def _end_axis(axes: Axes, which: str, axis: chart.PlotAxis) -> None:
     """Set the limits of an axis, and place numbers or names along it."""
     drawn: DrawnAxis = axes.xaxis if which == "x" else axes.yaxis
-    if axis.low is not None or axis.high is not None:
+    if axis.low != axis.high:
         (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
     if axis.ticks is not None:
         drawn.set_ticks(list(axis.ticks), list(axis.ticks.values()))
@@ -357,7 +357,7 @@ def figure_file(figure: Figure, kind: str = "png", dpi: float = DPI) -> bytes:
     """
     checks.one_of("kinds", kind, KINDS)
     target, layout = io.BytesIO(), figure.get_layout_engine()
-    with house_rules():
+    with figure_rules():
         figure.set_dpi(dpi)
         if isinstance(layout, ConstrainedLayoutEngine):
             _mark_between(figure)

@@ -19,7 +19,7 @@ from typer.core import TyperGroup
 from gripscale.cli.docs import docs
 from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
-from gripscale.cli.new import new
+from gripscale.cli.new import KindCommand, look_at, new
 from gripscale.cli.run import PASS_ON, report_command, reproduce, run
 from gripscale.cli.run import open_app as app_command
 from gripscale.core.provenance import COMMAND, version_of
@@ -60,7 +60,8 @@ def _enter(name: str, function: Callable[..., None], **settings: Any) -> None:
 
 
 _enter("init", init)
-_enter("new", new)
+_enter("new", new, cls=KindCommand)
+_enter("look", look_at, cls=KindCommand)
 _enter("run", run)
 for name, question in commands():
     _enter(name, question)

@@ -22,8 +22,11 @@ from gripscale.cli.new import (
     shift_of_wlf,
 )
 from gripscale.core.errors import about_keys
+from gripscale.io.text_table import files_read_once
 from gripscale.questions.terminal import (
     COLUMNS,
+    READING,
+    LongestWavelength,
     SurfaceAxis,
     SurfaceChannel,
     SurfaceCrop,
@@ -32,12 +35,14 @@ from gripscale.questions.terminal import (
     column_of,
     columns_of,
     command,
+    end_steps,
     keys_of,
     lengths_of,
     option,
     print_parts,
     print_wrapped,
     screen,
+    show_step,
     with_options,
 )
 
@@ -97,8 +102,7 @@ def keys(
     ] = False,
 ) -> None:
     """List every key of a case file: what it takes, its default, its meaning."""
-    from gripscale.case_file.json_schema import case_schema
-    from gripscale.case_file.keys import sections
+    from gripscale.case_file.keys import case_schema, sections
     from gripscale.core import checks
     from gripscale.io.table import Column, Table
     from gripscale.report.failures import chapter_words
@@ -160,6 +164,7 @@ def fit_surface(
         str, typer.Option(help="Rule for spikes: isolated, iso13473 or none.")
     ] = "isolated",
     detrend: Annotated[str, typer.Option(help="linear, mean or none.")] = "linear",
+    longest_wavelength: LongestWavelength = None,
     output: Annotated[Path | None, option("Folder for figures.", metavar="DIR")] = None,
 ) -> None:
     """Clean profiles or a map, find their height difference correlation, fit sine waves to it."""
@@ -178,7 +183,8 @@ def fit_surface(
         values["channel"] = column_of(channel)
     if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
-    raw = None
+    raw, console = None, screen()
+    show_step(console, READING)
     if len(files) == 1:
         # whether two steps are right depends on what the file holds
         validate(SurfaceTable, values | {"step": None}, "options")
@@ -192,7 +198,7 @@ def fit_surface(
     if output is not None:
         require_writable(output)
     prepared = prepare_surface(surface, raw=raw)
-    console = screen()
+    end_steps()
     sines = prepared.sines
     parts: list[str | Table] = [
         *(f"doubt: {with_options(doubt.sentence, context.params)}" for doubt in prepared.doubts),
@@ -234,6 +240,7 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
 
 
 @command
+@files_read_once()
 def fit_rubber(
     context: typer.Context,
     file: Annotated[
@@ -282,6 +289,8 @@ def fit_rubber(
     from gripscale.questions.inputs import page
     from gripscale.rubber.strain_sweeps import holds_strain_sweeps
 
+    console, law, prepared = screen(), None, None
+    show_step(console, READING)
     layout: dict[str, Any] = {} if columns is None else {"columns": columns_of(columns)}
     if sheet is not None:
         layout["sheet"] = column_of(sheet)
@@ -290,7 +299,6 @@ def fit_rubber(
     file = [name for name in file if name not in by_strain]
     if output is not None:
         require_writable(output)
-    console, law, prepared = screen(), None, None
     with naming_options():
         if by_strain:
             values = keys_of(context, StrainSweeps) | ({} if file else layout)
@@ -302,6 +310,7 @@ def fit_rubber(
             if wlf is not None:
                 values["shift"] = shift_of_wlf(wlf)
             prepared = prepare_rubber(validate(RubberSource, values, "options"))
+    end_steps()
     if prepared is not None:
         rubber = prepared.rubber
         terms_table = page.prony_table(rubber.relaxation_times, rubber.moduli)

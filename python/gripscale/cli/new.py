@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import shlex
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import click
 import typer
+from typer.core import TyperCommand
 
 from gripscale.core import GripscaleError, Words
 from gripscale.questions import terminal
+
+if TYPE_CHECKING:
+    from gripscale.io.table import Table
 
 # Options that state what is missing, by its key in a case.
 _EXAMPLES = {
@@ -65,16 +69,57 @@ def naming_options() -> Iterator[None]:
         raise
 
 
+Kinds = Annotated[
+    list[str] | None,
+    terminal.option(
+        "What a file is, where it is taken for something else: profile, map, sweeps, master-curve, "
+        "ramp, prony, strain-sweep, shift, friction or unused; may be repeated.",
+        "--as",
+        metavar="KIND FILE",
+    ),
+]
+
+
+def kinds_of(pairs: list[str] | None) -> dict[str | Path, str]:
+    """Return the kind of each file of options --as."""
+    return {file: kind for kind, _, file in (pair.partition("=") for pair in pairs or ())}
+
+
+class KindCommand(TyperCommand):
+    """A command whose option --as takes a kind and a file."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Join the words behind --as, of which the parser takes one."""
+        words = iter(args)
+        joined: list[str] = []
+        for word in words:
+            joined.append(word)
+            if word == "--as":
+                kind = next(words, "")
+                joined.append(kind if "=" in kind else f"{kind}={next(words, '')}")
+        return super().parse_args(ctx, joined)
+
+
+def _ask(question: str, answers: Sequence[str]) -> str:
+    """Ask a question of which the first answer is the likeliest, by numbers."""
+    listed = "\n".join(f"  {at}. {answer}" for at, answer in enumerate(answers, start=1))
+    numbers = click.IntRange(1, len(answers))
+    number: int = typer.prompt(f"{question}\n{listed}\n", default=1, type=numbers)
+    return answers[number - 1]
+
+
 @terminal.command
 def new(
     files: Annotated[
         list[Path],
         terminal.argument(
             "Measured profiles or a map, and a master curve or sweeps or a rubber known by name "
-            "(styrene_butadiene), in any order; or folders.",
+            "(styrene_butadiene), in any order; or folders, with shift factors, strain sweeps and "
+            "measured friction.",
             "FILE...",
         ),
     ],
+    kinds: Kinds = None,
     output: Annotated[
         Path, terminal.option("The case file to write.", "--output", "-o", metavar="CASE.toml")
     ] = Path("case.toml"),
@@ -111,6 +156,7 @@ def new(
     z_axis: terminal.SurfaceAxis = None,
     channel: terminal.SurfaceChannel = None,
     crop: terminal.SurfaceCrop = None,
+    longest_wavelength: terminal.LongestWavelength = None,
     wlf: WlfConstants = None,
     columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
     sheet: RubberSheet = None,
@@ -130,6 +176,8 @@ def new(
     ] = None,
 ) -> None:
     """Write a commented case for measured files, and list what is doubtful about it."""
+    from gripscale.case_file.laboratory import first_choice
+    from gripscale.case_file.look import kinds_table
     from gripscale.case_file.new import new_case
 
     layout = {
@@ -144,13 +192,21 @@ def new(
         "modulus_unit": modulus_unit,
     }
     surface = terminal.surface_keys(
-        x_unit=x_unit, z_unit=z_unit, z_axis=z_axis, channel=channel, crop=crop
+        channel=channel,
+        crop=crop,
+        x_unit=x_unit,
+        z_unit=z_unit,
+        z_axis=z_axis,
+        longest_wavelength=longest_wavelength,
     )
-    if filled is None and sys.stdin.isatty() and sys.stdout.isatty():
+    in_terminal = sys.stdin.isatty() and sys.stdout.isatty()
+    if filled is None and in_terminal:
         choices = click.Choice(["yes", "no", "unknown"])
         question = "Is the rubber filled (carbon black, silica), as every tread is?"
         reply = typer.prompt(question, default="unknown", type=choices)
         filled = {"yes": True, "no": False}.get(reply)
+    console = terminal.screen()
+    terminal.show_step(console, terminal.READING)
     with naming_options():
         case = new_case(
             files,
@@ -164,13 +220,39 @@ def new(
             filled=filled,
             interface=interface,
             surface=surface,
+            kinds=kinds_of(kinds),
+            ask=_ask if in_terminal else first_choice,
         )
-    lines = [f"Case: {case.path}"]
-    if case.skipped:
-        names = ", ".join(path.name for path in case.skipped)
-        lines.append(f"Neither a surface nor moduli: {names}")
+    terminal.end_steps()
+    lines: list[str | Table] = [kinds_table(case.files), f"Case: {case.path}"]
     if case.findings:
         doubts = (f"  {at}. {finding}" for at, finding in enumerate(case.findings, start=1))
         lines += ["", "Doubts, the most important first:", *doubts]
     lines += ["", "Next:", f"  {shlex.join(['gripscale', 'run', str(case.path)])}"]
-    terminal.print_parts(terminal.screen(), lines)
+    terminal.print_parts(console, lines)
+
+
+@terminal.command
+def look_at(
+    files: Annotated[list[Path], terminal.argument("Measured files, or folders.", "FILE...")],
+    kinds: Kinds = None,
+    step: Annotated[
+        str | None, terminal.option('Distance between points where a file has none: "0.1 mm".')
+    ] = None,
+    x_unit: terminal.SurfaceUnit = None,
+    z_unit: terminal.SurfaceUnit = None,
+    channel: terminal.SurfaceChannel = None,
+    columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
+) -> None:
+    """Show how files are read: what each is taken for, its columns, first rows and a picture."""
+    from gripscale.case_file.kinds import FileKeys
+    from gripscale.case_file.laboratory import all_taken
+    from gripscale.case_file.look import parts_of
+    from gripscale.io.text_table import files_read_once
+
+    keys = terminal.surface_keys(x_unit=x_unit, z_unit=z_unit, channel=channel, crop=None)
+    layout = {} if columns is None else {"columns": terminal.columns_of(columns)}
+    reading = FileKeys(None if step is None else terminal.lengths_of(step), keys, layout)
+    with files_read_once():
+        for file in all_taken(files, reading, kinds_of(kinds)):
+            terminal.print_parts(terminal.screen(), [*parts_of(file, reading), ""])

@@ -13,6 +13,7 @@ from gripscale.io.table import Table, as_text
 from gripscale.questions import terminal
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, bench_of, solved_chain
 from gripscale.questions.answer.page import slopes_table
+from gripscale.questions.answer.variables import OF_THE_PAPER
 from gripscale.questions.chain.page import LEGEND, chain_tables, judgement
 from gripscale.questions.cut_off.question import CutOff, cut_off_result
 from gripscale.questions.inputs.charts_of_rubber import rubber_figures
@@ -21,7 +22,6 @@ from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surf
 from gripscale.questions.inputs.record import excited
 from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE, write_report
 from gripscale.questions.result import warning_lines
-from gripscale.questions.words import OF_THE_PAPER
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.material import require_load_bearing
 

@@ -1,4 +1,4 @@
-"""The types of arrays that all rooms hand to one another, and runs of marks."""
+"""The types of arrays that all packages hand to one another, and runs of marks."""
 
 from __future__ import annotations
 

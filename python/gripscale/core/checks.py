@@ -1,4 +1,4 @@
-"""Argument checks shared by every room: one clear sentence for each way a value can be wrong."""
+"""Argument checks shared by every package: one clear sentence for each way a value can be wrong."""
 
 from __future__ import annotations
 

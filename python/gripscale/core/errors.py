@@ -23,6 +23,8 @@ class GripscaleError(Exception):
         super().__init__(str(self.words))
         self.missing = missing
         """The key of a case, or argument of a reader, that was not stated and is needed."""
+        self.choices: tuple[str | int, ...] = ()
+        """Values that the missing key may have, where a file tells them."""
         self.key = key
         """Argument or key that the message is about, which then begins with it; or empty."""
 
@@ -96,5 +98,5 @@ def about_file(
         yield
     except InputError as error:
         located = kind(Words(f"{path}: ", error.words), missing=error.missing)
-        located.see, located.table = error.see, error.table
+        located.see, located.table, located.choices = error.see, error.table, error.choices
         raise located from error

@@ -1,6 +1,6 @@
-"""A finding: something a reader must know about a result, from the room that sees it to the face.
+"""A finding: what a reader must know about a result, from where it is seen to where it is read.
 
-It is made where it is known, carried as data, ranked once and worded for a face by that face.
+It is made where it is known, carried as data, ranked once and worded where it is shown.
 """
 
 from __future__ import annotations

@@ -37,20 +37,20 @@ def version_of(name: str) -> str:
         return "unknown (not installed)"
 
 
-# First words of the names of rooms and files that only show results: they change no number.
-FACES = ("app", "charts", "cli", "page", "report", "summary")
+# First words of the names of packages and files that only show results: they change no number.
+SHOWING = ("app", "charts", "cli", "page", "report", "summary")
 
 
 @lru_cache(maxsize=1)
 def software() -> str:
     """Return version and fingerprint of the compiled kernel and the numeric modules."""
     home = Path(__file__).parents[1]
-    digest = fingerprint(home, Path(str(_kernel.__file__)), FACES)
+    digest = fingerprint(home, Path(str(_kernel.__file__)), SHOWING)
     return f"gripscale {version_of('gripscale')} {digest[:16]}"
 
 
 def fingerprint(home: Path, kernel: Path, without: Collection[str] = ()) -> str:
-    """Return a hash of the package at `home`, `without` some rooms, and of the `kernel`."""
+    """Return a hash of the package at `home`, `without` some packages, and of the `kernel`."""
     digest = hashlib.sha256(kernel.read_bytes())
     for path in sorted(home.rglob("*.py")):
         name = path.relative_to(home)

@@ -29,7 +29,8 @@ _METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12
 _METRES |= {"km": 1e3, "Å": 1e-10, "mil": 2.54e-5, "uin": 2.54e-8, "ft": 0.3048, "yd": 0.9144}
 _METRES["ftUS"] = 1200.0 / 3937.0
 _PASCALS = {"Pa": 1.0, "kPa": 1e3, "psi": _PSI, "bar": 1e5, "MPa": 1e6, "N/mm^2": 1e6, "GPa": 1e9}
-_PASCALS |= {"ksi": 1e3 * _PSI, "kgf/cm^2": 98066.5}
+_PASCALS |= {"ksi": 1e3 * _PSI, "kgf/cm^2": 98066.5, "kgf/mm^2": 9806650.0, "N/cm^2": 1e4}
+_PASCALS |= {"atm": 101325.0}
 _HERTZ = {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "mHz": 1e-3, "rpm": 1.0 / 60.0}
 _HERTZ |= {"rad/s": 0.5 / math.pi, "krad/s": 500.0 / math.pi}
 
@@ -43,7 +44,8 @@ UNITS: dict[str, dict[str, float]] = {
     "pressure": _PASCALS,
     "modulus": _PASCALS | {"dyn/cm^2": 0.1},
     "compliance": {"1/Pa": 1.0, "1/kPa": 1e-3, "1/MPa": 1e-6, "1/GPa": 1e-9, "cm^2/dyn": 10.0},
-    "speed": {"m/s": 1.0, "mm/s": 1e-3, "km/h": 1.0 / 3.6},
+    "speed": {"m/s": 1.0, "mm/s": 1e-3, "km/h": 1.0 / 3.6, "cm/s": 1e-2, "um/s": 1e-6}
+    | {"mm/min": 1e-3 / 60.0, "m/min": 1.0 / 60.0, "mph": 0.44704},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
     "frequency": _HERTZ,
     "temperature": {"K": 1.0, "C": 1.0, "F": 5.0 / 9.0},
@@ -73,7 +75,7 @@ _OTHER_SPELLINGS = {
     "nm": ("nanometer", "nanometre", "nanometers", "nanometres"),
     "km": ("kilometer", "kilometre", "kilometers", "kilometres"),
     "Å": ("å", "angstrom", "angstroms", "ångström", "ångstrom"),
-    "in": ("inch", "inches"),
+    "in": ("inch", "inches", '"', "″"),
     "mil": ("mils", "thou"),
     "uin": ("µin", "μin", "microinch", "microinches"),
     "ft": ("foot", "feet"),
@@ -86,6 +88,8 @@ _OTHER_SPELLINGS = {
     "N/mm^2": ("n/mm2", "n/mm²"),
     "Pa": ("n/m2", "n/m^2"),
     "dyn/cm^2": ("dyn/cm2", "dyn/cm²", "dyne/cm2", "dyne/cm^2", "dyne/cm²"),
+    "N/cm^2": ("n/cm2", "n/cm²"),
+    "kgf/mm^2": ("kgf/mm2", "kgf/mm²", "kp/mm2", "kp/mm²"),
     "psi": ("lbf/in2", "lbf/in^2"),
     "ksi": ("kpsi",),
     "kgf/cm^2": ("kgf/cm2", "kgf/cm²", "kg/cm2", "kg/cm^2", "kg/cm²", "kp/cm2", "kp/cm²"),

@@ -1,4 +1,4 @@
-"""Sentences that name keys of a case: each face words a key in its own way.
+"""Sentences that name keys of a case: Python and the command line word a key in their own way.
 
     Words("the heights have no unit; give ", CaseKey("z_unit"))
 

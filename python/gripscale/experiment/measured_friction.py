@@ -9,6 +9,7 @@ the rules of `gripscale.io.text_table` hold.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
@@ -33,13 +34,18 @@ from gripscale.core.units import (
 from gripscale.io.text_table import ColumnTitle, file_path, read_table
 from gripscale.model import PLAUSIBLE
 
-# What the titles of the columns may be called, in lower case; the first word is ours.
+# What the titles of the columns may be called, in small letters; the first word is ours.
 _WORDS = {
-    "speed": ("speed", "velocity", "v"),
-    "friction": ("friction", "friction coefficient", "mu", "µ", "μ", "cof"),
-    "spread": ("spread", "std", "standard deviation", "uncertainty", "error"),
-    "temperature": ("temperature", "temp", "t"),
-    "pressure": ("pressure", "nominal pressure", "p"),
+    "speed": r"speed|velocity|v|(sliding|slip|test|rubbing|sled) (speed|velocity)|geschwindigkeit"
+    r"|gleitgeschwindigkeit|vitesse( de glissement)?|velocidad|velocit(à|a)|滑动速度|速度",
+    "friction": r"friction|(friction )?coefficient( of friction)?|mu|µ|μ|cof|µ ?k|μ ?k"
+    r"|(mean|measured|dry|wet|kinetic|dynamic|sliding) (friction|cof|mu|µ|μ)( coefficient)?"
+    r"|reibwert|reibbeiwert|reibungs(koeffizient|zahl|beiwert)|coefficient de frottement"
+    r"|coeficiente de (fricci(ó|o)n|rozamiento)|coefficiente di attrito|摩擦系数|摩擦係数",
+    "spread": r"spread|std|sd|standard deviation|standardabweichung|uncertainty|error"
+    r"|(é|e)cart.type",
+    "temperature": r"temperature|temp|t|temperatur|temp(é|e)rature|temperatura|温度",
+    "pressure": r"pressure|(nominal|contact) pressure|p|druck|pression|presi(ó|o)n|pressione|压力",
 }
 
 # Kind of unit of a column, and the unit it is in where the title names none, if that is clear.
@@ -112,6 +118,12 @@ class MeasuredFriction(Checked, eq=False):
         checks.same_length(1, **columns)
         self._set(**columns)
 
+    def middle(self, column: str) -> float | None:
+        """Return the middle one of the values of a column; None where none is known."""
+        rising = np.sort(getattr(self, column))  # nan last
+        count = int(np.isfinite(rising).sum())
+        return float(rising[count // 2]) if count else None
+
 
 def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) -> MeasuredFriction:
     """Read measured friction from a text, CSV or Excel file, in the order of its rows.
@@ -152,15 +164,16 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
     absent = [word for word in ("speed", "friction") if word not in columns]
     if absent:
         titles = table.titles or "no titles"
-        raise FileError(f"{path}: expected a column named {absent[0]}; got {titles}")
+        text = f"{path}: expected a column named {absent[0]}; got {titles}"
+        raise FileError(text, missing=absent[0])
     with about_file(path):
         return MeasuredFriction(**columns, source=str(path), assumed=" ".join(assumed))
 
 
 def _word(title: str) -> str | None:
     """Return which of our columns a title names, or None."""
-    plain = " ".join(title.lower().replace("_", " ").split())
-    return next((word for word, names in _WORDS.items() if plain in names), None)
+    plain = " ".join(title.lower().replace("_", " ").replace(".", " ").split())
+    return next((word for word, names in _WORDS.items() if re.fullmatch(names, plain)), None)
 
 
 _FAR = 30.0  # ratio of measured speeds to that of the case beyond which another unit is likely
@@ -212,7 +225,8 @@ def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:
     if unit is None:
         raise FileError(
             f"{path}: {word} must have its unit in its title ({listed(kind)}), such as "
-            f"'{word} [C]'; got '{column.name}'"
+            f"'{word} [C]'; got '{column.name}'",
+            missing=word,
         )
     if spelled(unit, kind) is None:
         raise FileError(

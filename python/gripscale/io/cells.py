@@ -107,6 +107,29 @@ def cells_of(line: str, separator: str | None) -> list[str]:
     return [cell.strip('"').strip() for cell in cells] if '"' in line else cells
 
 
+_NUMBER_WITH_UNIT = re.compile(r"(\d[\d.,]*(?:[eE][-+]?\d+)?)\s*([^\W\d_]\S*?)(?=[\t;,]|\s*$)")
+
+
+def _units_above(lines: list[Line]) -> list[Line]:
+    """Return lines of numbers with their units, 0.1 mm, as numbers with a line of units above.
+
+    A bar parts cells as a tab does.
+    """
+    bars = [(number, text.strip("| ").replace("|", "\t")) for number, text in lines]
+    rows = {
+        at: (number, _NUMBER_WITH_UNIT.sub(r"\1", text))
+        for at, (number, text) in enumerate(bars)
+        if not is_comment(text) and is_row(_NUMBER_WITH_UNIT.sub(r"\1", text))
+    }
+    units = {tuple(u for _, u in _NUMBER_WITH_UNIT.findall(bars[at][1])) for at in rows}
+    if len(units) != 1:
+        return lines
+    first = min(rows)
+    above = [(bars[first][0], "\t".join(units.pop()))]
+    bare = [rows.get(at, line) for at, line in enumerate(bars)]
+    return [*bare[:first], *(above if above[0][1] else []), *bare[first:]]
+
+
 _ROWS_WITH_WORDS = 2  # fewest rows by which a column of words is known
 
 
@@ -118,6 +141,7 @@ def without_words(lines: list[Line]) -> list[Line]:
     """
     if any(is_row(text) for _, text in lines):
         return lines
+    lines = _units_above(lines)
     for separator in SEPARATORS[:3]:
         rows = {
             at: cells

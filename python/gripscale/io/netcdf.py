@@ -10,9 +10,9 @@ import hashlib
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO, Final
+from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
 from gripscale.core.errors import FileError
 from gripscale.core.parallel import held_back
@@ -42,7 +42,11 @@ def save(
             tree = xr.DataTree.from_dict({"/": data, **groups})
             tree.to_netcdf(temporary, engine=ENGINE)
         else:
-            data.to_netcdf(temporary, engine=ENGINE)
+            # `to_netcdf` asks Dask, where it is installed, for a lock: seconds of imports
+            lock = xr.backends.netCDF4_.NETCDF4_PYTHON_LOCK
+            kind: Any = xr.backends.NetCDF4DataStore
+            with closing(kind.open(temporary, mode="w", lock=lock)) as store:
+                data.dump_to_store(store)
         with temporary.open("r+b") as file:
             digest = _digest(file, temporary.stat().st_size)
             file.write(_SEAL + digest + b"\n")

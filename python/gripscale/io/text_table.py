@@ -62,14 +62,18 @@ T = TypeVar("T")
 
 def is_excel(path: Path) -> bool:
     """Return whether a file is an Excel file, by its content, or by its suffix if it is no text."""
+    excel = path.suffix.lower() in EXCEL
     try:
-        content = path.read_bytes()
+        with path.open("rb") as file:
+            content = file.read(len(_ZIP))
+            if not (excel or content == _ZIP):  # of a large file that is none this is enough
+                return False
+            content += file.read()
     except (OSError, ValueError):  # said by whoever reads it
-        return path.suffix.lower() in EXCEL
+        return excel
     if content.startswith(_ZIP) and _WORKBOOK in content:
         return True
-    text = content.strip() and is_text(content) and not content.startswith(_ZIP[:2])
-    return path.suffix.lower() in EXCEL and not text
+    return excel and not (content.strip() and is_text(content) and not content.startswith(_ZIP[:2]))
 
 
 def read_sheets(path: Path) -> dict[str, _Rows]:
@@ -117,6 +121,7 @@ _BINARY = {
 }
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
+_ENOUGH_CELLS = 2000  # numbers of a column that show the decimals of all
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
 _NAME_AND_UNIT = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
@@ -167,15 +172,30 @@ _kept: ContextVar[dict[object, Any] | None] = ContextVar("_kept", default=None)
 
 @contextmanager
 def files_read_once() -> Iterator[None]:
-    """Keep the lines and rows of text files inside a block, in which several readers try them."""
-    token = _kept.set({})
+    """Keep what is read of files inside a block, or one around it, in which readers try them."""
+    kept = _kept.get()
+    token = _kept.set({} if kept is None else kept)
     try:
         yield
     finally:
         _kept.reset(token)
 
 
-def _read_once(key: object, make: Callable[[], T]) -> T:
+_noted: ContextVar[dict[int, ColumnTitle] | None] = ContextVar("_noted", default=None)
+
+
+@contextmanager
+def columns_noted() -> Iterator[dict[int, ColumnTitle]]:
+    """Note the columns of a file whose numbers are read inside a block, by number from 1."""
+    columns: dict[int, ColumnTitle] = {}
+    token = _noted.set(columns)
+    try:
+        yield columns
+    finally:
+        _noted.reset(token)
+
+
+def read_once(key: object, make: Callable[[], T]) -> T:
     """Return what `make` makes, or what it made for the key inside `files_read_once`."""
     kept = _kept.get()
     if kept is None:
@@ -215,6 +235,8 @@ class TextTable:
 
     def numbers(self, column: int, expected: str, *, missing: bool = False) -> Array:
         """Return a column of numbers up to `MOST`; with `missing`, NaN where a value is missing."""
+        if (noted := _noted.get()) is not None:
+            noted[self.empty + column + 1] = self.columns[column]
         if isinstance(self.rows, PlainRows):
             return self.rows.values[:, column].copy()
         cells = self._cells(column)
@@ -244,6 +266,8 @@ class TextTable:
         """Return the last decimal place of any printed number of a column, such as 0.001."""
         if isinstance(self.rows, PlainRows):  # an axis of a map has few numbers, printed alike
             once = np.unique(self.rows.values[:, column], return_index=True)[1]
+            some = np.linspace(0, once.size - 1, _ENOUGH_CELLS).astype(int)
+            once = np.concatenate([once[:_ENOUGH_CELLS], once[some]])  # decimals come again
             cells = [self.rows[at][column] for at in once.tolist()]
         else:
             cells = self._cells(column)
@@ -283,7 +307,7 @@ def read_lines(
     A sheet is stated by its name or its number from 1; by default it is the only one with numbers.
     Rows of numbers among the first `header` lines are turned into comments.
     """
-    return _read_once(("lines", path, sheet, header), lambda: _lines_of(path, sheet, header))
+    return read_once(("lines", path, sheet, header), lambda: _lines_of(path, sheet, header))
 
 
 def _lines_of(path: Path, sheet: str | int | None, header: int | None) -> list[Line]:
@@ -356,16 +380,17 @@ def table_in(
     if not lines:
         raise FileError(f"{path}: expected {expected}; got 0 in an empty file")
     first, separator = _first_row(path, lines, expected)
-    below = [(number, line) for number, line in lines[first:] if not is_comment(line)]
-    numbers = [number for number, _ in below]
     with suppress(ValueError):  # the rules below say what is wrong with a cell, or allow it
-        plain = _read_once(
-            ("rows", path, first, len(below)),
-            lambda: PlainRows([line for _, line in below], separator),
+        plain = read_once(
+            ("rows", path, first, len(lines)),
+            lambda: PlainRows([line for _, line in lines[first:]], separator),
         )
+        numbers = [number for number, _ in lines[first:]]
         above, count = [line for _, line in lines[:first]], plain.values.shape[1]
         _check_faults(path, lines[:first], separator, range(count, count + 1))
         return TextTable(path, _columns(above, count, kinds, named), plain, numbers, ".")
+    below = [(number, line) for number, line in lines[first:] if not is_comment(line)]
+    numbers = [number for number, _ in below]
     rows = [cells_of(line, separator) for _, line in below]
     while not any(map(is_number, rows[-1])):  # remarks below the table
         rows.pop()

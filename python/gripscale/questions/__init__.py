@@ -1,4 +1,4 @@
-"""Questions about a case, each a room: answer, comparison, uncertainty and so on."""
+"""Questions about a case, each a package: answer, comparison, uncertainty and so on."""
 
 import lazy_loader
 

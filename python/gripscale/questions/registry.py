@@ -1,13 +1,13 @@
-"""The questions: one room each, found by the kind of a result, by a command and by the app.
+"""The questions: one package each, found by the kind of a result, by a command and by the app.
 
-A room is a package that says in its `__init__` what it holds, as texts, so that nothing heavy is
+A package says in its `__init__` what it holds, as texts, so that nothing heavy is
 imported to list them:
 
     KINDS       the class of a saved result by its kind,  {"cut_off": "question:CutOff"}
     COMMANDS    the function of a command by its name,    {"cut-off": "command:cut_off"}
     FORMS       what the page in the browser offers
 
-To add a question is to add a room and its line here; to drop one is to delete both.
+To add a question is to add a package and its line here; to drop one is to delete both.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from gripscale.questions.result import Result
 
-# Rooms in the order of the command line.
-ROOMS = [
+# Packages in the order of the command line.
+QUESTIONS = [
     "gripscale.questions.answer",
     "gripscale.questions.compare",
     "gripscale.questions.vary",
@@ -71,28 +71,32 @@ class Form:
 
 def commands() -> Iterator[tuple[str, Callable[..., None]]]:
     """Yield names and functions of the commands of all questions."""
-    for room in ROOMS:
-        for name, path in getattr(import_module(room), "COMMANDS", {}).items():
-            yield name, _attribute(room, path)
+    for package in QUESTIONS:
+        for name, path in getattr(import_module(package), "COMMANDS", {}).items():
+            yield name, _attribute(package, path)
 
 
 def forms() -> list[Form]:
     """Return the forms of all questions."""
-    return [form for room in ROOMS for form in getattr(import_module(room), "FORMS", ())]
+    return [form for package in QUESTIONS for form in getattr(import_module(package), "FORMS", ())]
 
 
 def kinds() -> dict[str, str]:
-    """Return the kinds of results, with the room of each."""
-    return {kind: room for room in ROOMS for kind in getattr(import_module(room), "KINDS", {})}
+    """Return the kinds of results, with the package of each."""
+    return {
+        kind: package
+        for package in QUESTIONS
+        for kind in getattr(import_module(package), "KINDS", {})
+    }
 
 
 def result_class(kind: str) -> type[Result] | None:
     """Return the class of the results of a kind; None for an unknown kind."""
-    room = kinds().get(kind)
-    return None if room is None else _attribute(room, import_module(room).KINDS[kind])
+    package = kinds().get(kind)
+    return None if package is None else _attribute(package, import_module(package).KINDS[kind])
 
 
-def _attribute(room: str, path: str) -> Any:
-    """Return what `module:name` in a room stands for; `:name` is in the room itself."""
+def _attribute(package: str, path: str) -> Any:
+    """Return what `module:name` in a package stands for; `:name` is in the package itself."""
     module, _, name = path.partition(":")
-    return getattr(import_module(f"{room}.{module}" if module else room), name)
+    return getattr(import_module(f"{package}.{module}" if module else package), name)

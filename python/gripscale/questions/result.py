@@ -23,6 +23,7 @@ from gripscale.core.described import Described, with_figure
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
+from gripscale.questions.answer.variables import described
 from gripscale.questions.inputs.findings import input_findings
 from gripscale.questions.inputs.record import InputRecord
 
@@ -65,7 +66,7 @@ class Result(Described, ABC):
         return ""
 
     def __init__(self, data: xr.Dataset, inputs: xr.Dataset | None = None) -> None:
-        self.data = data.assign_attrs({KIND: self.kind})
+        self.data = described(data).assign_attrs({KIND: self.kind})
         self.inputs = xr.Dataset() if inputs is None else inputs
 
     @property

@@ -18,11 +18,12 @@ from gripscale.case import NamedFile
 from gripscale.core.provenance import version_of
 from gripscale.core.units import si_unit
 from gripscale.io.table import Table
-from gripscale.questions.answer.reliance import answer_number, has_answer, no_answer
+from gripscale.questions.answer.reliance import no_answer
+from gripscale.questions.answer.variables import answer_number, has_answer
 from gripscale.questions.result import Result
 from gripscale.questions.summary_table import summary_table
 
-FORMAT = 1  # number of the layout; it rises when a name changes or goes
+FORMAT = 2  # number of the layout; it rises when a name changes or goes
 
 
 def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = ()) -> str:
@@ -31,7 +32,7 @@ def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = 
     answer: dict[str, Any] = {"text": [line.strip() for line in result.lines]}
     if has_answer(data):
         answer["reliable"] = not no_answer(data)
-        for name in ("friction", "adhesive_friction", "total_friction", "contact_fraction"):
+        for name in ("friction", "hysteresis_friction", "interface_friction", "contact_fraction"):
             if f"answer_{name}" in data:
                 number = answer_number(data, name)
                 answer[name], answer[f"{name}_interval"] = number.value, number[1:]

@@ -13,6 +13,7 @@ import xarray as xr
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.questions import registry
+from gripscale.questions.answer.variables import with_present_names
 from gripscale.questions.result import INPUT_GROUP, KIND
 
 
@@ -38,11 +39,11 @@ def load(path: str | Path) -> Any:
 
 def result_of(tree: xr.DataTree) -> Any:
     """Return the result that a file holds; None where it is of no question."""
-    room = registry.result_class(str(tree.attrs.get(KIND, "")))
-    if room is None:
+    kind = registry.result_class(str(tree.attrs.get(KIND, "")))
+    if kind is None:
         return None
     inputs = tree.children.get(INPUT_GROUP, xr.DataTree()).to_dataset(inherit=False)
-    return room(tree.to_dataset(), inputs)
+    return kind(with_present_names(tree.to_dataset()), inputs)
 
 
 KINDS_OF_REPORTS = (

@@ -13,16 +13,16 @@ import xarray as xr
 from gripscale.core.finding import sentences
 from gripscale.io.table import Column, Table
 from gripscale.model import STATUS, input_doubts_of
-from gripscale.questions.answer.estimate import ANSWER_NUMBERS, DIRECT
-from gripscale.questions.answer.reliance import has_answer, no_answer
+from gripscale.questions.answer.estimate import DIRECT
+from gripscale.questions.answer.reliance import no_answer
+from gripscale.questions.answer.variables import ANSWER_NUMBERS, has_answer
 
 # Numbers of which a result has a row for each value: the first that is in it counts.
 ROWS = (STATUS, "status", "gain", "force")
 DOUBTS = "not_to_rely_on"
 # Columns behind those that name the row.
 FIRST = (
-    *("model", "answer_total_friction", "answer_total_friction_low", "answer_total_friction_high"),
-    *("answer_friction", "answer_friction_low", "answer_friction_high"),
+    *("model", "answer_friction", "answer_friction_low", "answer_friction_high"),
     *("answer_contact_fraction", "answer_contact_fraction_low", "answer_contact_fraction_high"),
     *("total_friction", "total_contact_fraction", STATUS, DOUBTS, "nominal_pressure"),
     *("nominal_speed", "footprint"),

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 # Exit codes: an input that cannot be used, a wave without solution, stopped from outside.
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
+READING = "reading and fitting the measurements ..."
 PLAIN_WIDTH = 100  # characters per line where there is no terminal to ask
 P = ParamSpec("P")
 
@@ -231,7 +232,7 @@ def progress_printer(console: Console) -> Callable[[Progress], None]:
 
     The first answer is printed and stays: a number to judge the rest by, while this is solved.
     """
-    from gripscale.questions.words import SYMBOLS, believed, is_estimated
+    from gripscale.questions.answer.variables import SYMBOLS, believed, is_estimated
 
     begun, solved, first_printed = time.monotonic(), 0, False
 
@@ -303,6 +304,13 @@ SurfaceChannel = Annotated[
 ]
 SurfaceCrop = Annotated[
     tuple[str, str] | None, option('Part of the profiles, such as "120 mm" "1780 mm".')
+]
+LongestWavelength = Annotated[
+    str | None,
+    option(
+        "Longest wave kept in profiles; by default 1.5 footprints, where longer ones hold most of "
+        "the mean square height, else all."
+    ),
 ]
 Modulus = Annotated[
     str | None,
@@ -385,7 +393,7 @@ class CaseCommand:
         """The case, read when it is first needed."""
         from gripscale.case_file import read_case
 
-        show_step(self.console, "reading and fitting the measurements ...")
+        show_step(self.console, READING)
         return read_case(self.file)
 
     def open_results(self, output: Path | None, name: str, opening: str = "") -> None:

@@ -31,15 +31,15 @@ def render(page: Page) -> str:
     # Bokeh's core script alone: widgets, tables and WebGL are not needed
     resources = Resources(mode="inline", minified=True, components=["bokeh"], log_level="error")
     library = "\n".join(resources.js_raw)
-    room, styles = "gripscale.report", ("page.css", "elements.css", "media.css")
-    script = "\n".join(template_text(room, name) for name in ("outlines.js", "page.js"))
-    template = templates(room).get_template("page.html")
+    package, styles = "gripscale.report", ("page.css", "elements.css", "media.css")
+    script = "\n".join(template_text(package, name) for name in ("outlines.js", "page.js"))
+    template = templates(package).get_template("page.html")
     return template.render(
         page=page,
         # the template turns plain data into JSON without any markup
         figures={chart.name: document(chart.figure) for chart in page.charts},
         library=Markup(library),
-        style=Markup("\n".join(template_text(room, name) for name in styles)),
+        style=Markup("\n".join(template_text(package, name) for name in styles)),
         script=Markup(script),
         policy=_policy(library, script),
     )
@@ -47,7 +47,7 @@ def render(page: Page) -> str:
 
 @cache
 def templates(package: str) -> Environment:
-    """Return the templates of a room."""
+    """Return the templates of a package."""
     options: Any = {"trim_blocks": True, "lstrip_blocks": True, "undefined": StrictUndefined}
     environment = Environment(loader=PackageLoader(package), autoescape=True, **options)
     environment.filters["with_code"] = with_code
@@ -58,7 +58,7 @@ def templates(package: str) -> Environment:
 
 
 def template_text(package: str, name: str) -> str:
-    """Return a script or style of a room."""
+    """Return a script or style of a package."""
     return files(package).joinpath("templates", name).read_text(encoding="utf-8")
 
 

@@ -58,7 +58,10 @@ def read_blocks(
     """
     if not text_table.is_excel(path) or layout.sheet is not None:
         lines = text_table.read_lines(path, sheet=layout.sheet, header=layout.header)
-        return _blocks_in(path, lines[:most], layout, temperature_unit)
+        return text_table.read_once(
+            ("blocks", path, repr(layout), temperature_unit, most),
+            lambda: _blocks_in(path, lines[:most], layout, temperature_unit),
+        )
     sheets: dict[str, list[Block]] = {}
     every_sheet = text_table.sheets_as_lines(path, header=layout.header)
     for name, lines in every_sheet.items():
@@ -84,13 +87,22 @@ def _blocks_in(
     path: Path, lines: list[Line], layout: FileLayout, temperature_unit: str | None
 ) -> list[Block]:
     expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
+    if any(len(text) > _WIDEST for _, text in lines[:_ENOUGH]):
+        raise FileError(f"{path}: expected {_ROWS}; got lines of more than {_WIDEST} characters")
+    lines, plain = _plain_end(lines)
     lines = [(at, columns.with_logarithms(columns.with_primes(line))) for at, line in lines]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
-        return [_reptate(path, lines, expected, temperature_unit or layout.temperature_unit)]
+        unit = temperature_unit or layout.temperature_unit
+        return [_reptate(path, [*lines, *plain], expected, unit)]
     blocks: list[Block] = []
     titles: list[Line] = []
     sections = [lines] if layout.columns else split_blocks(lines)
-    for above, rows in (part for section in sections for part in _parts(section, expected)):
+    if len(sections) > 1 and plain:
+        sections, plain = split_blocks([*lines, *plain]), []
+    parts = [part for section in sections for part in _parts(section, expected)]
+    if plain:
+        parts[-1][1].extend(plain)
+    for above, rows in parts:
         first = next((n for n, (_, text) in enumerate(above) if _names(text, expected)), None)
         temperature = _temperature_above(path, above, temperature_unit)
         if first is not None:
@@ -104,6 +116,22 @@ def _blocks_in(
     if len(blocks) < 2:
         return blocks or [Block(_table(path, lines, expected))]
     return _sufficient(blocks, layout) or blocks
+
+
+_PLAIN = "0123456789+-.eE\t;, \r"  # characters of a row of numbers
+_WIDEST = 10_000  # characters of a line of moduli; a map has longer ones
+_ENOUGH = 400  # lines of a table that tell what it is
+
+
+def _plain_end(lines: list[Line]) -> tuple[list[Line], list[Line]]:
+    """Return lines up to enough rows of the last table, and its other rows of plain numbers.
+
+    No other line is among these: of 1e6 rows each is not looked at for titles.
+    """
+    first = len(lines)
+    while first and not lines[first - 1][1].strip(_PLAIN):
+        first -= 1
+    return lines[: first + _ENOUGH], lines[first + _ENOUGH :]
 
 
 def _sufficient(blocks: list[Block], layout: FileLayout) -> list[Block]:

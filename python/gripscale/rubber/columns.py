@@ -47,14 +47,19 @@ _TITLES = {
         "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor"
         r"|facteur de (perte|dissipation|amort)|损耗因子|損失正接",
         "temperature": r"t[eé]mp(?!s\b)|(sample|proben)\s*-?temp|ts$|温度|試料温度",
-        "frequency": r"omega|.*(freq|fr[eé]qu|frecu)|pulsation|角?频率|角?周波数",
+        "frequency": r"omega|.*(freq|fr[eé]qu|frecu)|pulsation|częstot|част|주파수"
+        r"|角?频率|角?周波数",
         "magnitude": r"\|?[eg]\*|.*complex .*modulus|.*komplexer .*modul|复数?模量"
         r"|.*module? complex",
-        "storage": r"[eg]'(?!')|[eg][_ ]?stor|.*\bstor|.*speichermodul|.*elastic component"
-        r"|m[oó]dul[eo] (de |d['’]|di )?(stockage|conserva|almacena|accumul|[eé]lasti)"
+        "storage": r"[eg]'(?!')|[eg][_ ]?p(rime)?\b|[eg][_ ]?stor|.*\bstor|.*speichermodul"
+        r"|.*elastic component"
+        r"|m[oó]dul[eo] (de |d['’]|di )?(stockage|conserva|a(lm|rm)a[cz]ena|accumul|[eé]lasti)"
+        r"|.*zachowaw|.*opslagmod|.*lagringsmod|.*накопл|저장"
         r"|(储能|存储|储存)模量|貯蔵.*率",
-        "loss": r"[eg]''|[eg][_ ]?loss|.*\bloss|.*verlustmodul|.*viscous component"
-        r"|m[oó]dul[eo] .*(perte|p[eé]rdi|dissipa|visqueux|viscos)|损耗模量|損失.*率",
+        "loss": r"[eg]''|[eg][_ ]?(pp|double[ _-]?prime)\b|[eg][_ ]?loss|.*\bloss"
+        r"|.*verlustmodul|.*viscous component"
+        r"|.*stratno|.*verliesmod|.*f[öo]rlustmod|.*потерь|손실"
+        r"|m[oó]dul[eo] .*(perte|p[eé]rdi|perda|dissipa|visqueux|viscos)|损耗模量|損失.*率",
         "strain": r".*strain\b|.*dehnung|.*verformung|.*d[eé]formation|gamma\b|.*scherung|应变",
     }.items()
 }
@@ -71,9 +76,11 @@ _SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
 # A symbol before what it stands for: f = storage over its small-strain value.
 _SYMBOL = re.compile(r"^\w{1,2}'*\s*=\s*(?=[A-Za-z])")
 _OTHER = re.compile(
-    r"log|ln\b|lg\b|eta\b|η|visco(?!us comp)|visko|complian|torque|phase|rate\b|static|statisch"
+    r"log|spatial|spectr"
+    r"|ln\b|lg\b|eta\b|η|visco(?!us comp)|visko|complian|torque|phase|rate\b|static|statisch"
 )
-_COMPLIANCE = re.compile(r"[JD]['’′″\"]|.*(complian|nachgieb)", re.IGNORECASE)
+_COMPLIANCE = re.compile(r"[JD]['’′″\"]|[JD]\(t|.*(complian|nachgieb)", re.IGNORECASE)
+_RELAXATION = re.compile(r"[EG]\s*\(t|.*relax\w* ?mod", re.IGNORECASE)
 _ANGULAR = re.compile(r"omega|ω|angular|kreis|pulsation|角|ang\.? ?freq", re.IGNORECASE)
 # A frequency in words that mean either kind: 1/s of an angular one is rad/s.
 _PER_SECOND = re.compile(r"(1/s(ec)?|s\^?-1|s⁻¹)", re.IGNORECASE)
@@ -368,13 +375,14 @@ def missing(table: TextTable, what: str) -> InputError:
 
 
 def other_content(table: TextTable) -> str:
-    """Return what a table with too few columns for moduli holds, in words."""
-    columns = str(len(table.columns))
+    """Return what a table with too few columns for moduli holds, in words; empty if unknown."""
     if any(_COMPLIANCE.match(name) for name in table.names):
-        return f"{columns}, a compliance ({table.titles}): creep is not read, sweeps are"
+        return f"a compliance ({table.titles}): creep is not read, sweeps are"
+    if any(_RELAXATION.match(name) for name in table.names):
+        return f"a relaxation modulus ({table.titles}): a Prony list and sweeps are read"
     if any(quantity(name) == "loss_factor" for name in table.names):
-        return f"{columns}, the loss factor alone ({table.titles}): a modulus is needed, too"
-    return columns + (f" ({table.titles})" if table.names else "")
+        return f"the loss factor alone ({table.titles}): a modulus is needed, too"
+    return ""
 
 
 _ROUNDING = 0.05  # relative error of a loss factor by the digits it is printed with
@@ -454,16 +462,17 @@ _OFTEN = 3
 
 def spread_of_repeats(frequency: Array, storage: Array, loss: Array, temperature: Array) -> float:
     """Return by which factor E' or E'' of one frequency and temperature differ, in the median."""
-    conditions = np.log(frequency) / _SAME_FREQUENCY, temperature / _SAME_TEMPERATURE
-    _, row, count = np.unique(np.round(conditions), axis=1, return_inverse=True, return_counts=True)
+    conditions = np.round([np.log(frequency) / _SAME_FREQUENCY, temperature / _SAME_TEMPERATURE])
+    pairs = conditions[0] + 1j * conditions[1]
+    _, row, count = np.unique(pairs, return_inverse=True, return_counts=True)
     again = count > 1
     if not again.sum() >= max(2.0, len(count) / _OFTEN):
         return 1.0
     spreads = np.ones((2, len(count)))
     for modulus, spread in zip((storage, loss), spreads, strict=True):
         low, high = np.full(len(count), np.inf), np.zeros(len(count))
-        np.minimum.at(low, row.reshape(-1), modulus)
-        np.maximum.at(high, row.reshape(-1), modulus)
+        np.minimum.at(low, row, modulus)
+        np.maximum.at(high, row, modulus)
         spread[:] = high / low
     return float(np.median(spreads.max(axis=0)[again]))
 

@@ -18,6 +18,7 @@ from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import APART, THREE, FileLayout
+from gripscale.rubber.many_rows import thinned
 from gripscale.rubber.shift import Shift, shift_at, shown_state
 
 if TYPE_CHECKING:
@@ -159,9 +160,10 @@ def read_master_curve(
             f"line {blocks[1].table.line_numbers[0]} on; those of sweeps state their temperatures"
         )
     if len(table.columns) < len(THREE):
+        content = columns.other_content(table) or f"({table.titles or 'no titles'})"
         raise FileError(
             f"{file}, line {table.line_numbers[0]}: expected at least 3 columns "
-            f"(frequency, storage, loss); got {columns.other_content(table)}"
+            f"(frequency, storage, loss); got {len(table.columns)}, {content}"
         )
     if len(table.rows) < 2:
         raise FileError(f"{file}: {_TWO_ROWS}; got {len(table.rows)}")
@@ -186,8 +188,9 @@ def read_master_curve(
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
-    notes = tuple(columns.notes_of_faults(table, layout))
-    return MasterCurve(hertz, storage, loss, reference_temperature, name, source, None, notes)
+    few, note = thinned(np.array([np.ones(len(hertz)), hertz, storage, loss]))
+    notes = (*columns.notes_of_faults(table, layout), *note)
+    return MasterCurve(few[1], few[2], few[3], reference_temperature, name, source, None, notes)
 
 
 def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:

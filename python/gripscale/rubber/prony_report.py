@@ -145,14 +145,16 @@ _BETTER = 0.5
 _SCATTER = 0.3  # relative scatter of E' about its neighbours that no measurement of one rubber has
 # Between these lies the largest E' of a rubber [Pa]: glassy polymers have up to 10 GPa.
 _SOFTEST, _STIFFEST = 1e4, 2e10
+_GLASS = 1e9  # smallest E' [Pa] of a curve that never leaves the glass: 1 to 3 GPa of polymers
 
 
 def moduli_doubts(master: MasterCurve, swapped: SwappedModuli, scatter: float) -> Iterator[Finding]:
     """Yield why moduli may be those of no rubber; `scatter` is that of E' about its neighbours."""
-    stiffest = float(master.storage.max())
-    if not _SOFTEST <= stiffest <= _STIFFEST:
+    softest, stiffest = float(master.storage.min()), float(master.storage.max())
+    if softest > _GLASS or not _SOFTEST <= stiffest <= _STIFFEST:
+        end, value = ("smallest", softest) if softest > _GLASS else ("largest", stiffest)
         yield doubt(
-            f"The largest E', {stiffest / 1e6:.3g} MPa, is that of no rubber: is the unit of the "
+            f"The {end} E', {value / 1e6:.3g} MPa, is that of no rubber: is the unit of the "
             "moduli right (",
             CaseKey("modulus_unit"),
             ")?",

@@ -288,6 +288,12 @@ class ShiftTable(Shift, eq=False):
         """What ends at `limits`, as a clause."""
         return "the sweeps of the shift lie"
 
+    @property
+    def unity(self) -> float | None:
+        """Temperature of the table whose a_T is one [K]: that of the curve it belongs to."""
+        ones = self.temperature[np.abs(self.horizontal) < 1e-6]
+        return self.reference_temperature or (float(ones[0]) if ones.size == 1 else None)
+
     def __post_init__(self) -> None:
         super().__post_init__()
         unknown, zero = np.full(len(self.temperature), np.nan), np.zeros(len(self.temperature))

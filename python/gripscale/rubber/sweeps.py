@@ -30,6 +30,7 @@ from gripscale.rubber.columns import (
     spread_of_repeats,
     young_moduli,
 )
+from gripscale.rubber.many_rows import thinned
 from gripscale.rubber.shift import WLF
 
 # Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1.
@@ -341,6 +342,9 @@ def read_sweeps(
             f"{spread:.2g} times apart, as of several specimens, strain amplitudes, units or "
             "unnamed temperatures: keep the rows of one of them"
         )
+    rows, note = thinned(rows)
+    kelvin, hertz, storage, loss = rows
+    notes += note
     name = paths[0].stem if name is None else name
     if temperature_step is not None:
         return sweeps_from_ramps(*rows, step=temperature_step, name=name, source=source)

@@ -22,8 +22,10 @@ from functools import partial
 from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gripscale.core import Array, Described, InputError, Mask, checks, in_mm
+from gripscale.surface.long_waves import long_waves, mean_square
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")
@@ -31,6 +33,7 @@ _TRENDS = ("linear", "mean", "none")
 SPIKE_RULES = ("isolated", "iso13473")  # rules for spikes, the first by default; None keeps all
 # Samples of the longest run that is a spike: laser spots are one to three samples wide.
 _LONGEST_SPIKE = 3
+_HEIGHTS_AT_ONCE = 2**20  # of lines of a map that are looked through together
 _HIGHEST_ORDER = 8  # highest order of a form: beyond it a polynomial follows the roughness
 Limits = tuple[float, float]
 _Heights = TypeVar("_Heights", Profile, HeightMap)
@@ -52,6 +55,8 @@ class StepReport(Described):
     """Points without height after it."""
     note: str = ""
     """Details in words."""
+    share: float = 0.0
+    """Share of the mean square height that long waves held [-], of their step."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -90,6 +95,7 @@ def clean(
     spike_slope: float = 3.0,
     across_gaps: bool = False,
     detrend: str = "linear",
+    longest_wavelength: float | None = None,
 ) -> tuple[Profile, CleaningReport]:
     """Crop a profile, mark dropouts and spikes as missing, and take out its trend.
 
@@ -116,6 +122,9 @@ def clean(
         Hold the points on both sides of a gap to the same slope as well, with "iso13473".
     detrend : {"linear", "mean", "none"}, optional
         Trend to subtract, fitted to the valid heights.
+    longest_wavelength : float, optional
+        Cut-off [m] beyond which waves are taken out, see `gripscale.surface.long_waves`; None keeps
+        them.
     """
     checks.instance("profile", profile, Profile)
     steps: list[Callable[[Profile], tuple[Profile, StepReport]]] = []
@@ -131,6 +140,8 @@ def clean(
     if checks.flag("across_gaps", across_gaps) and spikes != "iso13473":
         raise InputError(f'across_gaps belongs to spikes = "iso13473"; got {spikes!r}')
     steps.append(partial(subtract_trend, kind=detrend))
+    if longest_wavelength is not None:
+        steps.append(partial(subtract_long_waves, longest=longest_wavelength))
     return _in_turn(steps, profile)
 
 
@@ -174,31 +185,44 @@ def mark_spikes(surface: _Heights, *, slope: float = 3.0) -> tuple[_Heights, Ste
 def _isolated(z: Array, rise: float) -> Mask:
     """Return where `z` belongs to a run along its last axis that stands off by `rise` a step."""
     points = z.shape[-1]
-    padded = np.pad(z, [(0, 0)] * (z.ndim - 1) + [(1, 1)], constant_values=np.nan)
-    index = np.broadcast_to(np.arange(points + 2), padded.shape)
-    finite = np.isfinite(padded)
-    # the last height at or before each point, the first at or after it; the ends where none is
-    before = np.maximum.accumulate(np.where(finite, index, 0), axis=-1)
-    after = np.where(finite, index, points + 1)
-    after = np.minimum.accumulate(after[..., ::-1], axis=-1)[..., ::-1]
-    spikes = np.zeros(padded.shape, dtype=bool)
-    for width in range(1, min(_LONGEST_SPIKE, points) + 1):
-        start, end = before[..., : points + 1 - width], after[..., width + 1 :]
-        runs = [padded[..., 1 + k : points + 2 - width + k] for k in range(width)]
-        lowest, highest = np.minimum.reduce(runs), np.maximum.reduce(runs)
-        first = index[..., 1 : points + 2 - width]
-        off = [np.ones(first.shape, dtype=bool), np.ones(first.shape, dtype=bool)]
-        for at, distance in ((start, first - start), (end, end - first - (width - 1))):
-            level = np.take_along_axis(padded, at, axis=-1)
-            alone = np.isnan(level)  # at an end of the line one side decides
-            with np.errstate(invalid="ignore"):
-                off[0] &= alone | (lowest - level >= rise * distance)
-                off[1] &= alone | (level - highest >= rise * distance)
-        bounded = (start > 0) | (end < points + 1)
-        spike = (off[0] | off[1]) & bounded & np.isfinite(lowest)
-        for k in range(width):
-            spikes[..., 1 + k : points + 2 - width + k] |= spike
-    return spikes[..., 1:-1]
+    lines = z.reshape(-1, points)
+    spikes = np.zeros(lines.shape, dtype=bool)
+    together = max(1, _HEIGHTS_AT_ONCE // points)
+    for first in range(0, len(lines), together):
+        part = slice(first, first + together)
+        spikes[part].reshape(-1)[_runs(lines[part].ravel(), points, rise)] = True
+    return spikes.reshape(z.shape)
+
+
+def _runs(z: Array, points: int, rise: float) -> NDArray[np.intp]:
+    """Return the places of heights in such runs, of lines of so many points one after another."""
+    at = np.flatnonzero(np.isfinite(z))
+    heights = z[at]
+    steep = np.abs(np.diff(heights)) >= rise * np.diff(at)
+    # a run begins after a steep step, or a line
+    starts = np.searchsorted(at, np.arange(0, z.size, points))
+    begin = np.union1d(np.flatnonzero(steep) + 1, starts[starts < at.size])
+    found = []
+    for width in range(1, _LONGEST_SPIKE + 1):
+        first = begin[begin + width <= at.size]
+        last = first + width - 1
+        line = at[first] // points
+        whole = (at[last] - at[first] == width - 1) & (at[last] // points == line)
+        first, last, line = first[whole], last[whole], line[whole]
+        runs = heights[first[:, None] + np.arange(width)]
+        lowest, highest = runs.min(axis=1), runs.max(axis=1)
+        above = below = np.ones(first.size, dtype=bool)
+        bounded = ~above
+        for side, end in ((first - 1, first), (last + 1, last)):
+            near = np.clip(side, 0, at.size - 1)
+            inside = (side == near) & (at[near] // points == line)  # at an end one side decides
+            off = rise * np.abs(at[near] - at[end])
+            above = above & (~inside | (lowest - heights[near] >= off))
+            below = below & (~inside | (heights[near] - highest >= off))
+            bounded |= inside
+        chosen = first[(above | below) & bounded]
+        found.append(at[chosen[:, None] + np.arange(width)].ravel())
+    return np.concatenate(found)
 
 
 def mark_steep_steps(
@@ -250,6 +274,15 @@ def subtract_trend(profile: Profile, kind: str = "linear") -> tuple[Profile, Ste
         slope = float((centred[valid] @ (profile.z[valid] - mean)) / squares)
         z, note = profile.z - mean - slope * centred, f"{note}, slope {slope:.4g}"
     return _report("trend", profile, replace(profile, z=z), note)
+
+
+def subtract_long_waves(profile: Profile, longest: float) -> tuple[Profile, StepReport]:
+    """Subtract the waves beyond the cut-off `longest` [m], by a Gaussian that halves these."""
+    waves, whole = long_waves(profile, longest), mean_square(profile, profile.z)
+    share = mean_square(profile, waves) / whole if whole else 0.0
+    note = f"beyond {in_mm(longest, 4)}: {100.0 * share:.2g} % of the mean square height"
+    after, report = _report("long waves", profile, replace(profile, z=profile.z - waves), note)
+    return after, replace(report, share=share)
 
 
 def clean_map(
@@ -387,7 +420,8 @@ def _part(
     size = f"{in_mm(x[0])} to {in_mm(x[-1])} by {in_mm(y[0])} to {in_mm(y[-1])}"
     if np.isnan(z).all():
         raise InputError(f"{step} must leave some heights; {size} has none")
-    return _report(step, surface, replace(surface, x=x, y=y, z=z), f"kept {size}")
+    part = surface if z.shape == surface.z.shape else replace(surface, x=x, y=y, z=z)
+    return _report(step, surface, part, f"kept {size}")
 
 
 def mark_dropouts(

@@ -23,8 +23,8 @@ from gripscale.io.cells import Line
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?"
 _PAIR = re.compile(
     r"[\s#%!/*\"]*(?P<name>[^:=;\t\[(,]+?)\s*(?:[\[(](?:->\s*)?(?P<unit>[^\])]*)[\])])?"
-    rf"\s*[:=;\t,]\s*(?:(?P<number>{_NUMBER})[\s;,]*)?"
-    r"(?P<word>[^\s;,]*?)(?P<each>/(?:sample|pixel|px|point|pt|pkt)s?)?"
+    rf"(?:\s*[:=;\t,]\s*|\s+(?=\d))(?:(?P<number>{_NUMBER})[\s;,]*)?"
+    r"(?P<word>[^\s;,]*?)(?:(?:/|\s*\bper\s+)(?P<each>sample|pixel|px|point|pt|pkt|count|digit|lsb|bit)s?)?"
     rf"(?:\s*[x×*]\s*(?P<second>{_NUMBER})\s*(?P<last>[^\s;,]*))?[\s;,\"]*"
 )
 _STEP = (
@@ -49,8 +49,13 @@ _NAMES = {
     "xz": rf"(?:length )?{_UNIT}",
     "factor": r"1 ?(?:digits?|bit|rad|v|increment|z)|(?:1 ?)?(?:counts?|lsb)"
     r"|(?:z|height|data|value)(?:[ -]?(?:conversion|scaling|calibration))*[ -]?(?:factor|scale)"
-    r"|counts? ?size",
+    r"|counts? ?size|scal(?:e|ing) factor",
 }
+_DENSITY = re.compile(
+    rf"(?:(?P<number>{_NUMBER})\s*)?(?:points?|pts|samples?|punkte)\s*(?:/|per|pro|je)\s*"
+    rf"(?P<unit>[a-zµμ]+)\W*(?P<after>{_NUMBER})?",
+    re.IGNORECASE,
+)
 _MOST_LINES = 100  # lines of a header
 
 
@@ -76,11 +81,17 @@ def read_header(lines: Sequence[Line]) -> Header:
     units: dict[str, str | None] = {}
     lengths: dict[str, tuple[float, str | None]] = {}
     factor = None
+    for density in filter(None, (_DENSITY.search(text) for _, text in lines[:_MOST_LINES])):
+        count = float((density["number"] or density["after"] or "0").replace(",", "."))
+        if count > 0.0 and spelled(density["unit"], "length"):
+            lengths["dx"] = 1.0 / count, density["unit"]
     texts = [re.sub(r'"\s*[,;]\s*"', "\t", text) for _, text in lines[:_MOST_LINES]]
     for pair in filter(None, map(_PAIR.fullmatch, texts)):
         low = pair["name"].lower()
         name = next((key for key, names in _NAMES.items() if re.fullmatch(names, low)), "")
-        if not name and pair["each"]:  # such as resolution, 100 um/sample
+        if pair["each"] in ("count", "digit", "lsb", "bit"):
+            name = "factor"
+        elif not name and pair["each"]:  # such as resolution, 100 um/sample
             name = "dx"
         word = pair["unit"] or pair["word"].strip('"') or pair["last"]
         unit, number = spelled(word, "length"), (pair["number"] or "").replace(",", ".")

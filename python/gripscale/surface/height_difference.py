@@ -45,6 +45,7 @@ _BAND_LEVEL = 0.95  # nominal confidence level of the band
 # Half width in log C_z beyond which there is no band: too few blocks hold pairs.
 _WIDEST_BAND = 20.0
 _FEWEST_PAIRS = 16  # pairs a lag must have to be kept
+_HEIGHTS_AT_ONCE = 2**17  # of lines that are summed together, for a cache of a megabyte
 
 
 class HeightDifference(Checked, eq=False):
@@ -222,20 +223,30 @@ def block_sums(
     count = int(np.ceil(per_decade * np.log10(max(most, 1)))) + 1
     shifts = np.unique(np.rint(np.geomspace(1, most, count)).astype(np.int64))
     heights = [p.z - np.nanmean(p.z) for p in profiles]
-    heights = [np.where(z >= np.nanquantile(z, 1.0 - share), z, np.nan) for z in heights]
+    if share < 1.0:
+        heights = [np.where(z >= np.nanquantile(z, 1.0 - share), z, np.nan) for z in heights]
     starts = block_starts([z.size for z in heights], blocks)
     rows = sum(start.size for start in starts)
     sums, counts = np.zeros((rows, shifts.size)), np.zeros((rows, shifts.size))
-    row = 0
-    for z, start in zip(heights, starts, strict=True):
-        for column, shift in enumerate(shifts[shifts < z.size]):
-            squares = np.square(z[shift:] - z[:-shift])
+    row = at = 0
+    while at < len(heights):  # lines of one length together: their blocks begin alike
+        start, size = starts[at], heights[at].size
+        alike = heights[at : at + max(1, _HEIGHTS_AT_ONCE // size)]
+        z = np.array([line for line in alike if line.size == size])
+        if len(z) < len(alike):  # of several lengths
+            z = z[:1]
+        part = slice(row, row + len(z) * start.size)
+        for column, shift in enumerate(shifts[shifts < size]):
+            squares = z[:, shift:] - z[:, :-shift]
+            np.square(squares, out=squares)
             valid = np.isfinite(squares)
-            begins = start[start < squares.size]
-            part = slice(row, row + begins.size)
-            sums[part, column] = np.add.reduceat(np.where(valid, squares, 0.0), begins)
-            counts[part, column] = np.add.reduceat(valid.astype(float), begins)
-        row += start.size
+            squares[~valid] = 0.0
+            begins = start[start < squares.shape[1]]
+            for all_blocks, values in ((sums, squares), (counts, valid)):
+                of_lines = all_blocks[part, column].reshape(len(z), start.size)
+                of_lines[:, : begins.size] = np.add.reduceat(values, begins, axis=1, dtype=float)
+                all_blocks[part, column] = of_lines.ravel()
+        row, at = part.stop, at + len(z)
     if len(profiles) > blocks:
         first = np.linspace(0, len(sums), blocks, endpoint=False).astype(int)
         sums, counts = (np.add.reduceat(values, first, axis=0) for values in (sums, counts))

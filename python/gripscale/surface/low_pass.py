@@ -104,11 +104,15 @@ def followed(surface: _Heights, steepest: float = STEEPEST, *, periodic: bool = 
     """Return a profile or map without flanks above a slope [-]; gaps stay, infinity keeps all."""
     steps = surface.step if isinstance(surface, HeightMap) else (surface.step,)
     slope = checks.positive("steepest", steepest, infinite=True)
+    if math.isinf(slope):
+        return surface
     # only measured heights raise others: filling twice changes nothing
     missing = np.isnan(surface.z)
     whole = np.where(missing, np.nanmin(surface.z), surface.z)
-    z = np.where(missing, np.nan, upper_envelope(whole, steps, slope, periodic=periodic))
-    return surface if np.array_equal(z, surface.z, equal_nan=True) else replace(surface, z=z)
+    envelope = upper_envelope(whole, steps, slope, periodic=periodic)
+    if envelope is whole or np.array_equal(envelope[~missing], surface.z[~missing]):
+        return surface
+    return replace(surface, z=np.where(missing, np.nan, envelope))
 
 
 def followed_lines(

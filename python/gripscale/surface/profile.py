@@ -11,6 +11,7 @@ slope times that part. Points were left out where k_i increases by more than one
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -315,7 +316,16 @@ class HeightMap(Checked, Pictured, eq=False):
         """
         checks.one_of("direction", direction, ("x", "y"))
         measured = np.isfinite(self.z).any(axis=0 if direction == "x" else 1)
-        return [self.line(int(number), direction) for number in np.flatnonzero(measured)]
+        numbers = np.flatnonzero(measured).tolist()
+        first = self.line(numbers[0], direction)
+        heights = self.z.T if direction == "x" else self.z
+        lines = []
+        for number in numbers:  # the first one was checked, and with it all others
+            line = copy(first)
+            name, source = (line_label(t, number, direction) for t in (self.name, self.source))
+            line._set(z=heights[number].copy(), name=name, source=source)
+            lines.append(line)
+        return lines
 
     def line(self, number: int, direction: str = "x") -> Profile:
         """Return one line along "x" or "y", counted from 0 across it.

@@ -10,7 +10,7 @@ import io
 import math
 import os
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -28,12 +28,13 @@ from gripscale.io.text_table import (
     is_text,
     read_bytes,
     read_lines,
+    read_once,
     read_sheets,
     read_text,
 )
 from gripscale.surface.height_grids import is_esri_grid, is_sdf_text, read_height_grid
 from gripscale.surface.profile import HeightMap, Profile, line_label
-from gripscale.surface.text_files import length_unit, read_text_map, read_text_profile
+from gripscale.surface.text_files import NO_HEIGHT, length_unit, read_text_map, read_text_profile
 from gripscale.surface.triangles import is_stl, read_stl
 
 # Deflate, the densest packing of all formats, packs at most 1032 bytes into one.
@@ -95,7 +96,9 @@ def read_instrument_file(
         suffix = path.suffix.lower().removeprefix(".")
         formats = [r.format() for r in readers if suffix in (r.file_extensions() or ())]
         try:
-            with closing(_opened(open_topography, raw, formats)) as reader:
+            without_magic = [r.format() for r in readers if getattr(r, "_magic", "") is None]
+            opened = _opened(open_topography, raw, formats, without_magic)
+            with closing(opened) as reader:
                 topography = _topography(path, reader.channels, channel, step)
                 points = topography.nb_grid_pts
                 if math.prod(points) > _MOST_POINTS_PER_BYTE * len(raw):
@@ -131,12 +134,24 @@ def read_instrument_file(
     return HeightField(heights, x[:, 0], y[0, :], reliable)
 
 
-def _opened(open_topography: Callable[..., Any], raw: bytes, formats: list[str]) -> Any:
-    """Return the reader of one of the formats, or else the one that takes the content."""
+def _opened(
+    open_topography: Callable[..., Any], raw: bytes, formats: list[str], others: list[str]
+) -> Any:
+    """Return the reader of one of the formats, or else the one that takes the content.
+
+    Of the `others`, whose files have no first bytes of their own, one that finds heights goes
+    before a reader that finds none.
+    """
     for name in formats:
         with suppress(Exception):
             return open_topography(io.BytesIO(raw), format=name)
-    return open_topography(io.BytesIO(raw))
+    reader = open_topography(io.BytesIO(raw))
+    for name in () if reader.channels else others:
+        with suppress(Exception):
+            other = open_topography(io.BytesIO(raw), format=name)
+            if other.channels:
+                return other
+    return reader
 
 
 def _topography(
@@ -144,6 +159,8 @@ def _topography(
 ) -> Any:
     """Return the heights of the only channel, or of the `wanted` one, with its lateral size."""
     of_heights = [channel for channel in channels if channel.is_height_channel]
+    if wanted is None:  # deflections and errors of a scan are lengths, too
+        of_heights = [c for c in of_heights if not NO_HEIGHT.search(str(c.name))] or of_heights
     names = ", ".join(f"{channel.index + 1} {channel.name!r}" for channel in of_heights)
     if not of_heights:
         others = ", ".join(repr(channel.name) for channel in channels)
@@ -157,7 +174,9 @@ def _topography(
             )
     if len(of_heights) > 1:
         words = f"{path}: expected one channel of heights; got {names}; give "
-        raise unstated(words, "channel", kind=FileError)
+        refusal = unstated(words, "channel", kind=FileError)
+        refusal.choices = tuple(c.name for c in of_heights)
+        raise refusal
     channel = of_heights[0]
     if channel.physical_sizes is not None:
         if step is not None:
@@ -238,8 +257,12 @@ def read_profile(
         field = HeightField(surface.z, surface.x, surface.y)
     elif as_text:
         spacing = None if steps is None else steps[0]
-        units = {"x_unit": x_unit, "z_unit": z_unit}
-        profile = read_text_profile(file, **units, sheet=sheet, step=spacing, channel=channel)
+        options: dict[str, Any] = {"x_unit": x_unit, "z_unit": z_unit}
+        options |= {"sheet": sheet, "channel": channel}
+        profile = read_once(
+            ("profile", file, spacing, *options.values()),
+            lambda: read_text_profile(file, **options, step=spacing),
+        )
         checks.whole(f"line of {file}", line or 0, least=0, most=0)
         return upwards(profile, z_axis)
     else:
@@ -351,13 +374,18 @@ def read_map(
         table of text do.
     """
     file = _checked_path(path, x_unit, z_unit, reader)
-    steps = _steps(step, x_unit)
+    options = {"x_unit": x_unit, "z_unit": z_unit, "step": _steps(step, x_unit)}
+    key = "map", file, reader, channel, *options.values()
+    return upwards(read_once(key, lambda: _map_of(file, reader, channel, options)), z_axis)
+
+
+def _map_of(
+    file: Path, reader: str, channel: str | int | None, options: Mapping[str, Any]
+) -> HeightMap:
     if is_text_surface(file, reader):
-        text_map = read_text_map(file, x_unit=x_unit, z_unit=z_unit, step=steps)
-        return upwards(text_map, z_axis)
-    field = read_instrument_file(file, x_unit=x_unit, z_unit=z_unit, channel=channel, step=steps)
+        return read_text_map(file, **options)
+    field = read_instrument_file(file, channel=channel, **options)
     if field.y is None:
         raise FileError(f"{file}: expected a map; got a line, which gripscale.read_profile reads")
     with about_file(file):
-        read = HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)
-    return upwards(read, z_axis)
+        return HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)

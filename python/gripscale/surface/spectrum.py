@@ -269,6 +269,8 @@ def map_spectrum(
     steepest : float
         As in `profile_spectrum`.
     """
+    from scipy import fft
+
     steps = checks.positive("x_step", x_step, unit="m"), checks.positive("y_step", y_step, unit="m")
     heights = height_table("z", z)
     if min(heights.shape) < FEWEST_POINTS:
@@ -283,15 +285,22 @@ def map_spectrum(
     whole = whole - whole.mean()
     windows = [np.ones(n) for n in whole.shape]
     if taper == "hann":
-        x, y = np.meshgrid(*(np.arange(n) - 0.5 * (n - 1) for n in whole.shape), indexing="ij")
-        tilt_x, tilt_y = (axis * (whole * axis).sum() / (axis * axis).sum() for axis in (x, y))
-        whole = whole - tilt_x - tilt_y
+        x, y = (np.arange(n) - 0.5 * (n - 1) for n in whole.shape)
+        nx, ny = whole.shape
+        tilt_x, tilt_y = x @ whole.sum(axis=1) / (ny * x @ x), whole.sum(axis=0) @ y / (nx * y @ y)
+        whole = whole - (tilt_x * x)[:, None] - tilt_y * y
         windows = [np.hanning(n + 1)[:-1] for n in whole.shape]
     weights = windows[0][:, None] * windows[1]
     area = steps[0] * steps[1] / (4.0 * np.pi**2 * np.square(weights).sum())
-    power = np.asarray(area * np.abs(np.fft.fft2(weights * whole)) ** 2, dtype=np.float64)
-    qx, qy = (2.0 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(whole.shape, steps, strict=True))
+    power = np.asarray(area * np.abs(fft.rfft2(weights * whole)) ** 2, dtype=np.float64)
+    qx = 2.0 * np.pi * np.fft.fftfreq(whole.shape[0], steps[0])
+    qy = 2.0 * np.pi * np.fft.rfftfreq(whole.shape[1], steps[1])
     q = np.asarray(np.hypot(qx[:, None], qy), dtype=np.float64)
+    # all columns but the first, and the last of an even number, stand for their mirror, too
+    twice = np.full(power.shape, 2.0)
+    twice[:, 0] = 1.0
+    if whole.shape[1] % 2 == 0:
+        twice[:, -1] = 1.0
     ring = max(2.0 * np.pi / (n * step) for n, step in zip(heights.shape, steps, strict=True))
     number = np.rint(q / ring).astype(int)
     rings = int(np.pi / max(steps) / ring)
@@ -303,10 +312,11 @@ def map_spectrum(
     start = first_of_bins(np.arange(1, rings + 1), each) + 1
     inside = (number >= 1) & (number <= rings)
     which = np.searchsorted(start, number[inside], side="right") - 1
-    count = np.bincount(which)
+    twice = twice[inside]
+    count = np.bincount(which, twice)
     return ArealSpectrum(
-        np.exp(np.bincount(which, np.log(q[inside])) / count),
-        np.bincount(which, power[inside]) / count,
+        np.exp(np.bincount(which, twice * np.log(q[inside])) / count),
+        np.bincount(which, twice * power[inside]) / count,
         float(np.isnan(heights).mean()),
     )
 

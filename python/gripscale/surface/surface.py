@@ -10,9 +10,18 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
-from gripscale.core import Described, Finding, InputError, Severity, Topic
+from gripscale.core import (
+    CaseKey,
+    Described,
+    Finding,
+    InputError,
+    Severity,
+    Topic,
+    Words,
+    in_mm,
+)
 from gripscale.surface import plausibility
-from gripscale.surface.cleaning import CleaningReport, clean
+from gripscale.surface.cleaning import CleaningReport, clean, subtract_long_waves
 from gripscale.surface.cut_off import (
     CutOffRule,
     SlopeByWavelength,
@@ -50,6 +59,8 @@ class Measured(Described):
     """The map, x along the way of sliding, or None for profiles."""
     across: list[tuple[Profile, Profile]] = field(default_factory=list)
     """Profiles across the way of sliding as read and cleaned: they show ridges, and no more."""
+    longest: float | None = None
+    """Longest wavelength that was kept [m]; None for all."""
 
     @classmethod
     def of(cls, measured: Sequence[Profile] | HeightMap) -> Measured:
@@ -103,7 +114,19 @@ class Measured(Described):
         Raises `InputError` if an argument is wrong, or a step leaves too few points or heights.
         """
         cleaned, reports = zip(*(clean(line, **cleaning) for line in profiles), strict=True)
-        return cls.of_pairs(list(zip(profiles, cleaned, strict=True)), reports)
+        measured = cls.of_pairs(list(zip(profiles, cleaned, strict=True)), reports)
+        return replace(measured, longest=cleaning.get("longest_wavelength"))
+
+    def without_long_waves(self, longest: float) -> Measured:
+        """Return the profiles without waves beyond the cut-off `longest` [m]."""
+        along, across, reports = [], [], []
+        for at, (raw, cleaned) in enumerate(self.profiles):
+            after, step = subtract_long_waves(cleaned, longest)
+            along.append((raw, after))
+            reports.append(CleaningReport((*(self.cleaning[at] if self.cleaning else ()), step)))
+        for raw, cleaned in self.across:
+            across.append((raw, subtract_long_waves(cleaned, longest)[0]))
+        return replace(self, profiles=along, across=across, cleaning=reports, longest=longest)
 
     @property
     def cleaned(self) -> list[Profile]:
@@ -169,7 +192,21 @@ class Measured(Described):
                 implausible = tuple(replace(f, severity=Severity.WARNING) for f in implausible)
             of_line = (*changes, *raw.doubts, *implausible)
             findings += [finding.about(raw.name) for finding in of_line]
+        if self.longest is not None and self.long_share:
+            text = (
+                f"Waves beyond {in_mm(self.longest, 4)} are left out: they hold "
+                f"{100.0 * self.long_share:.2g} % of the mean square height, and a block of rubber "
+                "rides over what is longer than its footprint ("
+            )
+            words = Words(text, CaseKey("longest_wavelength"), " states where).")
+            findings.append(Finding(Severity.WARNING, words, topic=Topic.SURFACE))
         return tuple(findings)
+
+    @property
+    def long_share(self) -> float:
+        """Share of the mean square height that was left out with the long waves [-]."""
+        shares = [step.share for report in self.cleaning for step in report]
+        return float(np.sum(shares)) / len(self.cleaning) if shares else 0.0
 
     @property
     def doubts(self) -> tuple[Finding, ...]:

@@ -29,9 +29,9 @@ import numpy as np
 
 from gripscale.core import Array, CaseKey, Finding, Topic, Words, checks, doubt
 from gripscale.core.errors import FileError, InputError, about_file, unstated
-from gripscale.core.units import in_mm, listed, quantity_in_si, size_of_count, spelled
+from gripscale.core.units import UNITS, in_mm, listed, quantity_in_si, size_of_count, spelled
 from gripscale.io.cells import Line
-from gripscale.io.text_table import TextTable, column_in, read_lines, table_in
+from gripscale.io.text_table import ColumnTitle, TextTable, column_in, read_lines, table_in
 from gripscale.surface.header import Header, erd_as_table, read_header
 from gripscale.surface.profile import (
     FEWEST_POINTS,
@@ -104,13 +104,14 @@ def _column_unit(
 
 _DISTANCE_TITLE = re.compile(
     r"^\W*(x\b|x_|dist|pos|length|lateral|weg\b|abstand|l(ä|ae)nge|strecke|station|chainage|travel"
-    r"|longueur|abscisse|距离|位置)",
+    r"|longueur|abscisse|distan[cz]|afstand|str(ä|ae)cka|avst(å|aa)nd|odległo|расст|距[离離]|位置)",
     re.IGNORECASE,
 )
 _ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
 _HEIGHT_TITLE = re.compile(
     r"^\W*(z\b|z_|height|depth|h(ö|oe)he|tiefe|profondeur|elev|relative.height|profile"
-    r"|(raw|total|primary|waviness|roughness) profile|hauteur|altitude|altezza|altura|高度)",
+    r"|(raw|total|primary|waviness|roughness) profile|hauteur|altitude|altezza|altura|hoogte"
+    r"|h(ö|oe)jd|wysoko|выс|高[度さ])",
     re.IGNORECASE,
 )
 _TIME_TITLE = re.compile(r"^\W*(time|zeit|temps|tiempo|tempo|t|时间)(\b|_)", re.IGNORECASE)
@@ -118,8 +119,17 @@ _INDEX_TITLE = re.compile(
     r"^\W*((index|idx|no|nr|n°|id|points?|pts?|punkt|count|row|sample)[ _.]*(no|nr|number)?)?\W*$",
     re.IGNORECASE,
 )
-_WAVENUMBER = re.compile(r"^\W*(q|k|wave ?(number|vector)|wellenzahl)\b", re.IGNORECASE)
-_SPECTRUM = re.compile(r"^\W*(c\b|c_|c\(|psd|power|spectr|leistungsdichte)", re.IGNORECASE)
+# Of columns and channels with a length these are no heights of a surface, or a part of them.
+NO_HEIGHT = re.compile(
+    r"deflection|error|amplitude|phase|intensit|quality|friction|lateral force|speed|filter"
+    r"|waviness|^\W*roughness (profile|component)|welligkeit|rauheitsprofil|ondulation|iri\b|mpd\b",
+    re.IGNORECASE,
+)
+_WAVENUMBER = re.compile(
+    r"^\W*(q|k|wave ?(number|vector|length)|wellen(zahl|länge)|spatial freq\w*|ortsfrequenz)\b",
+    re.IGNORECASE,
+)
+_SPECTRUM = re.compile(r"^\W*(c\b|c_|c\(|.*(psd|power|spectr|leistungsdichte))", re.IGNORECASE)
 
 # Most points of a grid, in points of the file: with fewer on it, the file is not on a grid.
 _MOST_TIMES = 100
@@ -174,6 +184,8 @@ def _profile_columns(
                 f"{f'titled {table.titles}' if table.titles else 'without such titles'}"
             )
     z = [at for at in z if at in rest] or rest
+    no_heights = [at for at in z if _is_no_height(table.columns[at])]
+    z = [at for at in z if at not in no_heights] or z
     if channel is not None:
         numbers = {name: at for at, name in enumerate(table.names) if name}
         z = [numbers[channel] if channel in numbers else _column_number(table, channel)]
@@ -181,7 +193,10 @@ def _profile_columns(
     if len(z) != 1 or len(x) > 1:
         listed_columns = ", ".join(f"{at + 1} {table.columns[at].name!r}" for at in z)
         words = f"{table.path}: expected one column of heights; got {listed_columns}; give "
-        raise unstated(words, "channel", ", its title or number", kind=FileError)
+        refusal = unstated(words, "channel", ", its title or number", kind=FileError)
+        once = len(x) < 2 and all(table.names.count(table.columns[at].name) == 1 for at in z)
+        refusal.choices = tuple(table.columns[at].name if once else at + 1 for at in z)
+        raise refusal
     if not x and step is None:
         seconds = float(np.median(np.diff(table.numbers(times[0], "a time")[:100])))
         unit = table.columns[times[0]].unit or ""
@@ -192,6 +207,12 @@ def _profile_columns(
         after = f", the distance between points: the speed times {seconds:.4g} {unit}".rstrip()
         raise unstated(words, "step", after, kind=FileError)
     return (x[0] if x else None), z[0]
+
+
+def _is_no_height(title: ColumnTitle) -> bool:
+    """Return whether a column has the unit of something else than a length, or a name of one."""
+    other = any(spelled(title.unit, kind) for kind in UNITS if kind != "length")
+    return other or bool(NO_HEIGHT.search(title.name))
 
 
 def _counts(table: TextTable, column: int) -> bool:

@@ -154,12 +154,11 @@ class KlueppelHeinrich(Checked, Model):
     needs: ClassVar[frozenset[SurfacePart]] = frozenset({"measurement", "cut_off"})
 
     layer_ratio: float = checked(checks.positive)
-    """See `klueppel_heinrich` [-]."""
+    """Thickness of the strained layer over penetration depth [-]."""
     penetration_depth: float = checked(checks.positive, unit="m")
-    """See `klueppel_heinrich` [m]; the same at every load."""
+    """Mean penetration depth [m]; the same at every load."""
     smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
-    """Smallest wave that counts [m]; by default the end of the surface's sine waves, see
-    `SineStack.cutoff_wavelength`."""
+    """Smallest wave that counts [m]; by default the end of the surface's sine waves."""
 
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None

@@ -96,7 +96,7 @@ def test_the_answer_is_the_fitted_friction(calibrated: Calibration) -> None:
 def test_the_area_is_not_that_of_the_lines(calibrated: Calibration) -> None:
     answer = answer_at(calibrated.law, 0).data
     assert float(answer.answer_contact_fraction / answer.total_contact_fraction) < 0.8
-    ratio = answer.answer_adhesive_friction / answer.total_adhesive_friction
+    ratio = answer.answer_interface_friction / answer.total_adhesive_friction
     assert float(ratio) == pytest.approx(
         float(answer.answer_contact_fraction / answer.total_contact_fraction)
     )
@@ -135,7 +135,7 @@ def test_answer_variation_and_comparison_have_one_total(tmp_path: Path) -> None:
 
     varied = gs.vary(case, speed=[0.1, 0.3])
     columns = {column.name: column.values for column in varied.table().columns}
-    assert columns["answer_total_friction"][0] == pytest.approx(answer.friction)
+    assert columns["answer_friction"][0] == pytest.approx(answer.friction)
     assert columns["area_term"][0] == pytest.approx(answer.interface_friction)
     least = significant(columns["area_term"].min())
     assert f"{least} to" in " ".join(varied.lines)
@@ -176,7 +176,7 @@ def test_files_give_the_measured_friction_back(shell: Shell, tmp_path: Path) -> 
     run = shell("run", case, "--output", tmp_path / "run", columns=500)
     assert run.exit_code == 0, run.output
     answer = netcdf.load_dataset(tmp_path / "run" / "answer.nc")
-    total = float(answer.answer_friction + answer.answer_adhesive_friction)
+    total = float(answer.answer_friction)
     assert total == pytest.approx(float(fit.friction[1]), rel=1e-5)  # six digits in the file
     # the table has three digits
     assert total == pytest.approx(float(fit.measured_friction[1]), abs=1e-3)
@@ -261,11 +261,11 @@ def test_a_variation_and_a_comparison_know_the_fit(calibrated: Calibration) -> N
     case = made(conditions, speed=0.3)
     width = np.subtract(*gs.answer(case).friction_interval[::-1])
     varied = gs.vary(case, speed=[0.3, 3.0]).data
-    widths = (varied.answer_total_friction_high - varied.answer_total_friction_low).values
+    widths = (varied.answer_friction_high - varied.answer_friction_low).values
     assert widths[0] == pytest.approx(width, rel=0.01)
     assert widths[1] > 3.0 * width
     compared = gs.compare(case, models=["direct"]).data
-    high, low = (float(compared[f"answer_total_friction_{end}"]) for end in ("high", "low"))
+    high, low = (float(compared[f"answer_friction_{end}"]) for end in ("high", "low"))
     assert high - low == pytest.approx(width, rel=1e-6)
 
 

@@ -107,8 +107,8 @@ def test_table_and_answer_have_the_area_term(made: SolvedLadder) -> None:
     total = float(direct.total_friction + direct.total_adhesive_friction)
     assert f"{total:.2f}" in text
     # 2 MPa on the contact area of the estimate, not on that of the direct contact
-    both = float(data.answer_friction) + 2e6 * float(data.answer_contact_fraction) / 3e5
-    assert float(data.answer_total_friction) == pytest.approx(both, rel=1e-12)
+    both = float(data.answer_hysteresis_friction) + 2e6 * float(data.answer_contact_fraction) / 3e5
+    assert float(data.answer_friction) == pytest.approx(both, rel=1e-12)
     assert f"μ = {significant(both)}: " in next(answer_lines(data))
 
 

@@ -177,7 +177,7 @@ def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data, mon
 @pytest.mark.parametrize(
     ("table", "message"),
     [
-        ('down_to = "0.1 mm"\nhurst = 1.3', "expected at most 1"),
+        ('down_to = "0.1 mm"\nhurst = 1.3', "above 0, at most 1"),
         ('down_to = "0.1 mm"\nhurst = 0.8\nfiner = { file = "road.txt" }', "either hurst"),
         ('down_to = "0.1 mm"\nfiner = { x_unit = "mm" }', "either file"),
         ('down_to = "-1 mm"', "greater than zero"),

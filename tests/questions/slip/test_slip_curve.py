@@ -20,7 +20,7 @@ from gripscale.theory import Brush
 from tests.questions.answer.test_answer_object import CASE
 from tests.samples import Shell
 
-AREA_TERM = '\n[conditions.shear_stress]\nkind = "constant"\nstress_0 = "6 MPa"\n'
+INTERFACE = '\n[conditions.shear_stress]\nkind = "constant"\nstress_0 = "6 MPa"\n'
 DRY, WET = (1.2801, 23.99, 0.52), (0.857, 33.82, 0.347)
 """Burckhardt's parameters of a tyre on dry and on wet asphalt."""
 SLIPS = np.geomspace(0.003, 1.0, 30)
@@ -30,7 +30,7 @@ SLIPS = np.geomspace(0.003, 1.0, 30)
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a case and the results of its command."""
     folder = tmp_path_factory.mktemp("slip")
-    (folder / "case.toml").write_text(CASE + AREA_TERM, encoding="utf-8")
+    (folder / "case.toml").write_text(CASE + INTERFACE, encoding="utf-8")
     words = ["slip", str(folder / "case.toml"), "--output", str(folder / "slip")]
     ended = CliRunner().invoke(app, words)
     assert ended.exit_code == 0, ended.output

@@ -23,21 +23,20 @@ from gripscale.charts.draw import Sheet
 from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.experiment.solve import Bench
-from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.experiment.task import PREDICTIONS, Store
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
 from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
 from gripscale.questions.answer.filler import with_filled
 from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
 from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
-from gripscale.questions.answer.reliance import (
+from gripscale.questions.answer.reliance import is_measured, is_moving, no_answer
+from gripscale.questions.answer.variables import (
+    JUDGE,
+    OF_THE_PAPER,
     answer_number,
     has_answer,
-    headline,
-    headline_name,
-    is_measured,
-    is_moving,
-    no_answer,
+    of_hysteresis,
 )
 from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.chain.charts import contact_sheet, heat_sheet
@@ -46,7 +45,6 @@ from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import NO_WIDTHS, Result
-from gripscale.questions.words import JUDGE, OF_THE_PAPER
 from gripscale.report.elements import Page
 from gripscale.report.failures import explained, failures_in
 
@@ -70,22 +68,22 @@ class NumbersWithIntervals(Result):
 
         That of the hysteresis, and of the interface where a case has one.
         """
-        return headline(self.data, "friction").value
+        return answer_number(self.data, "friction").value
 
     @property
     def friction_interval(self) -> tuple[float, float]:
         """Both ends of the 90 % interval of the friction [-]; NaN where it is not known."""
-        return headline(self.data, "friction")[1:]
+        return answer_number(self.data, "friction")[1:]
 
     @property
     def hysteresis_friction(self) -> float:
         """Its part by the hysteresis [-]."""
-        return answer_number(self.data, "friction").value
+        return answer_number(self.data, of_hysteresis(self.data, "friction")).value
 
     @property
     def interface_friction(self) -> float:
         """Its part by the interface, over `contact_fraction` [-]; NaN without one."""
-        return answer_number(self.data, "adhesive_friction").value
+        return answer_number(self.data, "interface_friction").value
 
     def __getattr__(self, name: str) -> Any:
         if name not in _OLD_NAMES:
@@ -138,7 +136,7 @@ class Answer(NumbersWithIntervals):
     def half_widths(self) -> Mapping[str, float]:
         if not self.reliable:
             return NO_WIDTHS
-        names = {"friction": headline_name(self.data, "friction"), "area": "contact_fraction"}
+        names = {"friction": "friction", "area": "contact_fraction"}
         widths = {key: float(self.data[f"answer_{name}_half_width"]) for key, name in names.items()}
         return {key: width for key, width in widths.items() if math.isfinite(width)}
 
@@ -232,8 +230,7 @@ def solved_chain(case: Case, bench: Bench) -> xr.Dataset:
 
     A wave that does not converge ends it: `prediction_status` says so.
     """
-    task = Task(case.rubber, case.surface, case.load, case.chain)
-    (predicted,) = bench.solve({OF_THE_PAPER: task}).values()
+    (predicted,) = bench.solve({OF_THE_PAPER: case.task()}).values()
     sources = {"surface_source": case.surface.source, "rubber_source": case.measured_rubber.source}
     return predicted.assign_attrs(case.attributes | sources)
 

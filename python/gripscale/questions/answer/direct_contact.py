@@ -34,7 +34,8 @@ from gripscale.questions.answer.estimate import (
     answer_of_samples,
 )
 from gripscale.questions.answer.measurements import each_measured
-from gripscale.questions.answer.reliance import WORTH_NAMING, estimated_names, has_answer
+from gripscale.questions.answer.reliance import WORTH_NAMING, estimated_names
+from gripscale.questions.answer.variables import has_answer
 from gripscale.questions.cut_off.curve import (
     AREA,
     CONTINUED_TO,

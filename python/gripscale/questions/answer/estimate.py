@@ -30,7 +30,7 @@ from gripscale.half_space import line_to_map
 from gripscale.half_space.large_strain import finite_over_small
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
-from gripscale.model import BASIS, LINE_UNDER_LOAD
+from gripscale.model import LINE_UNDER_LOAD
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact, errors_left
 from gripscale.questions.answer.intervals import (
@@ -39,6 +39,17 @@ from gripscale.questions.answer.intervals import (
     combined,
     half_width,
     interval_ends,
+)
+from gripscale.questions.answer.variables import (
+    ANSWER_NUMBERS,
+    BASIS_SHARES,
+    ERROR_LEFT,
+    HYSTERESIS,
+    INTERFACE,
+    LARGE_STRAIN,
+    LARGE_STRAIN_NUMBERS,
+    REACH,
+    described,
 )
 
 DIRECT = DirectContact.name  # name of the model that every answer starts from
@@ -70,8 +81,6 @@ class Factor(Described):
 FINITE_STRAIN = "windows_finite_strain", "windows_half_plane"
 # Name of the factor that replaces it in an answer, and the label of both.
 FACTOR_OF_STRAIN, LARGE_STRAIN_LABEL = "finite_strain", "large strain"
-# Start of the names of numbers with the solved factor of finite strain in place of the law's.
-LARGE_STRAIN = "large_strain_"
 # Label of the factor from measured lines to the isotropic surface they lie on.
 LINES_TO_SURFACE = "profile to surface"
 # What an answer with this factor rests on, where nothing tells of ridges.
@@ -88,17 +97,9 @@ class SampledErrors(NamedTuple):
     of_road: bool
 
 
-# What else it rests on: of the friction on steep flanks, of the contact on filled gaps.
-BASIS_SHARES = ("steep_share", "missing_share")
 # What is estimated, and of which number of the samples its factors are ratios: of the two frictions
 # the one that a coarse grid changes least.
 ESTIMATED = {"contact_fraction": "contact_fraction", "friction": "friction_from_dissipation"}
-# Lines of an answer relative to the end of what the step to their surface was fitted to.
-REACH = "answer_line_reach"
-# Friction of the area term over the contact area of an answer, and with the hysteresis.
-AREA_TERM, TOTAL = "answer_adhesive_friction", "answer_total_friction"
-# Share of the variance of an answer that is left beside a fit to measured friction.
-ERROR_LEFT = "answer_error_left"
 
 
 def answer_of_samples(
@@ -123,8 +124,8 @@ def answer_of_samples(
     direct contact that converged or where the profiles are too short to tell how well they
     represent the surface (`_sampling_error`); over `factor` the `_factor` on each with its
     `_factor_uncertainty`, NaN if not included. Where an area term was asked for,
-    `answer_adhesive_friction` is its stress on the area of the answer, and `answer_total_friction`
-    the sum with the hysteresis.
+    `answer_interface_friction` is its stress on the area of the answer, `answer_friction` the sum
+    with `answer_hysteresis_friction`, which factors and errors stay those of.
     """
     direct = samples.sel(model=DIRECT, drop=True) if DIRECT in samples["model"].values else None
     status = samples["prediction_status"].isel(model=0, sample=0, drop=True)
@@ -184,7 +185,7 @@ def answer_of_samples(
         data[f"answer_{name}_factor_uncertainty"] = sigma
     if direct is not None and "adhesive_friction" in direct:
         term = reduce.mean(direct, "adhesive_friction")
-        data = with_total_friction(
+        data = with_interface(
             data,
             term * data["answer_contact_fraction_factor"].prod("factor"),
             errors_of_total,
@@ -234,17 +235,6 @@ def large_strain_answer(data: xr.Dataset) -> xr.Dataset | None:
     return data.assign(replaced) if numbers else None
 
 
-def described(data: xr.Dataset) -> xr.Dataset:
-    """Return an answer whose numbers have their meaning as attributes."""
-    return data.assign(
-        {
-            name: data[name].assign_attrs(variable_attributes(text))
-            for name, text in ANSWER_NUMBERS.items()
-            if name in data
-        }
-    )
-
-
 def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, xr.DataArray]:
     """Return a number of an answer by its name, with its uncertainty and 90 % interval."""
     there, most = value.notnull(), UPPER_LIMITS.get(name, math.inf)
@@ -256,14 +246,14 @@ def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, 
     return {f"answer_{name}{end}": number for end, number in (numbers | ends).items()}
 
 
-def with_total_friction(
+def with_interface(
     data: xr.Dataset,
     term: xr.DataArray,
     errors: Mapping[str, LogError],
     stress_error: float = 0.0,
     fit: xr.DataArray | float = 0.0,
 ) -> xr.Dataset:
-    """Return an answer with the friction of its area term, and the total friction of both.
+    """Return an answer of the hysteresis with the friction of its area term, and that of both.
 
     Unchanged where the term is NaN. Errors of hysteresis and contact area have common sources, such
     as the surface: at worst they add up in full. That of the stress, of the logarithm, has none in
@@ -279,7 +269,11 @@ def with_total_friction(
     freedom = xr.apply_ufunc(np.minimum, friction.freedom, area.freedom)
     of_fit = xr.apply_ufunc(np.arcsinh, fit / total) / QUANTILE_90
     error = combined([LogError(sigma, freedom), _certain(of_fit)])
-    return data.assign({AREA_TERM: term} | with_interval("total_friction", total, error))
+    hysteresis = {
+        name: data[name.replace("hysteresis_", "")] for name in ANSWER_NUMBERS if HYSTERESIS in name
+    }
+    both = with_interval("friction", total, error)
+    return data.assign(hysteresis | {INTERFACE: term} | both)
 
 
 def _certain(sigma: xr.DataArray) -> LogError:
@@ -355,40 +349,3 @@ def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
         error = LogError(sigma, xr.full_like(unknown, factor.freedom))
         numbers[name] = xr.full_like(unknown, number.value), error
     return numbers
-
-
-_INTERVAL = {
-    "": "answer: {}",
-    "_low": "low end of the 90 % interval of the {}",
-    "_high": "high end of the 90 % interval of the {}",
-    "_half_width": "relative half width of the 90 % interval of the {}",
-    "_uncertainty": "relative standard uncertainty of the {}",
-}
-_PARTS = {
-    "_sampling_error": "relative standard error of the {} from the sampling of the surface",
-    "_grid_error": "relative standard error of the {} from the grid of the direct contact",
-    "_factor": "factor on the {} of the direct contact, NaN if not included",
-    "_factor_uncertainty": "relative standard uncertainty of a factor on the {}",
-}
-# All numbers of an answer, and their meaning.
-ANSWER_NUMBERS = {
-    f"answer_{name}{end}": text.format(words)
-    for name, words, ends in (
-        ("total_friction", "friction μ of hysteresis and area term", _INTERVAL),
-        ("friction", "friction μ of the hysteresis", _INTERVAL | _PARTS),
-        ("contact_fraction", "real contact area A_r/A_0", _INTERVAL | _PARTS),
-    )
-    for end, text in ends.items()
-} | {
-    AREA_TERM: "friction μ of the area term over the contact area of the answer",
-    ERROR_LEFT: "share of the variance of the answer that a fit to measured friction leaves",
-    REACH: "how few summits of the lines carry, over the fewest that the step to a surface knows",
-    **{f"answer_{share}": BASIS[f"total_{share}"] for share in BASIS_SHARES},
-    **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
-}
-# The numbers with the solved factor of finite strain, and their meaning.
-LARGE_STRAIN_NUMBERS = {
-    name.replace("answer_", LARGE_STRAIN): text.replace("answer", "with large strain solved")
-    for name, text in ANSWER_NUMBERS.items()
-    if name.endswith(tuple(filter(None, _INTERVAL))) or text.startswith("answer: ")
-}

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import xarray as xr
 
-from gripscale.questions.answer.reliance import AnswerNumber, headline_name
+from gripscale.questions.answer.variables import AnswerNumber
 
 FILLERS = ("filled", "unfilled")
 _ENDS = ("", "_low", "_high")
@@ -19,7 +19,7 @@ _ENDS = ("", "_low", "_high")
 def with_filled(data: xr.Dataset, filled: xr.Dataset) -> xr.Dataset:
     """Return an answer for unfilled rubber with that of filled rubber, and intervals of both."""
     numbers = {}
-    for name in ("friction", "contact_fraction", "total_friction"):
+    for name in ("friction", "contact_fraction", "hysteresis_friction"):
         names = [f"answer_{name}{end}" for end in _ENDS]
         if not {*names} <= {*data.variables} & {*filled.variables}:
             continue
@@ -40,6 +40,6 @@ def both_answers(data: xr.Dataset) -> Iterator[tuple[str, dict[str, AnswerNumber
             return
         numbers = {}
         for name in ("friction", "contact_fraction"):
-            start = f"{filler}_answer_{headline_name(data, name)}"
+            start = f"{filler}_answer_{name}"
             numbers[name] = AnswerNumber(*(float(data[f"{start}{end}"]) for end in _ENDS))
         yield filler, numbers

@@ -20,13 +20,12 @@ from gripscale.questions.answer.reliance import (
     direct_of,
     estimated_names,
     guesses,
-    has_answer,
-    headline,
     is_measured,
     is_moving,
     no_answer,
     solved_model,
 )
+from gripscale.questions.answer.variables import answer_number, has_answer
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.findings import (
     extrapolated,
@@ -128,7 +127,7 @@ def _against_measurement(data: xr.Dataset) -> Iterator[Finding]:
     """Yield how an answer differs from the friction measured at its load."""
     if MEASURED_FRICTION not in data:
         return
-    answer, measured = headline(data, "friction"), float(data[MEASURED_FRICTION])
+    answer, measured = answer_number(data, "friction"), float(data[MEASURED_FRICTION])
     difference = answer.value / measured - 1.0
     text = (
         f"The answer is {percent_text(abs(difference))} {'below' if difference < 0.0 else 'above'} "

@@ -22,7 +22,7 @@ from gripscale.io.table import Column, Table, fixed, significant
 from gripscale.questions.answer import reliance
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
-from gripscale.questions.answer.estimate import ERROR_LEFT, LINES_TO_SURFACE
+from gripscale.questions.answer.estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.filler import both_answers
 from gripscale.questions.answer.findings import (
     MEASURED_FRICTION,
@@ -30,7 +30,15 @@ from gripscale.questions.answer.findings import (
     no_answer_notices,
 )
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.answer.reliance import AnswerNumber, headline
+from gripscale.questions.answer.variables import (
+    ERROR_LEFT,
+    HEADINGS,
+    SYMBOLS,
+    AnswerNumber,
+    answer_number,
+    has_answer,
+    of_hysteresis,
+)
 from gripscale.questions.chain.page import chain_section
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.cut_off.question import CutOff
@@ -38,7 +46,6 @@ from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.inputs.page import files_table, rubber_section, surface_section
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
-from gripscale.questions.words import HEADINGS, SYMBOLS
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Facts, Page, Section, Text, percent_text
 from gripscale.report.equations import method_section
@@ -63,7 +70,7 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the answer of a result of one load, then what it rests on; or why there is none."""
     both = list(both_answers(data))
     statement = reliance.no_answer(data, FILLED if both else "")
-    if not reliance.has_answer(data):
+    if not has_answer(data):
         yield f"Answer: {statement}"
         return
     lead = f"{statement} It would be " if statement else ""
@@ -72,7 +79,7 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
         yield from (f"  {line}" for line in basis_lines(data))
         return
     numbers = [
-        f"{SYMBOLS[name]} = {headline(data, name)}" for name in reliance.estimated_names(data)
+        f"{SYMBOLS[name]} = {answer_number(data, name)}" for name in reliance.estimated_names(data)
     ]
     if parts := friction_parts(data):
         numbers[0] += f": {parts}"
@@ -81,7 +88,7 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
     rest = "" if reliance.is_moving(data) else "no friction at rest; "
     by = "" if reliance.is_measured(data) else " by the chain of waves"
     intervals = f" ({100.0 * LEVEL:.0f} % intervals)"
-    if not headline(data, "contact_fraction").interval:
+    if not answer_number(data, "contact_fraction").interval:
         intervals = f"{',' if by else ''} without an interval"
     yield f"Answer: {lead}{rest}{('; ' if parts else ', ').join(numbers)}{by}{intervals}"
     yield from (f"  {line}" for line in basis_lines(data))
@@ -104,8 +111,8 @@ def _by_filler(data: xr.Dataset, both: Sequence[tuple[str, Mapping[str, AnswerNu
 
 def friction_parts(data: xr.Dataset) -> str:
     """Return what the friction of an answer with an area term is the sum of; else empty."""
-    names = ("friction", "adhesive_friction")
-    hysteresis, term = (reliance.answer_number(data, name).value for name in names)
+    names = ("hysteresis_friction", "interface_friction")
+    hysteresis, term = (answer_number(data, name).value for name in names)
     if not math.isfinite(term) or not reliance.is_moving(data):
         return ""
     return f"{significant(hysteresis)} of hysteresis and {significant(term)} of the area term"
@@ -113,7 +120,7 @@ def friction_parts(data: xr.Dataset) -> str:
 
 def basis_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield what an answer is for, how it was solved and corrected, and what its interval holds."""
-    if not reliance.has_answer(data):
+    if not has_answer(data):
         return
     pressure, speed = (
         display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
@@ -128,7 +135,7 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
     yield f"For {pressure} {motion}, roughness down to {end}{thick}."
     if reliance.is_moving(data) and not friction_parts(data):
         yield HYSTERESIS_ALONE
-    if reading := tester_reading(data.attrs.get(TESTER, ""), *headline(data, "friction")):
+    if reading := tester_reading(data.attrs.get(TESTER, ""), *answer_number(data, "friction")):
         yield f"{reading}."
     if data.attrs.get(SHEAR_STRESS) == DRY_TREAD.kind:
         yield DRY_ASSUMPTIONS
@@ -147,13 +154,13 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
 
 def answer_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield friction and contact area with their intervals."""
-    if not reliance.has_answer(data):
+    if not has_answer(data):
         return
     source = "not to be relied on" if reliance.no_answer(data) else "answer"
     if not reliance.is_measured(data):
         source = "by the chain of waves"
     for name in reliance.estimated_names(data):
-        title, number = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}", headline(data, name)
+        title, number = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}", answer_number(data, name)
         of_friction = friction_parts(data) or "hysteresis alone"
         parts = [source, of_friction if name == "friction" else ""]
         detail, bad = "; ".join(filter(None, parts)), bool(reliance.no_answer(data))
@@ -168,10 +175,11 @@ def _corrections(data: xr.Dataset) -> str:
     """Return what the direct contact alone says, and each factor on it."""
     names, labels = reliance.estimated_names(data), data.factor_label.values
     factors = {name: data[f"answer_{name}_factor"].values for name in names}
-    solved = ", ".join(
-        f"{_SHORT[name]} {significant(float(data[f'answer_{name}']) / np.nanprod(factors[name]))}"
+    alone = {
+        name: answer_number(data, of_hysteresis(data, name)).value / np.nanprod(factors[name])
         for name in names
-    )
+    }
+    solved = ", ".join(f"{_SHORT[name]} {significant(value)}" for name, value in alone.items())
     steps = []
     for at, label in enumerate(labels):
         values = {_WORDS[name]: float(factors[name][at]) for name in names}
@@ -226,7 +234,7 @@ def _in_interval(data: xr.Dataset) -> Iterator[str]:
     if missing:
         yield f"not included: {', '.join(missing)}"
     unknown = []
-    if "part_label" not in data and headline(data, name).interval:
+    if "part_label" not in data and answer_number(data, name).interval:
         unknown.append("errors of the inputs (`gripscale uncertainty`)")
     if ISOTROPIC in data.attrs:
         yield str(data.attrs[ISOTROPIC]).rstrip(".")

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import xarray as xr
 
 from gripscale import model
 from gripscale.core.finding import Finding, Severity, Topic
-from gripscale.io.table import significant
-from gripscale.questions.answer.estimate import DIRECT, REACH, TOTAL
+from gripscale.questions.answer.estimate import DIRECT
+from gripscale.questions.answer.variables import REACH, answer_number, has_answer
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 
@@ -24,12 +23,6 @@ from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 MOST_ON_GUESSES = 0.5
 ESTIMATED_AREA = "answer_contact_fraction"
 WORTH_NAMING = 0.005  # share of the contact on filled gaps that is as good as none
-
-
-def has_answer(data: xr.Dataset) -> bool:
-    """Return whether a result of one load holds an answer of the contact area."""
-    area = data.get("answer_contact_fraction")
-    return area is not None and not area.ndim and math.isfinite(float(area))
 
 
 def direct_of(data: xr.Dataset) -> xr.Dataset:
@@ -62,7 +55,7 @@ _WHOLE, _NONE = 0.99, 1e-3  # contact fraction and friction together that no roa
 
 def _as_on_a_plate(data: xr.Dataset) -> Iterator[str]:
     """Yield that an answer is that of a smooth plate, as where a unit is wrong."""
-    area, friction = (headline(data, name).value for name in ("contact_fraction", "friction"))
+    area, friction = (answer_number(data, name).value for name in ("contact_fraction", "friction"))
     if is_moving(data) and area > _WHOLE and friction < _NONE:
         yield (
             f"The rubber touches {percent_text(area)} of the surface with a friction of "
@@ -98,7 +91,7 @@ def _beyond_law(data: xr.Dataset) -> Iterator[str]:
 
 def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
     """Yield that the surface is too small for an interval, or for one that says something."""
-    numbers = [headline(data, name) for name in estimated_names(data)]
+    numbers = [answer_number(data, name) for name in estimated_names(data)]
     if not math.isfinite(numbers[-1].low):
         if not is_measured(data):
             if "part_label" in data:
@@ -140,41 +133,3 @@ def solved_model(data: xr.Dataset) -> str:
 def is_measured(data: xr.Dataset) -> bool:
     """Return whether an answer is of a measured surface: otherwise it is the chain's."""
     return data.sizes.get("factor", 0) > 0
-
-
-class AnswerNumber(NamedTuple):
-    """A number of an answer [-] with both ends of its 90 % interval; NaN where not known."""
-
-    value: float
-    low: float
-    high: float
-
-    @property
-    def interval(self) -> str:
-        """Its interval, such as `0.15 to 0.23`; empty if there is none."""
-        if not math.isfinite(self.low):
-            return ""
-        return f"{significant(self.low)} to {significant(self.high)}"
-
-    def __str__(self) -> str:
-        return f"{significant(self.value)}{f' ({self.interval})' if self.interval else ''}"
-
-
-def answer_number(data: xr.Dataset, name: str) -> AnswerNumber:
-    """Return a number of the answer of one load, such as `total_friction`; NaN without one."""
-    ends = ("", "_low", "_high") if has_answer(data) else ()
-    numbers = [float(data.get(f"answer_{name}{end}", math.nan)) for end in ends]
-    return AnswerNumber(*(numbers or [math.nan] * 3))
-
-
-def headline_name(data: xr.Dataset, name: str) -> str:
-    """Return which number of an answer every face states as `friction` or `contact_fraction`.
-
-    With an area term the friction is that of hysteresis and area term together.
-    """
-    return TOTAL.removeprefix("answer_") if name == "friction" and TOTAL in data else name
-
-
-def headline(data: xr.Dataset, name: str) -> AnswerNumber:
-    """Return `friction` or `contact_fraction` of an answer as every face states it."""
-    return answer_number(data, headline_name(data, name))

@@ -12,17 +12,11 @@ import xarray as xr
 from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.experiment.task import Task
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
-from gripscale.questions.answer.estimate import (
-    BASIS_SHARES,
-    ESTIMATED,
-    described,
-    with_interval,
-    with_total_friction,
-)
+from gripscale.questions.answer.estimate import ESTIMATED, with_interface, with_interval
 from gripscale.questions.answer.intervals import LogError
+from gripscale.questions.answer.variables import BASIS_SHARES, described
 
 
 def estimate_of_waves(
@@ -41,7 +35,7 @@ def estimate_of_waves(
         best[f"answer_{name}_sampling_error"] = best[f"answer_{name}_grid_error"] = unknown
         for part in ("factor", "factor_uncertainty"):
             best[f"answer_{name}_{part}"] = unknown.expand_dims(factor=0)
-    best = with_total_friction(best, numbers["adhesive_friction"], errors)
+    best = with_interface(best, numbers["adhesive_friction"], errors)
     return described(best.assign({f"answer_{share}": unknown for share in BASIS_SHARES}))
 
 
@@ -72,5 +66,4 @@ def answer_of_waves(
 
 def waves_answer(case: Case, predicted: xr.Dataset) -> xr.Dataset:
     """Return the answer of a case of waves from the prediction of its chain."""
-    task = Task(case.rubber, case.surface, case.load, case.chain)
-    return answer_of_waves(reduce.sample_numbers(predicted, task), case, case.load)
+    return answer_of_waves(reduce.sample_numbers(predicted, case.task()), case, case.load)

@@ -27,9 +27,9 @@ from gripscale.experiment.task import Store, Task
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import Load, Model
 from gripscale.questions.answer.direct_contact import direct_contact_totals
-from gripscale.questions.answer.estimate import AREA_TERM
 from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.samples import sample_numbers
+from gripscale.questions.answer.variables import HYSTERESIS, INTERFACE
 from gripscale.questions.cut_off.curve import contact_curves
 from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
@@ -302,9 +302,9 @@ def answers_at(
         if curve is not None and curve[models.STATUS].item() != CONVERGED:
             rows[-1] = curve
     numbers = {
-        "total_friction": "answer_friction",
+        "total_friction": HYSTERESIS if HYSTERESIS in rows[0] else "answer_friction",
         "total_contact_fraction": "answer_contact_fraction",
-        models.ADHESIVE_FRICTION: AREA_TERM,
+        models.ADHESIVE_FRICTION: INTERFACE,
         models.FRICTION_OUTSIDE_BAND: models.FRICTION_OUTSIDE_BAND,
     }
     columns: dict[str, Any] = {

@@ -48,7 +48,7 @@ def _figure(view: PredictionView, waves: Sequence[int], columns: int, full: floa
     """Draw waves row by row, each as large as in a figure `full` inches wide of all `columns`."""
     from matplotlib.figure import Figure
 
-    from gripscale.charts.paper import house_rules
+    from gripscale.charts.paper import figure_rules
 
     inside = (full - LEFT - RIGHT - (columns - 1) * BETWEEN) / columns
     columns = min(columns, max(len(waves), 1))
@@ -58,7 +58,7 @@ def _figure(view: PredictionView, waves: Sequence[int], columns: int, full: floa
     low, high = -steepest - 0.06, steepest + MESH_DEPTH
     row_height = HEAD + inside * (PRESSURE + high - low) + MIDDLE + FOOT
     height = max(math.ceil(len(waves) / columns), 1) * row_height
-    with house_rules():
+    with figure_rules():
         figure = Figure(figsize=(width, height), dpi=DPI)
         for number, i in enumerate(waves):
             row, column = divmod(number, columns)

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gripscale.charts.draw import image
+from gripscale.charts.page_elements import Picture
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import (
@@ -17,8 +19,15 @@ from gripscale.io.table import (
     whole_number,
 )
 from gripscale.model import with_adhesive
-from gripscale.questions.answer.reliance import has_answer, headline, is_measured
-from gripscale.questions.chain.charts import contact_charts
+from gripscale.questions.answer.reliance import is_measured
+from gripscale.questions.answer.variables import (
+    JUDGE,
+    OF_THE_PAPER,
+    SYMBOLS,
+    answer_number,
+    has_answer,
+)
+from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.findings import (
     conditions_notes,
     exponent_sentence,
@@ -26,7 +35,6 @@ from gripscale.questions.chain.findings import (
 )
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.inputs.page import numbers
-from gripscale.questions.words import OF_THE_PAPER, SYMBOLS
 from gripscale.report.elements import Element, Section, Text
 from gripscale.wave.result import LARGE_MISMATCH
 
@@ -160,7 +168,7 @@ def judgement(chain: xr.Dataset, answer: xr.Dataset) -> str:
         value = view.total(name) if both is None else float(both)
         text = f"{SYMBOLS[name]} = {significant(value)}"
         if has_answer(answer):
-            ratio = significant(value / headline(answer, name).value, 2)
+            ratio = significant(value / answer_number(answer, name).value, 2)
             text += f", {ratio} times that of the answer"
         texts.append(text)
     return (
@@ -180,5 +188,13 @@ def chain_section(chain: xr.Dataset, answer: xr.Dataset) -> Section:
     waves, *heat = chain_tables(chain)
     elements += [replace(waves, name="chain"), *heat]
     if view.waves:
-        elements += contact_charts(view, judge)
+        models = {view.name: chain, **({} if judge is None else {JUDGE: judge})}
+        picture = Picture(
+            "contact_and_friction",
+            contact_sheet(models).on_paper(),
+            "Area and friction: running total down to each wave (filled), and of each wave (open); "
+            "dashed beyond the measured band.",
+            "Two panels of points against wavelength, which falls to the right.",
+        )
+        elements.append(image(picture))
     return Section("chain", title, elements)

@@ -56,7 +56,7 @@ def compare_command(
     from gripscale.experiment.task import PREDICTIONS
     from gripscale.io import netcdf
     from gripscale.questions.answer.page import answer_lines
-    from gripscale.questions.answer.reliance import has_answer
+    from gripscale.questions.answer.variables import has_answer
     from gripscale.questions.calibration.page import residual_table
     from gripscale.questions.compare import charts, comparison, ladder, page, question
     from gripscale.questions.page_of_folder import write_report

@@ -28,6 +28,7 @@ from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.estimate import Factor
 from gripscale.questions.answer.intervals import half_width
+from gripscale.questions.answer.variables import ANSWER_NUMBERS, LARGE_STRAIN, LARGE_STRAIN_NUMBERS
 from gripscale.questions.answer.waves import estimate_of_waves
 from gripscale.questions.calibration import measured_comparison as friction
 from gripscale.questions.compare.ladder import ComparedModel, ComparisonSetup
@@ -139,7 +140,7 @@ def comparison_setups(
 
     Arguments and errors are those of `compare`.
     """
-    tasks = {"": Task(case.rubber, case.surface, case.load, case.chain)}
+    tasks = {"": case.task()}
     rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
     axis: Axis | None = None
     if vary is not None:
@@ -240,7 +241,7 @@ def windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
     for name, measure in estimates.ESTIMATED.items():
         error = reduce.pair_scatter(over, under, measure)
         interval = f"{name}_half_width"
-        left_open = best.get(f"{estimates.LARGE_STRAIN}{interval}", best[f"answer_{interval}"])
+        left_open = best.get(f"{LARGE_STRAIN}{interval}", best[f"answer_{interval}"])
         whole = np.fmax(accuracy, left_open.fillna(0.0))
         if bool((error.freedom < FEWEST_WINDOWS - 1).any()) or bool(
             (half_width(error) > whole / 3.0).any()
@@ -342,7 +343,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         curves = reduce.running(samples, name, wavelength)
         add(f"running_{name}", curves, f"{text} down to the wavelength")
     best = comparison.best
-    for name in estimates.ANSWER_NUMBERS | estimates.LARGE_STRAIN_NUMBERS:
+    for name in ANSWER_NUMBERS | LARGE_STRAIN_NUMBERS:
         if name in best and "slope" not in best[name].dims:
             add(name, best[name], best[name].attrs["long_name"])
     adhesive = reduce.mean(samples, "adhesive_friction")

@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
+from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Topic, from_json
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
@@ -20,20 +21,20 @@ from gripscale.questions.answer.estimate import DIRECT, large_strain_answer
 from gripscale.questions.answer.findings import answer_notices, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards, answer_lines, basis_lines
-from gripscale.questions.answer.reliance import (
-    estimated_names,
+from gripscale.questions.answer.reliance import estimated_names, is_measured, no_answer
+from gripscale.questions.answer.variables import (
+    HEADINGS,
+    SYMBOLS,
+    answer_number,
     has_answer,
-    headline,
-    is_measured,
-    no_answer,
+    is_estimated,
 )
 from gripscale.questions.chain.findings import comparison_notices
-from gripscale.questions.compare.charts import axis_charts, ladder_charts
+from gripscale.questions.compare.charts import comparison_pictures
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.stored import predicted_tree
-from gripscale.questions.vary.axis import axis_shown
-from gripscale.questions.words import HEADINGS, SYMBOLS, is_estimated
+from gripscale.questions.view import shown_unit
 from gripscale.report import elements
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -129,7 +130,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     data = comparison.transpose(axis, ...)
     failed = flawed(data)
     beyond = data[model.FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
-    words, unit = axis.replace("_", " "), axis_shown(comparison, axis)
+    words, unit = axis.replace("_", " "), shown_unit(comparison[axis])
     look = unit.unit, unit.divisor, unit.zero, "{:.3g}".format
     columns = [Column(axis, data[axis].values, words, *look)]
     for at, member in enumerate(data.model.values):
@@ -139,7 +140,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
         heading = str(member).replace("_", " ")
         columns.append(Column(str(member), values, heading, marks=marks, bad=failed[:, at]))
     if is_estimated(data, name) and is_measured(data):
-        texts = [str(headline(data.isel({axis: i}), name)) for i in range(data.sizes[axis])]
+        texts = [str(answer_number(data.isel({axis: i}), name)) for i in range(data.sizes[axis])]
         columns.insert(1, Column("answer", texts, "answer (90 %)", words=False))
     caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {words}"
     return Table(f"over-{axis}-{name}", columns, caption)
@@ -195,7 +196,7 @@ def with_half_widths(answer: xr.Dataset) -> str:
     """Return area and friction of an answer with the half widths of their intervals."""
     texts = []
     for symbol, name in (("A_r/A_0", "contact_fraction"), ("mu", "friction")):
-        number = headline(answer, name)
+        number = answer_number(answer, name)
         width = 0.5 * (number.high - number.low) / (number.value or math.nan)
         spread = f" ± {100.0 * width:.2g} %" if math.isfinite(width) else ""
         texts.append(f"{symbol} = {significant(number.value)}{spread}")
@@ -217,8 +218,8 @@ def large_strain_lines(comparison: xr.Dataset) -> Iterator[str]:
         return
     texts = []
     for name in estimated_names(large):
-        number = headline(large, name)
-        change = signed_percent(number.value / headline(comparison, name).value - 1.0)
+        number = answer_number(large, name)
+        change = signed_percent(number.value / answer_number(comparison, name).value - 1.0)
         texts.append(f"{SYMBOLS[name]} = {number}, {change}")
     yield f"With large strain solved on windows: {'; '.join(texts)}."
 
@@ -230,7 +231,7 @@ def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]
     for point in points:
         data, where = comparison.isel(point), ""
         if axis:
-            value = axis_shown(comparison, axis).text(float(data[axis]), 4)
+            value = shown_unit(comparison[axis]).text(float(data[axis]), 4)
             where = f"{axis.replace('_', ' ')} {value}, "
         words = model.status_words(data, "status").values
         for label, text, word in zip(data.label.values, data.status.values, words, strict=True):
@@ -283,8 +284,8 @@ def comparison_elements(compared: Compared) -> list[Element]:
     if ladder is not None:
         elements.append(comparison_table(ladder))
         elements += map(Text, temperature_only(ladder))
-        elements += ladder_charts(ladder)
+        elements += map(image, comparison_pictures(ladder))
     for data in compared.over:
         elements += [axis_table(data, varied(data), name) for name in SYMBOLS]
-        elements += axis_charts(data)
+        elements += map(image, comparison_pictures(data))
     return elements

@@ -30,9 +30,10 @@ from gripscale.questions.answer.direct_contact import continuation_factors, cont
 from gripscale.questions.answer.estimate import DIRECT, Factor
 from gripscale.questions.answer.findings import answer_notices, measured_at_load
 from gripscale.questions.answer.samples import sample_numbers
+from gripscale.questions.answer.variables import SYMBOLS, believed, is_estimated
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
-from gripscale.questions.compare.charts import comparison_figures
+from gripscale.questions.compare.charts import comparison_pictures
 from gripscale.questions.compare.charts_of_ladder import varied
 from gripscale.questions.compare.comparison import (
     OnStage,
@@ -45,7 +46,6 @@ from gripscale.questions.compare.comparison import (
 from gripscale.questions.compare.ladder import chosen
 from gripscale.questions.cut_off.curve import continuation_doubts
 from gripscale.questions.result import Result
-from gripscale.questions.words import SYMBOLS, believed, is_estimated
 from gripscale.report.elements import Page
 from gripscale.report.failures import first_of
 
@@ -114,7 +114,7 @@ class Comparison(Result):
         return page.comparison_table(self.data)
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        return comparison_figures(self.data)
+        yield from ((picture.name, picture.figure) for picture in comparison_pictures(self.data))
 
     def page_content(self) -> Page:
         return page.comparison_page(page.Compared([self.data]))

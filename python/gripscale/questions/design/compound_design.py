@@ -26,6 +26,7 @@ from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.experiment.task import Task
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
+from gripscale.questions.answer.variables import believed
 from gripscale.questions.design.compound_gain import DESIGN_TOLERANCE, Gain, SolvedCompound, gain
 from gripscale.questions.design.compound_limits import (
     PointLimit,
@@ -48,7 +49,6 @@ from gripscale.questions.design.compound_search import (
 from gripscale.questions.vary.friction_ratio import series_error
 from gripscale.questions.vary.inputs import at_temperature, model_of
 from gripscale.questions.vary.ranking import at_one_temperature
-from gripscale.questions.words import believed
 from gripscale.rubber import Rubber
 
 DESIGN_FILE = "design.nc"

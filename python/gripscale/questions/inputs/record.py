@@ -137,6 +137,9 @@ def inputs(
         attrs["excited_high_rad_per_s"] = float(omega.max())
     if surface.measured is not None and surface.correlation is not None:
         data |= _profiles(surface.measured)
+        if surface.measured.longest is not None:
+            attrs["long_waves_beyond_m"] = surface.measured.longest
+            attrs["long_waves_share"] = surface.measured.long_share
         texture = surface.measured.texture.variables
         data |= {str(name): values for name, values in texture.items()}
         for variables, about in (

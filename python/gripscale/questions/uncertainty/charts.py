@@ -12,11 +12,15 @@ from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Serie
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, COLOURS, INK, ORANGE
-from gripscale.questions.answer.reliance import answer_number
+from gripscale.questions.answer.variables import (
+    ANSWER,
+    AXIS_TITLES,
+    answer_number,
+    believed,
+    of_hysteresis,
+)
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
-from gripscale.questions.vary.axis import MODELS
-from gripscale.questions.vary.charts import varied_axis
-from gripscale.questions.words import ANSWER, AXIS_TITLES, believed
+from gripscale.questions.view import plot_axis
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -95,7 +99,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
         for name, label in _TOTALS.items():
             first = name == "friction"
             values = samples[name].values
-            answer = answer_number(data, name)
+            answer = answer_number(data, of_hysteresis(data, name))
             marks = list(_distribution(samples, name, values[np.isfinite(values)], colour, answer))
             top = max((float(np.max(m.y1)) for m in marks if isinstance(m, Bars)), default=None)
             panels.append(Panel(
@@ -103,7 +107,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
                 PlotAxis(f"samples (of {count})" if first else "", low=0.0, numbers=5, whole=True,
                      high=None if top is None else 1.45 * top),
                 marks,
-                title=MODELS.get(str(model), str(model)),
+                title={"direct": "direct contact"}.get(str(model), str(model)),
             ))  # fmt: skip
     keys: list[Mark] = [
         CrossLine(0.0, INK, "median of the samples", width=MEDIAN),
@@ -141,7 +145,7 @@ def _distribution(
 
 def band_figure(data: xr.Dataset, axis: str) -> Figure:
     """Draw the answer over what is varied, and medians with bands of 50 and 90 % of samples."""
-    abscissa, x = varied_axis(data, axis)
+    abscissa, x = plot_axis(data[axis])
     panels = []
     for name, label in _TOTALS.items():
         marks: list[Mark] = []

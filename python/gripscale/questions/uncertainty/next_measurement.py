@@ -15,8 +15,8 @@ from gripscale.conditions.alternatives import TENSION_OR_SHEAR, THERMAL_CONSTANT
 from gripscale.core.arrays import Array
 from gripscale.io.table import Column, Table, percent
 from gripscale.questions.answer.estimate import LINES_TO_SURFACE
+from gripscale.questions.answer.variables import SYMBOLS, of_hysteresis
 from gripscale.questions.uncertainty.sources import SOURCES
-from gripscale.questions.words import SYMBOLS
 
 # Share of a standard error that an equal, independent measurement leaves.
 AGAIN = 1.0 / math.sqrt(2.0)
@@ -70,7 +70,8 @@ def next_measurements(answer: xr.Dataset) -> Table | None:
 def _widths(answer: xr.Dataset, name: str, listed: list[int], share: Array) -> Array:
     """Return half widths of an interval [-]: as it is, and once each listed part is measured."""
     sigma = answer[f"answer_{name}_part_error"].fillna(0.0).values[listed]
-    total = float(answer[f"answer_{name}_uncertainty"])
+    number = f"answer_{of_hysteresis(answer, name)}"
+    total = float(answer[f"{number}_uncertainty"])
     rest = np.sqrt(np.maximum(1.0 - (1.0 - share**2) * (sigma / total) ** 2, 0.0))
-    log_width = math.asinh(float(answer[f"answer_{name}_half_width"]))
+    log_width = math.asinh(float(answer[f"{number}_half_width"]))
     return np.asarray(np.sinh(log_width * np.append(1.0, rest)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
@@ -16,12 +16,13 @@ from gripscale.io.table import Column, Table, percent
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.answer.intervals import LEVEL, UPPER_LIMITS, interval_ends
-from gripscale.questions.answer.reliance import (
+from gripscale.questions.answer.reliance import is_measured, is_moving
+from gripscale.questions.answer.variables import (
+    SYMBOLS,
     AnswerNumber,
+    believed,
     has_answer,
-    headline_name,
-    is_measured,
-    is_moving,
+    of_hysteresis,
 )
 from gripscale.questions.uncertainty import propagation
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
@@ -29,10 +30,9 @@ from gripscale.questions.uncertainty.next_measurement import next_measurements
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
-from gripscale.questions.vary.axis import name_of
-from gripscale.questions.words import SYMBOLS, believed
+from gripscale.questions.view import name_at
 from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Element, Page, Section, Text
+from gripscale.report.elements import Element, Page, Section, Text, as_elements
 from gripscale.report.failures import Failure, explained, failures_in
 
 # Symbols of the quantities, in their order.
@@ -59,12 +59,12 @@ def loads_of(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
         yield "", data
         return
     for at in range(data.sizes[axis]):
-        yield f"{axis} {name_of(data, axis, at)}", data.isel({axis: at})
+        yield f"{axis} {name_at(data, axis, at)}", data.isel({axis: at})
 
 
 def answer_table(data: xr.Dataset, axis: str) -> Table:
     """Return the answer at each load."""
-    labels = [name_of(data, axis, at) for at in range(data.sizes[axis])]
+    labels = [name_at(data, axis, at) for at in range(data.sizes[axis])]
     columns = [Column(axis, labels)]
     for name, symbol in HEADS.items():
         best = believed(data, name)
@@ -92,7 +92,7 @@ def interval_sentence(data: xr.Dataset) -> str:
         text += f", but for {', '.join(missing)}"
     ranges = []
     for name, symbol in HEADS.items() if not axis_of(data) else ():
-        best = f"answer_{headline_name(data, name)}"
+        best = f"answer_{name}"
         ends = interval_ends(data[best], data[f"{best}_{OF_RUN}"], UPPER_LIMITS.get(name, math.inf))
         if interval := AnswerNumber(math.nan, *map(float, ends)).interval:
             ranges.append(f"{symbol} {interval}")
@@ -129,8 +129,8 @@ def part_table(part: xr.Dataset, title: str) -> Table:
     columns = [Column("part", labels, "not known")]
     for name in names:
         sigma = part[f"answer_{name}_part_error"].values
-        share = sigma**2 / float(part[f"answer_{name}_uncertainty"]) ** 2
-        of_sum = headline_name(part, name) != name
+        share = sigma**2 / float(part[f"answer_{of_hysteresis(part, name)}_uncertainty"]) ** 2
+        of_sum = of_hysteresis(part, name) != name
         group = f"{HEADS[name]} of hysteresis" if of_sum else HEADS[name]
         columns += [
             Column(f"{name}_error", sigma, "±", group=group, format=percent),
@@ -238,11 +238,6 @@ def page_notices(data: xr.Dataset) -> list[Finding]:
     failed = sampling_failure(data)
     level = "error" if too_many_failed(data) else "warning"
     return [Finding(level, f"{explained(failed)}.", topic=Topic.SOLUTION)] if failed else []
-
-
-def as_elements(parts: Iterable[str | Table]) -> list[Element]:
-    """Return sentences as paragraphs, tables as they are."""
-    return [Text(part) if isinstance(part, str) else part for part in parts]
 
 
 def uncertainty_page(data: xr.Dataset) -> Page:

@@ -31,9 +31,10 @@ from gripscale.core.arrays import Array
 from gripscale.half_space.model import resolved_wavelength
 from gripscale.model import FRICTION_OUTSIDE_BAND, OUTSIDE_BAND, STATUS, STATUS_WORD, Load
 from gripscale.questions.answer.direct_contact import direct_contact_totals
-from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, TOTAL, SampledErrors
+from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, SampledErrors
 from gripscale.questions.answer.intervals import LogError, combined
 from gripscale.questions.answer.samples import SAMPLED_QUANTITIES, running, usable
+from gripscale.questions.answer.variables import HYSTERESIS, of_hysteresis
 from gripscale.questions.answer.waves import answer_of_waves
 from gripscale.questions.uncertainty.sampling import SampleSet
 from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES
@@ -168,7 +169,7 @@ def _with_parts(
     """
     parts: dict[str, dict[str, tuple[float, float]]] = {}
     for name in ESTIMATED:
-        square = float(total[f"answer_{name}_uncertainty"]) ** 2
+        square = float(total[f"answer_{of_hysteresis(total, name)}_uncertainty"]) ** 2
         of_samples = sampled.get(name, SampledError([], {}, {}))
         rest = NOT_ALONE if len(of_samples.variance) > 1 else TOGETHER
         parts[name] = {}
@@ -192,7 +193,7 @@ def _with_parts(
         values = [of_number.get(label, (math.nan, math.nan)) for label in every]
         for end, column in zip(("error", "share_error"), np.transpose(values), strict=True):
             data[f"answer_{name}_part_{end}"] = xr.Variable("part", column, {"units": "1"})
-    for name in (*(f"answer_{name}" for name in ESTIMATED), TOTAL):
+    for name in (*(f"answer_{name}" for name in ESTIMATED), HYSTERESIS):
         if name in total:
             data[f"{name}_{OF_RUN}"] = of_run[f"{name}_half_width"].variable
     return total.assign(data)

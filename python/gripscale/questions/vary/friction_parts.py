@@ -32,6 +32,7 @@ from gripscale.core.arrays import Array
 from gripscale.experiment.design import variable_attributes
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.estimate import DIRECT
+from gripscale.questions.answer.variables import answer_number, of_hysteresis
 from gripscale.rubber import Rubber
 from gripscale.wave.result import harmonics
 
@@ -123,7 +124,7 @@ def with_decades(data: xr.Dataset) -> xr.Dataset:
     parts = data.friction_by_decade.transpose(..., "decade")
     data = data.assign(friction_by_decade=parts.fillna(0.0).where(parts.notnull().any("decade")))
     time = [10.0**n for n in data.decade.values.tolist()]
-    described = variable_attributes("shortest relaxation time of the decade", "s")
+    described = variable_attributes("relaxation time, from", "s")
     return data.assign_coords(decade=xr.Variable("decade", time, described))
 
 
@@ -150,7 +151,8 @@ def parts_of_answer(
 
     `rubber` is that before the contact; an elastic one has no decades.
     """
-    friction, waves = float(answer["answer_friction"]), samples["curve_wavelength"].values
+    friction = answer_number(answer, of_hysteresis(answer, "friction")).value
+    waves = samples["curve_wavelength"].values
     ends = reduce.octaves(float(np.nanmax(waves)), float(np.nanmin(waves)), OCTAVE_UNIT)
     running = reduce.running(samples, "friction", ends).values
     running = np.nan_to_num(running) / running[-1] * friction

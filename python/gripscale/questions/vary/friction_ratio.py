@@ -49,11 +49,19 @@ from gripscale.half_space.sampling_error import (
 from gripscale.half_space.sensitivity import FrictionAdjoint, relative_change
 from gripscale.model import Load, OnProgress
 from gripscale.questions.answer.intervals import LogError, combined, half_width
+from gripscale.questions.answer.variables import of_hysteresis
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
 ERROR_RATIO = 0.4  # error after halving the spacing over the change by it, as in `grid_sequence`
 EXTREME = 3.0  # standard deviations of an admissible series from the best one
+# Names and meanings of what is said of each pair.
+RANKED = {
+    "friction_ratio": "friction over that of `over`",
+    "friction_ratio_low": "low end of its 90 % interval",
+    "friction_ratio_high": "high end of its 90 % interval",
+    "confidence": "probability that the friction is larger than that of `over`",
+}
 
 
 @dataclass(frozen=True)
@@ -269,7 +277,8 @@ def compound_ratio(over: xr.Dataset, under: xr.Dataset) -> FrictionRatio:
     area = LOAD_SENSITIVITY * abs(log_ratio("answer_contact_fraction"))
     largest = grid_error(lambda name: log_ratio(f"profile_{name}")), area
     even = [error / math.sqrt(3.0) for error in largest]
-    return FrictionRatio.of_sources(log_ratio("answer_friction"), sampling, *even, *rubbers)
+    friction = f"answer_{of_hysteresis(over, 'friction')}"
+    return FrictionRatio.of_sources(log_ratio(friction), sampling, *even, *rubbers)
 
 
 def ratio_changes(over: xr.Dataset, under: xr.Dataset) -> list[float]:

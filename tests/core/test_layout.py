@@ -1,4 +1,4 @@
-"""The form of the package: what each room may use, and names that stand in one place."""
+"""The form of the package: what each package may use, and names that stand in one place."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from pathlib import Path
 import gripscale
 
 PACKAGE = Path(gripscale.__file__).parent
-FACES = {"case_file", "cli", "app"}
-"""Rooms that know a case file."""
+FRONT_ENDS = {"case_file", "cli", "app"}
+"""Packages that know a case file."""
 
 
 @cache
@@ -64,24 +64,24 @@ def leaves(target: ast.expr) -> list[ast.Name]:
     return [node for node in ast.walk(target) if isinstance(node, ast.Name)]
 
 
-ROOM_FILES = {"KINDS", "COMMANDS", "FORMS"}
-"""Names by which every room of a question says what it holds."""
+DECLARATIONS = {"KINDS", "COMMANDS", "FORMS"}
+"""Names by which every package of a question says what it holds."""
 
 
 def test_a_public_name_stands_in_one_module() -> None:
     homes = defaultdict(list)
     for module, tree in modules().items():
-        for name in set(public_names(tree)) - ROOM_FILES:
+        for name in set(public_names(tree)) - DECLARATIONS:
             homes[name].append(module)
     assert {name: at for name, at in homes.items() if len(at) > 1} == {}
 
 
-def test_only_the_faces_know_a_case_file() -> None:
+def test_only_front_ends_know_a_case_file() -> None:
     """Of the questions the commands and what they share; a case imports it when it is saved."""
     uses = {
         f"{module} -> {other}"
         for module, tree in modules().items()
-        if module.split(".")[1:2] not in [[face] for face in FACES]
+        if module.split(".")[1:2] not in [[name] for name in FRONT_ENDS]
         if module.split(".")[-1] not in ("command", "terminal")
         for other in imported(module, at_import(tree))
         if other.split(".")[1:2] == ["case_file"]
@@ -106,16 +106,16 @@ def test_no_module_imports_itself_through_others() -> None:
     assert circles(arrows) == {}
 
 
-def test_every_room_stands_on_the_rooms_below() -> None:
-    """A room is a folder or a file of the package; none uses a room that uses it."""
+def test_every_package_uses_only_packages_below() -> None:
+    """A folder or a file of the package uses none that uses it."""
     arrows: dict[str, set[str]] = defaultdict(set)
     for name, tree in modules().items():
-        room = name.split(".")[1:2]
-        if room:
+        package = name.split(".")[1:2]
+        if package:
             used = {
                 other.split(".")[1] for other in imported(name, at_import(tree)) if "." in other
             }
-            arrows[room[0]] |= used - {*room}
+            arrows[package[0]] |= used - {*package}
     assert circles(arrows) == {}
 
 
@@ -166,11 +166,13 @@ READERS = {
     "app.forms": "what is typed into a field, and the example of a unit in the list of keys",
     "case_file.folder": "texts of TOML",
     "case_file.keys": "units in the text below a field",
+    "case_file.laboratory": "names of files",
     "case_file.read": "lines of TOML, and where its parser stopped",
     "case_file.save": "names of files",
     "charts.chart": "equations of labels",
     "cli.docs": "Markdown",
     "core.units": "quantities with units",
+    "experiment.measured_friction": "titles of columns",
     "export.programs": "comments of other programs",
     "export.tables": "names of variables of other programs",
     "io.cells": "measured files",

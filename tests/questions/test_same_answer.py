@@ -46,7 +46,7 @@ QUESTIONS: dict[str, tuple[Callable[..., gs.Result], list[str], str]] = {
 }
 """By kind: the function, the words of its command, and the file that the command leaves."""
 CLOCKS = ("seconds", "prediction_key")
-"""Ends of names of what differs between runs or doors."""
+"""Ends of names of what differs between runs, or between Python and a command."""
 
 
 def numbers(data: xr.Dataset) -> dict[str, Any]:

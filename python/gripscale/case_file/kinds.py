@@ -1,0 +1,189 @@
+"""What a measured file holds, by its titles and numbers: its kind, and why it is taken for it.
+
+Kinds are tried in the order of `READERS`: titles that name quantities go before numbers without a
+name, which are heights.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gripscale.case_file.proposals import (
+    ENOUGH_LINES,
+    UNITS_OF_RUBBER,
+    UNITS_OF_SURFACE,
+    holds_moduli,
+    open_rubber,
+    open_shift,
+    open_strain_sweeps,
+    open_surface,
+    read_with,
+    reading_keys,
+)
+from gripscale.core import ZERO_CELSIUS, GripscaleError, checks, in_mm
+from gripscale.core.checks import shortened
+from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
+from gripscale.io.table import least_to_most
+from gripscale.io.text_table import ColumnTitle, columns_noted
+from gripscale.rubber import MasterCurve, ShiftTable, Sweeps
+from gripscale.rubber.blocks import read_blocks, with_named_temperature
+from gripscale.rubber.columns import FileLayout, other_content, quantity
+from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
+from gripscale.rubber.strain_sweeps import holds_strain_sweeps
+from gripscale.surface import HeightMap, Profile
+
+UNUSED = "unused"
+SURFACES = ("profile", "map")
+RUBBERS = ("sweeps", "master-curve", "ramp", "prony")
+"""Kinds of moduli, those first that are taken before others of one folder."""
+_MOST_TITLES = 6  # columns that are listed one by one
+
+
+@dataclass(frozen=True)
+class FileKeys:
+    """What a caller states of files beside their kinds, as keys of [surface] and [rubber]."""
+
+    step: str | list[str] | None = None
+    surface: Mapping[str, Any] = field(default_factory=dict)
+    layout: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Taken:
+    """A file, what it is taken for, and why."""
+
+    path: Path
+    kind: str
+    why: str
+    measured: Any = None
+    """What was read; of strain sweeps a list, of a Prony series a dictionary."""
+    missing: Mapping[str, Any] = field(default_factory=dict)
+    """Keys that nothing states and without which it cannot be read, as assumed to read it."""
+    columns: Mapping[int, ColumnTitle] = field(default_factory=dict)
+    """The columns that were read, by their numbers from 1."""
+    refusal: GripscaleError | None = None
+    """Why the file cannot be read as what it seems to be."""
+    by_caller: bool = False
+    """Whether the caller states its kind."""
+
+    @property
+    def titles(self) -> str:
+        """The columns that were read, in the words of the file."""
+        if not 0 < len(self.columns) <= _MOST_TITLES:
+            return f"{len(self.columns)} columns" if self.columns else ""
+        titles = (
+            f"{number} {shortened(title.name)}{f' [{title.unit}]' if title.unit else ''}".strip()
+            for number, title in sorted(self.columns.items())
+        )
+        return f"column{'s' * (len(self.columns) > 1)} {', '.join(titles)}"
+
+
+# How the files of each kind are read, and the keys that nothing states; of moduli and of surfaces
+# all kinds alike.
+READERS: dict[str, Callable[[Path, FileKeys], tuple[Any, dict[str, Any]]]] = {
+    "strain-sweep": lambda path, _: open_strain_sweeps([path]),
+    "prony": lambda path, _: read_with(read_prony_table, path, UNITS_OF_RUBBER),
+    "moduli": lambda path, keys: open_rubber([path], keys.layout),
+    "shift": lambda path, _: open_shift(path),
+    "friction": lambda path, _: (read_measured_friction(path), {}),
+    "surface": lambda path, keys: open_surface(
+        path, keys.step, UNITS_OF_SURFACE, **reading_keys(keys.surface)
+    ),
+}
+_READER_OF = {**dict.fromkeys(SURFACES, "surface"), **dict.fromkeys(RUBBERS[:3], "moduli")}
+NAMES = (*SURFACES, *RUBBERS, "strain-sweep", "shift", "friction", UNUSED)
+"""Kinds that a caller may state."""
+
+
+def take(path: Path, keys: FileKeys, name: str | None = None) -> Taken:
+    """Return what a file is taken for; a stated `name` of `NAMES` goes before its content.
+
+    Raises `InputError` for another name.
+    """
+    if name is not None:
+        checks.one_of("kind of a file", name, NAMES)
+    if name == UNUSED or path.is_dir():
+        why = "as stated" if name else "a folder: name it, too, to read it"
+        return Taken(path, UNUSED, why)
+    seems = [_READER_OF.get(name, name)] if name else _seems(path, keys)
+    refusals = []
+    for kind in seems:
+        try:
+            with columns_noted() as columns:
+                measured, missing = READERS[kind](path, keys)
+        except GripscaleError as error:
+            refusals.append(error)
+            if error.missing in ("friction", "temperature"):  # of speeds, which are no heights
+                break
+            continue
+        return Taken(path, _kind_of(kind, measured), _about(measured), measured, missing, columns)
+    refusal = refusals[-1]
+    why = str(refusal).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
+    kind = {"moduli": RUBBERS[1], "prony": "prony"}.get(seems[0], UNUSED)
+    return Taken(path, kind, why, refusal=refusal)
+
+
+def _seems(path: Path, keys: FileKeys) -> list[str]:
+    """Return the readers to try: of moduli only theirs, which says what is wrong with them."""
+    layout = FileLayout(**keys.layout)
+    if holds_prony_table(path):
+        return ["prony"]
+    titled: set[str | None] = set()
+    with suppress(GripscaleError):
+        blocks = read_blocks(path, layout, temperature_unit="C", most=ENOUGH_LINES)
+        titled = {quantity(name) for block in blocks for name in block.table.names}
+        titled |= {"loss" for block in blocks if other_content(block.table)}
+    if "strain" in titled and holds_strain_sweeps(path):
+        return ["strain-sweep"]
+    if titled & {"frequency", "storage", "loss"} or holds_moduli(path, layout):
+        return ["moduli"]
+    return ["shift", "friction", "surface"]
+
+
+def _kind_of(reader: str, measured: Any) -> str:
+    if isinstance(measured, Sweeps):
+        return "ramp" if measured.is_ramp else "sweeps"
+    if reader == "moduli":
+        return "master-curve"
+    if reader == "surface":
+        return "map" if isinstance(measured, HeightMap) else "profile"
+    return reader
+
+
+def joinable(file: Taken, layout: Mapping[str, Any]) -> bool:
+    """Return whether a file of moduli, or its name, states the temperature of its rows."""
+    if file.kind != "master-curve" or file.refusal:
+        return file.kind == "sweeps"
+    blocks = read_blocks(file.path, FileLayout(**layout), temperature_unit="C")
+    named = (with_named_temperature(b, file.path.stem, FileLayout(**layout)) for b in blocks)
+    return all(block.states_temperature(FileLayout(**layout)) for block in named)
+
+
+def _about(measured: Any) -> str:
+    """Return what was read, in a clause."""
+    match measured:
+        case dict():
+            return f"{len(measured['moduli'])} relaxation times and an equilibrium modulus"
+        case Profile():
+            return f"{len(measured.z)} heights over {in_mm(measured.length, 4)}"
+        case HeightMap():
+            size = " x ".join(in_mm(length, 4) for length in measured.length)
+            return f"{' x '.join(map(str, measured.z.shape))} heights over {size}"
+        case Sweeps():
+            return measured.summary()
+        case MasterCurve():
+            return f"{len(measured.frequency)} rows, {least_to_most(measured.frequency)} Hz"
+        case ShiftTable():
+            celsius = least_to_most(measured.temperature - ZERO_CELSIUS)
+            return f"{len(measured.temperature)} shift factors from {celsius} °C"
+        case MeasuredFriction():
+            return f"{len(measured.speed)} values at {least_to_most(measured.speed)} m/s"
+    strains = np.concatenate([100.0 * sweep.strain for sweep in measured])
+    conditions = "; ".join(sweep.condition for sweep in measured)
+    return f"strains of {least_to_most(strains)} %, at {conditions}"
