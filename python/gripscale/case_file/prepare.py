@@ -373,9 +373,10 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
 
 
 def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
-    if not isinstance(source.shift, str):
-        return source.shift
-    path = resolve(source.shift)
+    shift: Shift | str | None = source.shift
+    if not isinstance(shift, str):
+        return shift
+    path = resolve(shift)
     try:
         return read_shift_table(path)
     except InputError as error:
