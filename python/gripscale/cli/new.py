@@ -104,6 +104,7 @@ def _ask(question: str, answers: Sequence[str]) -> str:
     """Ask a question of which the first answer is the likeliest, by numbers."""
     listed = "\n".join(f"  {at}. {answer}" for at, answer in enumerate(answers, start=1))
     numbers = click.IntRange(1, len(answers))
+    terminal.end_steps()
     number: int = typer.prompt(f"{question}\n{listed}\n", default=1, type=numbers)
     return answers[number - 1]
 
