@@ -18,6 +18,7 @@ from gripscale.case_file.laboratory import Ask, Laboratory, first_choice, labora
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import (
     BY_A_FACTOR,
+    OF_ANOTHER_CASE,
     TENS_OF_PERCENT,
     Proposal,
     add_shift,
@@ -171,6 +172,7 @@ def propose(
         rubber.add("name", names[0], "known by published parameters")
         add_shift(rubber, shift)
     else:
+        units: Mapping[str, str] = {}
         options: dict[str, Any] = {"shift": shift, "reference": reference}
         if shifts and shift is None and lab.of(*RUBBERS)[0].kind != "sweeps":
             options["shift"] = inside[shifts[0].path]
@@ -178,7 +180,7 @@ def propose(
             if reference is None and unity is not None:
                 reason = f"a_T of {shifts[0].path.name} is 1 there"
                 options |= {"reference": celsius_text(unity), "reason": reason}
-            shifts = []
+            units, shifts = shifts[0].missing, []
         rubber = rubber_proposal(
             rubbers,
             [inside[path] for path in rubbers],
@@ -186,6 +188,8 @@ def propose(
             layout=layout,
             **options,
         )
+        for key, unit in units.items():
+            rubber.add(key, unit, "the shift factors do not state it", OF_ANOTHER_CASE)
     for file in () if shift is not None else shifts:
         cure = f'shift = "{inside[file.path]}" in [rubber] takes them'
         unused = f"{inside[file.path]} holds shift factors and is not used: {cure}"

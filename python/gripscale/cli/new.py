@@ -205,6 +205,8 @@ def new(
         question = "Is the rubber filled (carbon black, silica), as every tread is?"
         reply = typer.prompt(question, default="unknown", type=choices)
         filled = {"yes": True, "no": False}.get(reply)
+    console = terminal.screen()
+    terminal.show_step(console, terminal.READING)
     with naming_options():
         case = new_case(
             files,
@@ -221,12 +223,13 @@ def new(
             kinds=kinds_of(kinds),
             ask=_ask if in_terminal else first_choice,
         )
+    terminal.end_steps()
     lines: list[str | Table] = [kinds_table(case.files), f"Case: {case.path}"]
     if case.findings:
         doubts = (f"  {at}. {finding}" for at, finding in enumerate(case.findings, start=1))
         lines += ["", "Doubts, the most important first:", *doubts]
     lines += ["", "Next:", f"  {shlex.join(['gripscale', 'run', str(case.path)])}"]
-    terminal.print_parts(terminal.screen(), lines)
+    terminal.print_parts(console, lines)
 
 
 @terminal.command
