@@ -30,6 +30,6 @@ def thinned(rows: Array) -> tuple[Array, tuple[str, ...]]:
     _, first, each = np.unique(bins[order], return_index=True, return_counts=True)
     kept = order[first + each // 2]
     return rows[:, kept], (
-        f"{kept.size} of {count} rows kept, at most {ROWS_PER_DECADE} of a decade of frequency at one "
-        "temperature",
+        f"{kept.size} of {count} rows kept, at most {ROWS_PER_DECADE} of a decade of frequency at "
+        "one temperature",
     )
