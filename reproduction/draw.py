@@ -153,7 +153,7 @@ def predictions_figure(
             wavelength_axis(np.concatenate(lengths)),
             axis,
             list(_lines(predictions, variable, ordered=ordered)),
-            _broken(name, 46) if several else "",
+            _broken(name, 40) if several else "",
             legend="" if alike else "best",
         ))  # fmt: skip
     return Sheet(

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from gripscale.surface import SineStack
 from reproduction.inputs import SPEED, Inputs
 from reproduction.panels import STATIC, Solved
 from reproduction.statement import Statement
@@ -29,7 +30,7 @@ def judge_progression(figure: str, solved: Solved, inputs: Inputs) -> list[State
         where, worst = f"{road}, {inputs.rubber}, {state}", inputs.worst_fit(road)
         statements += [
             _same_way(figure, where, predictions, worst),
-            _settles(figure, where, predictions, worst),
+            _settles(figure, where, predictions, inputs.stacks[road]),
         ]
     return statements
 
@@ -41,10 +42,10 @@ def _same_way(
     curves = {name: _area_at(prediction, x) for name, prediction in predictions.items()}
     spread = _spread(list(curves.values()))
     others = _spread([curve for name, curve in curves.items() if name != worst])
-    steepest = float(predictions[worst].slope.max())
+    steepest = {name: float(prediction.slope.max()) for name, prediction in predictions.items()}
     why = (
-        f"different inputs: without {worst}, which fits C_z worst, the others are {others:.0%} "
-        f"apart; its waves reach a slope of {steepest:.1f}, too steep for so few of them"
+        f"without {worst}, which fits C_z worst, the others are {others:.0%} apart; its waves "
+        f"reach a slope of {steepest.pop(worst):.1f}, theirs of {max(steepest.values()):.1f}"
     )
     return Statement(
         figure,
@@ -54,36 +55,46 @@ def _same_way(
         "than one wave of the coarsest stack takes away",
         f"at most {spread:.0%} apart down to {x[-1] * 1e3:.2g} mm",
         spread <= SAME,
-        "" if spread <= SAME else why,
+        why,
     )
 
 
 def _settles(
-    figure: str, where: str, predictions: Mapping[str, xr.Dataset], worst: str
+    figure: str, where: str, predictions: Mapping[str, xr.Dataset], stacks: Mapping[str, SineStack]
 ) -> Statement:
-    """Judge whether curves flatten by more than what the choice of factors makes of a slope."""
-    slopes = {name: _slopes(prediction) for name, prediction in predictions.items()}
-    scatter = float(np.ptp([slope[0] for slope in slopes.values()]))
-    flatter = {name: float(slope[0] - slope[-1]) for name, slope in slopes.items()}
-    steep = [name for name, change in flatter.items() if change <= scatter]
-    why = f"{'; '.join(f'{name} flattens by {flatter[name]:.2f} only' for name in steep)}"
-    if steep == [worst]:
-        why += (
-            f"; it fits C_z worst, and with {slopes[worst].size + 1} waves it ends where the others"
-            " go on; they settle"
-        )
+    """Judge whether curves flatten fast enough to end level."""
+    rates, unsettled = [], []
+    for name, prediction in predictions.items():
+        slope, decades, more = _level(prediction)
+        end = f"level {more:.1f} decades on" if more < math.inf else "never level"
+        rates.append(f"{name}: {slope[0]:.2f} to {slope[-1]:.2f}, {end}")
+        if more > decades:
+            stack = stacks[name]
+            rise = (stack.s_wavelength or math.nan) / (stack.s_amplitude or math.nan)
+            unsettled.append(f"{rise:.2f} times in {name}, of {decades:.1f} decades")
     return Statement(
         figure,
         "the curves converge towards small wavelengths",
         where,
-        "d ln(area)/d ln(wavelength) of each is smaller at the last wave than at the second, by "
-        "more than the pairs of factors differ at their second waves: a smaller change is what "
-        "the choice of factors makes",
-        "; ".join(f"{n}: {s[0]:.2f} to {s[-1]:.2f}" for n, s in slopes.items())
-        + f"; the pairs differ by {scatter:.2f}",
-        not steep,
-        why and f"different inputs: {why}",
+        "at the rate at which d ln(area)/d ln(wavelength) falls from the second wave to the last, "
+        "each curve is level before the waves span as many decades again",
+        "; ".join(rates),
+        not unsettled,
+        f"amplitude/wavelength rises from each wave to the next, {'; '.join(unsettled)}",
     )
+
+
+def _level(prediction: xr.Dataset) -> tuple[Array, float, float]:
+    """Return slopes, decades of wavelength, and decades after which the slope is zero.
+
+    The slope goes on as straight over ln(wavelength) as from the first to the last, each of which
+    belongs to the middle between two waves.
+    """
+    x, slope = np.log10(prediction.wavelength.values), _slopes(prediction)
+    middle = 0.5 * (x[1:] + x[:-1])
+    fall = float(slope[0] - slope[-1]) / float(middle[0] - middle[-1])
+    more = float(slope[-1]) / fall - float(middle[-1] - x[-1]) if fall > 0.0 else math.inf
+    return slope, float(x[0] - x[-1]), more
 
 
 def judge_motion(rest: Solved, moving: Solved, inputs: Inputs) -> list[Statement]:
@@ -96,7 +107,7 @@ def judge_motion(rest: Solved, moving: Solved, inputs: Inputs) -> list[Statement
         holds = largest < 1.0 and steeper
         stiffer = [(moving[road][n].modulus / rest[road][n].modulus).values for n in moving[road]]
         why = (
-            f"different inputs: |E*| in motion is {min(each[0] for each in stiffer):.2f} times "
+            f"|E*| in motion is {min(each[0] for each in stiffer):.2f} times "
             f"that at rest at the first wave, {min(each[-1] for each in stiffer):.2f} at the last"
         )
         statements.append(
@@ -109,7 +120,7 @@ def judge_motion(rest: Solved, moving: Solved, inputs: Inputs) -> list[Statement
                 f"at most {largest:.2f}; first to last: "
                 + ", ".join(f"{r[0]:.2f} to {r[-1]:.2f}" for r in ratios),
                 holds,
-                "" if holds else why,
+                why,
             )
         )
     return statements
@@ -127,7 +138,7 @@ def judge_speed(solved: Solved, inputs: Inputs) -> list[Statement]:
     ]
     left = _ratio(predictions[0], predictions[-1])
     holds = not grows and bool(left[-1] < left[0])
-    why = "different inputs: " + (
+    why = (
         f"from a speed to the next the area is up to {', '.join(grows)} times as large: the modulus"
         " of this rubber does not rise with frequency there"
         if grows
@@ -143,7 +154,7 @@ def judge_speed(solved: Solved, inputs: Inputs) -> list[Statement]:
             f"left: {left[0]:.2f} at {float(predictions[0].wavelength[0]) * 1e3:.3g} mm, "
             f"{left[-1]:.2f} at {float(predictions[0].wavelength[left.size - 1]) * 1e3:.3g} mm",
             holds,
-            "" if holds else why,
+            why,
         )
     ]
 
@@ -159,7 +170,7 @@ def judge_stiffness(solved: Solved, inputs: Inputs) -> list[Statement]:
     holds = bool((area < 1.0).all()) if (stiffer > 1.0).all() else None
     why = {
         True: "",
-        False: f"different inputs: |E*| differs by {stiffer.min():.2f} times only, loss factors "
+        False: f"|E*| differs by {stiffer.min():.2f} times only, loss factors "
         f"are up to {float((other.loss_factor / one.loss_factor).max()):.2f} times as large",
         None: "neither compound is the stiffer one at every wave",
     }
@@ -190,7 +201,7 @@ def judge_surfaces(solved: Solved, inputs: Inputs) -> list[Statement]:
     holds = whole < (1.0 - LESS) * macro if finest < MICRO else None
     why = {
         True: "",
-        False: f"different inputs: areas at macro scale differ by {math.expm1(macro):.0%}, and "
+        False: f"areas at macro scale differ by {math.expm1(macro):.0%}, and "
         "amplitude/wavelength of the smallest waves is "
         + " and ".join(f"{s.amplitude[-1] / s.wavelength[-1]:.3f}" for s in steep.values()),
         None: f"the waves end at {finest * 1e3:.2g} mm: no micro scale",

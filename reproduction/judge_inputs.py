@@ -40,10 +40,10 @@ def _modulus_errors(compound: Compound) -> tuple[float, float] | None:
 def _maxwell(name: str, compound: Compound, errors: tuple[float, float]) -> Statement:
     storage, loss = errors
     holds = max(errors) <= MODULUS_ERROR
-    why = "different inputs: the rows scatter about the best series"
+    why = "the rows scatter about the best series"
     if compound.fit is not None and compound.fit.inconsistencies:
         why = (
-            "different inputs: no linear solid has the measured E' and E'' of "
+            "no linear solid has the measured E' and E'' of "
             f"{len(compound.fit.inconsistencies)} stretches of frequency (Kramers-Kronig)"
         )
     return Statement(
@@ -54,7 +54,7 @@ def _maxwell(name: str, compound: Compound, errors: tuple[float, float]) -> Stat
         "E'' at full contact, so it is off by no more",
         f"E' {storage:.1%}, E'' {loss:.1%}",
         holds,
-        "" if holds else why,
+        why,
     )
 
 
@@ -80,7 +80,7 @@ def _self_affine(inputs: Inputs, road: str) -> Statement:
         f"xi_parallel = {fit.xi_parallel * 1e3:.2f} mm, "
         f"xi_perpendicular = {fit.xi_perpendicular * 1e3:.2f} mm"
     )
-    why = "" if holds else "different inputs: the surface is not self-affine over that much"
+    why = "the surface is not self-affine over that much"
     return Statement("fig3b", said, road, criterion, number, holds, why)
 
 
@@ -118,7 +118,7 @@ def judge_factors(inputs: Inputs) -> list[Statement]:
                 "largest rms residual of all",
                 f"{residuals} decades",
                 holds,
-                "" if holds else "different inputs: other factors, or another surface",
+                f"{inputs.worst_fit(road)} fits worst",
             )
         )
     return statements
@@ -130,9 +130,11 @@ def _one_or_two(inputs: Inputs, road: str, two: float, one: float) -> Statement:
     holds = two <= TWO_FACTORS_RESIDUAL and one >= ONE_FACTOR_RATIO * two
     paper = math.log(PAPER_FACTORS[0][1]) / math.log(PAPER_FACTORS[0][0])
     why = (
-        f"different inputs: amplitudes fall as wavelength^{exponent:.2f} on this road, so one "
+        f"amplitudes fall as wavelength^{exponent:.2f} on this road, so one "
         f"factor (exponent 1) is nearly right; on the paper's asphalt the exponent is {paper:.2f}"
     )
+    if two > TWO_FACTORS_RESIDUAL:
+        why = "waves of constant factors do not follow C_z of this surface"
     return Statement(
         "fig4",
         "two magnification factors fit C_z, one for both lengths does not",
@@ -141,7 +143,7 @@ def _one_or_two(inputs: Inputs, road: str, two: float, one: float) -> Statement:
         f"height), with one at least {ONE_FACTOR_RATIO:g} times as much",
         f"two: {two:.3f}, one: {one:.3f} decades ({one / two:.2f} times)",
         holds,
-        "" if holds else why,
+        why,
     )
 
 

@@ -28,7 +28,11 @@ class Statement:
     holds: bool | None
     """None where the inputs cannot judge it, such as waves that end before a maximum."""
     why_not: str = ""
-    """Where it does not hold: different inputs or another model, and what shows it."""
+    """What shows in the inputs or the predictions why it does not hold; empty where it holds."""
+
+    def __post_init__(self) -> None:
+        if self.holds:
+            object.__setattr__(self, "why_not", "")
 
     @property
     def verdict(self) -> str:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, runtime_checkable
 
 from gripscale.core import Checked, InputError, Status, checked, checks, display_unit, labelled
 from gripscale.core.finding import Finding, Topic, doubt, from_json, to_json
+from gripscale.core.units import unit_of
 from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents
 from gripscale.rubber.extrapolation import UNKNOWN, Extrapolation
 
@@ -87,10 +88,15 @@ def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[Finding
 LoadTime = Literal["passage"] | float
 
 
-def _load_time(name: str, value: Any) -> LoadTime:
-    if isinstance(value, str):
-        checks.one_of(name, value, ["passage"])
-        return "passage"
+LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
+
+
+def checked_load_time(name: str, value: Any) -> LoadTime:
+    """Return a load time [s], or "passage"; raise `InputError` for what is neither."""
+    if isinstance(value, str) and value in ("passage", "infinite"):
+        return "passage" if value == "passage" else math.inf
+    if isinstance(value, str) and not unit_of(value, "time"):
+        raise InputError(f"{name} must be {LOAD_TIME}; got {checks.short_repr(value)}")
     return checks.positive(name, value, unit="s", infinite=True)
 
 
@@ -118,7 +124,7 @@ class Load(Checked):
     pressure: float = checked(checks.positive, unit="Pa")
     speed: float = checked(checks.not_negative, unit="m/s")
     footprint: float = checked(checks.positive, unit="m")
-    load_time: LoadTime = checked(_load_time, default="passage")
+    load_time: LoadTime = checked(checked_load_time, default="passage")
     thickness: float | None = checked(checks.positive, unit="m", default=None)
 
     def time_under(self, contact_length: float) -> float:
@@ -215,7 +221,7 @@ def status_words(data: xr.Dataset, sentences: str = STATUS) -> xr.DataArray:
 
 # Names and meanings of the numbers every model answers with.
 TOTALS = {
-    "total_contact_fraction": "real over nominal contact area",
+    "total_contact_fraction": "real contact area",
     "total_friction": "friction coefficient",
     "total_friction_from_dissipation": "friction coefficient from the energy lost in the rubber",
 }
@@ -282,13 +288,16 @@ SAMPLING_ERRORS = {
 }
 SAMPLING_FREEDOM = "total_freedom"
 STEEP_SHARE, MISSING_SHARE = "total_steep_share", "total_missing_share"
-LINE_UNDER_LOAD = "total_upper_height", "total_tail", "total_relative_load"
+LINE_UNDER_LOAD = tuple(
+    f"total_{n}" for n in ("upper_height", "tail", "relative_load", "softening")
+)
 PRESSURE_OVER_MODULUS = "total_pressure_over_modulus"
 # Names of what an answer from a measured surface rests on, where a model tells it.
 BASIS = SAMPLING_ERRORS | {
     "total_upper_height": "height that 1 % of the measured lines exceed, over the rms height",
     "total_tail": "height that 0.5 % of the lines exceed less that of 2 %, over the rms height",
     "total_relative_load": "pressure times largest wave, over modulus times rms height of lines",
+    "total_softening": "ln of E' of the lines over that at twice their strain, smallest wave",
     PRESSURE_OVER_MODULUS: "nominal pressure over |E*| of a seventh of the largest wave",
     SAMPLING_FREEDOM: "degrees of freedom of the sampling errors",
     STEEP_SHARE: "share of the friction from contact on slopes above 1",

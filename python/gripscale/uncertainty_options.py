@@ -1,14 +1,13 @@
-"""What a case states about its uncertainty; light enough to be read with every case."""
+"""Limits of what a case states about its uncertainty; light enough for every case."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from gripscale.core.units import parse_quantity, unit_of
 
-FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED = 10, 100_000, 2**32 - 1
+SAMPLES, FEWEST_SAMPLES, MOST_SAMPLES = 200, 10, 100_000
+MOST_SEED = 2**32 - 1
 
 PRESSURE_ERROR = 'a share such as "3 %", or a pressure such as "0.1 bar"'
 
@@ -26,20 +25,3 @@ def pressure_error(value: Any, pressure: float) -> float:
     if error <= 0.0:
         raise ValueError("expected a value greater than zero")
     return error if relative else error / pressure
-
-
-@dataclass(frozen=True)
-class UncertaintyOptions:
-    """What is sampled, how often and by which models, where a question does not say."""
-
-    samples: int = 200
-    seed: int = 0
-    # "chain", "direct" or "both"; None: the direct contact where profiles were measured.
-    model: str | None = None
-    without: Sequence[str] = ()  # sources that are taken to be known
-    # What is known of a source, in place of its default.
-    ranges: Mapping[str, Any] = field(default_factory=dict)
-    # Length of the blocks of profiles that are drawn [m]; four of the largest waves by default.
-    block_length: float | None = None
-    # Estimated relative error of each direct contact; that of its first full grid by default.
-    tolerance: float | None = None

@@ -206,7 +206,8 @@ def test_the_report_is_as_wide_as_the_page_and_its_links_work(whole_way: AppVisi
 
 def test_runs_are_compared_by_what_is_different(whole_way: AppVisit) -> None:
     whole_way.tab("6 All runs")
-    whole_way.charts(2)
+    picture = whole_way.page.locator("#figure-answers img")
+    whole_way.look(lambda: picture.count() == 1, "the figure of the answers")
 
     def of_runs() -> list[str]:
         texts = whole_way.page.locator("tbody tr").all_inner_texts()

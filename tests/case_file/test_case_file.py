@@ -141,7 +141,7 @@ WRONG = [
     (
         'speed = "300 mm/s"',
         'speed = 1\nload_time = "soon"',
-        "[load] load_time = 'soon': expected a",
+        'load_time must be "passage", "infinite" or a time such as "1 s"; got',
     ),
     ("scales = 8", "scales = 8.5", "[surface] scales = 8.5: expected a whole number"),
     (
@@ -184,7 +184,7 @@ WRONG = [
     (
         "scales = 8",
         'scales = 8\nspikes = "no"',
-        'spikes = \'no\': expected "isolated", "iso13473"',
+        'spikes = \'no\': expected "isolated" or "iso13473"',
     ),
     ('["road.dat"]', "[]", "[surface] files = []: expected a list of at least 1, each a text"),
     (
@@ -266,7 +266,6 @@ WRONG = [
         '[solver]: time_limit is not an option of model = "half_plane"',
     ),
     ('"dma.txt"', '"dma.txt"\nextrapolate = "no"', 'extrapolate = \'no\': expected "warn" or "ref'),
-    ('"dma.txt"', '"dma.txt"\nextrapolate = "say"', '"say" is called "warn" now'),
     (
         '"dma.txt"',
         '"dma.txt"\nstrain_energy = "yeoh"',

@@ -43,7 +43,7 @@ def study() -> xr.Dataset:
         attrs={"title": "Study", "case": "", "version_gripscale": "0.1.0", "model": "direct"},
     )
     data["speed"].attrs |= {"units": "m/s", "long_name": "sliding speed"}
-    data["temperature"].attrs |= {"units": "K", "long_name": "temperature"}
+    data["temperature"].attrs |= {"units": "K", "long_name": "temperature", "symbol": "T"}
     for name in data.data_vars:
         data[name].attrs |= {"units": "1", "long_name": str(name)}
     return with_master_curve(data, RUBBER)

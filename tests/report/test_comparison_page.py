@@ -14,14 +14,7 @@ from gripscale.questions.page_of_folder import write_report
 
 from .reading import Page
 
-FIGURES = {
-    "figure-ladder-contact_fraction",
-    "figure-ladder-friction",
-    "figure-by-wavelength-contact_fraction",
-    "figure-by-wavelength-friction",
-    "figure-over-speed-contact_fraction",
-    "figure-over-speed-friction",
-}
+FIGURES = {"figure-comparison", "figure-by-wavelength", "figure-over-speed"}
 
 
 def figures(page: Page) -> set[str]:

@@ -18,6 +18,7 @@ from gripscale.cli import app
 from gripscale.core.errors import FileError, InputError
 from gripscale.experiment import Progress
 from gripscale.io import netcdf
+from reproduction import judge_inputs
 from reproduction.__main__ import main
 from reproduction.inputs import (
     DATA,
@@ -35,6 +36,9 @@ from reproduction.inputs import (
 )
 from reproduction.panels import panels_of
 from reproduction.run import FIGURES, reproduce
+from reproduction.statement import Statement
+from studies.paper_page import MADE, write_page
+from tests.samples import ROOT
 
 
 def test_inputs_are_the_stated_ones(inputs: Inputs) -> None:
@@ -79,6 +83,39 @@ def test_no_chain_is_solved_twice(inputs: Inputs) -> None:
     assert len(set(keys)) == 31
 
 
+def test_page_keeps_what_is_written_by_hand(tmp_path: Path) -> None:
+    page = tmp_path / "paper.md"
+    page.write_text(f"# By hand\n\n{MADE}\n\nold numbers\n", encoding="utf-8")
+    said = "the area falls"
+    write_page(
+        page,
+        [
+            Statement("fig5a", said, "here", "less than 1", "0.5", True),
+            Statement("fig5a", said, "there", "less than 1", "1.5", False, "steeper"),
+        ],
+    )
+    text = page.read_text(encoding="utf-8")
+    assert text.startswith(f"# By hand\n\n{MADE}\n\n1 of 2 statements hold:\n\n")
+    assert "old numbers" not in text
+    assert f"| Figure 5a | {said} | 1 | 1 |  |" in text
+    for figure in FIGURES:
+        assert f"](figures/paper_{figure}.png)" in text
+    page.write_text("# By hand\n", encoding="utf-8")
+    with pytest.raises(FileError, match="below which it is written"):
+        write_page(page, [])
+
+
+def test_docs_have_every_figure_and_statement() -> None:
+    """The numbers of the page are those of the machine that made it; the statements are here."""
+    page = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
+    made = page[page.index(MADE) :]
+    assert {f"paper_{figure}" for figure in FIGURES} == set(re.findall(r"paper_fig\w+", made))
+    inputs = read_inputs()
+    for statement in (*judge_inputs.judge_factors(inputs), *judge_inputs.judge_correlation(inputs)):
+        for text in (statement.criterion, statement.where, f"**{statement.verdict}**"):
+            assert text in made
+
+
 @pytest.mark.verification
 def test_figure_with_chains_is_made_once_and_read_again(tmp_path: Path) -> None:
     told: list[Progress] = []
@@ -109,7 +146,7 @@ def test_inputs_from_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixt
     assert "Reproducing fig2, fig3b, fig4" in printed
     assert "7 of 10 statements hold" in printed
     assert "fig4: DOES NOT HOLD: two magnification factors" in printed
-    assert "why: different inputs: amplitudes fall as wavelength^0.9" in printed
+    assert "why: amplitudes fall as wavelength^0.9" in printed
     lines = [line for line in printed.splitlines() if str(tmp_path) not in line]
     assert max(map(len, lines)) <= 100
     data = netcdf.load_dataset(tmp_path / "fig3b.nc")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from studies.line_to_map import (
     SolvedMap,
     draw,
     family_table,
+    freedom_of,
     scatter_of,
     summary,
 )
@@ -53,14 +55,14 @@ def test_a_gaussian_surface_has_the_waves_and_the_slope_it_should() -> None:
 def lawful(family: str, seed: int, heights: list[float], pressure: float = 3e5) -> SolvedMap:
     """Return a map whose area is small and that of its lines by a law; likewise its friction.
 
-    ln f = -0.1 - 0.2 t - 0.03 (T / P)^(1/3), with the means of the lines.
+    ln f = -0.1 - 0.2 t - 0.03 (T / P)^(1/3) + 0.9 S, with the means of the lines.
     """
     relative, t = pressure / 1e6 * (1.0 + len(family) / 10.0), float(np.mean(heights))
     tail = 0.1 + 0.2 * (seed % 3) + 0.05 * len(family)
-    few = np.cbrt(tail / relative)
-    area = 1e-6 * np.exp(-0.1 - 0.2 * t - 0.03 * few)
+    few, softening = np.cbrt(tail / relative), 0.1 * (len(family) % 3)
+    area = 1e-6 * np.exp(-0.1 - 0.2 * t - 0.03 * few + 0.9 * softening)
     friction = 0.2 * np.exp(-0.3 + 0.15 * t + 0.02 * few)
-    lines = [[height, tail, relative] for height in heights]
+    lines = [[height, tail, relative, softening] for height in heights]
     contacts = [[number] * len(heights) for number in (1e-6, 0.2)]
     errors = [[0.0, 0.0, 8.0]] * len(heights)
     return SolvedMap(family, seed, "tread", pressure, 0.3, area, friction, lines, *contacts, errors)
@@ -76,6 +78,7 @@ def test_a_law_without_scatter_comes_back() -> None:
     assert fitted.law.constant == pytest.approx(-0.1)
     assert fitted.law.slope == pytest.approx(-0.2, rel=1e-4)
     assert fitted.law.tail == pytest.approx(-0.03, rel=1e-4)
+    assert fitted.law.softening == pytest.approx(0.9, rel=1e-4)
     assert fitted.law.scatter == pytest.approx(0.0, abs=1e-4)
     assert fitted.law.tail_scatter == pytest.approx(0.0, abs=1e-4)
     assert FittedLaw.of(maps, "friction").law.slope == pytest.approx(0.15)
@@ -105,10 +108,34 @@ def test_scatter_comes_back_from_what_a_law_misses() -> None:
     pressures = np.geomspace(1e3, 1e6, 2000)
     maps = [lawful("pits", 0, [2.0, 2.0], pressure) for pressure in pressures.tolist()]
     summits = np.array([m.line.columns[1] for m in maps])
-    missed = np.hypot(0.1, 0.05 * summits**1.5) * random.standard_normal(summits.size)
+    missed = np.hypot(0.1, 0.05 * summits) * random.standard_normal(summits.size)
     high, low = scatter_of(maps, "area", list(missed[:, None]))
     assert high == pytest.approx(0.1, rel=0.1)
     assert low == pytest.approx(0.05, rel=0.1)
+    # what an answer knows of its sampling error is no scatter of the law
+    known = [replace(m, line_errors=[[0.2 * 2.0**0.5, 0.0, 8.0]] * 2) for m in maps]
+    np.testing.assert_allclose(known[0].sampling_errors("area"), 0.2)
+    missed = math.hypot(0.2, 0.1) * random.standard_normal(summits.size)
+    high, _ = scatter_of(known, "area", list(missed[:, None]))
+    assert high == pytest.approx(0.1, rel=0.2)
+
+
+def test_sampling_error_without_pieces_is_that_of_the_difference() -> None:
+    lines = lawful("pits", 0, [2.0, 2.0, 2.0])
+    unknown = [[math.nan, math.nan, 1.0], [0.1, 0.0, 8.0], [0.1, 0.0, 8.0]]
+    uneven = replace(lines, line_areas=[0.1, 0.2, 0.2], line_errors=unknown)
+    expected = [1.0 / 3.0, 1.0 / 3.0, 0.1 / math.sqrt(2.0)]
+    np.testing.assert_allclose(uneven.sampling_errors("area"), expected)
+
+
+def test_families_that_scatter_alike_leave_no_doubt_of_it() -> None:
+    random = np.random.default_rng(3)
+    maps = [lawful(family, seed, [2.0, 2.0]) for family in FAMILIES for seed in range(40)]
+    fitted = FittedLaw.of(maps, "area")
+    law = fitted.law._replace(scatter=0.1, tail_scatter=0.0)
+    noise = [np.array([0.1 * random.standard_normal()]) for _ in maps]
+    # each variance is one of 40 numbers, the mean over eleven families one of 440
+    assert freedom_of(replace(fitted, law=law, held_out=noise)) > 150.0
 
 
 def test_a_stopped_study_goes_on_where_it_was(

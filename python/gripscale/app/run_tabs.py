@@ -7,36 +7,29 @@ from __future__ import annotations
 
 import asyncio
 import io
+import math
 import shlex
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-import numpy as np
 import panel as pn
+import xarray as xr
 
 from gripscale.app import elements
 from gripscale.app.case import CaseState, case_tables, field_text
 from gripscale.app.case_panel import problem_pane
 from gripscale.app.runs import COMMANDS, AppRun, Runs
 from gripscale.app.uploads import file_upload
-from gripscale.charts.chart import Panel, PlotAxis, Series
-from gripscale.charts.draw import panels_on_page
-from gripscale.charts.page_elements import Chart
-from gripscale.charts.style import BLUE
+from gripscale.charts.draw import Sheet, image
+from gripscale.charts.page_elements import Picture
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import Column, Table
-from gripscale.questions import page_of_folder
+from gripscale.questions import page_of_folder, view
 from gripscale.questions.answer.answer import Answer
 from gripscale.questions.answer.reliance import is_measured, no_answer
-from gripscale.questions.answer.variables import (
-    AXIS_TITLES,
-    HEADINGS,
-    SYMBOLS,
-    answer_number,
-    has_answer,
-)
+from gripscale.questions.answer.variables import SYMBOLS, described, has_answer
 from gripscale.questions.registry import Form
 from gripscale.report.elements import Element, Text
 
@@ -247,33 +240,26 @@ def compared_elements(runs: Runs) -> elements.PageElements:
             compared.append(ComparedRun(run, result))
     if not compared:
         return [Text(NONE_TO_COMPARE)]
-    return [runs_table(compared), *answer_charts(compared)]
+    answered = any(has_answer(each.answer.data) for each in compared)
+    return [runs_table(compared), *([image(answers_picture(compared))] if answered else [])]
 
 
-def answer_charts(compared: Sequence[ComparedRun]) -> list[Chart]:
-    """Return friction and contact area of the runs with their intervals; nothing without any."""
-    answered = [each for each in compared if has_answer(each.answer.data)]
-    if not answered:
-        return []
-    at = np.arange(len(answered), dtype=float)
-    ticks = {float(i): run.name for i, (run, _) in enumerate(answered)}
-    runs = PlotAxis(low=-0.5, high=len(answered) - 0.5, ticks=ticks)
-    panels = []
-    for name in reversed(SYMBOLS):
-        value, low, high = np.array([answer_number(answer.data, name) for _, answer in answered]).T
-        points = Series(at, value, BLUE, dash="", marker="o", size=6.0, low=low, high=high)
-        words = f"{HEADINGS[name]} {SYMBOLS[name]}"
-        panels.append(
-            Panel(
-                runs,
-                PlotAxis(f"{AXIS_TITLES[name]} [-]", low=0.0),
-                [points],
-                name=f"answers-{name.replace('_', '-')}",
-                caption=f"The answer of each run: {words}, with its 90 % interval.",
-                alt=f"Points with error bars: {words} of each run.",
-            )
-        )
-    return panels_on_page(panels)
+def numbers_of(compared: Sequence[ComparedRun]) -> xr.Dataset:
+    """Return friction and contact area of the runs with their intervals, over `run`."""
+    names = ["total_friction", *(f"answer_{n}{e}" for n in SYMBOLS for e in ("", "_low", "_high"))]
+    data = xr.Dataset(coords={"run": [run.name for run, _ in compared]})
+    for name in names:
+        values = [float(answer.data.get(name, math.nan)) for _, answer in compared]
+        data[name] = ("run", values)
+    return described(data)
+
+
+def answers_picture(compared: Sequence[ComparedRun]) -> Picture:
+    """Return friction and contact area of the runs with their intervals."""
+    data = numbers_of(compared)
+    panels = [view.panel(data, name, "run") for name in view.answers(data)]
+    words = "Friction and contact area of each run, with their 90 % intervals."
+    return Picture("answers", Sheet(panels).on_paper(), words, words)
 
 
 def runs_table(compared: Sequence[ComparedRun]) -> Table:
@@ -286,12 +272,8 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
         Column("run", [run.name for run, _ in compared]),
         Column("speed", speeds, words=False),
     ]
-    for name in reversed(SYMBOLS):
-        value, *ends = zip(*(answer_number(data, name) for data in answers), strict=True)
-        columns.append(Column(f"answer_{name}", value, SYMBOLS[name], group="answer"))
-        if np.isfinite(ends).any():
-            both = np.stack(ends, axis=1)
-            columns.append(Column(f"answer_{name}_interval", both, "90 %", group="answer"))
+    data = numbers_of(compared)
+    columns += view.number_columns(data, view.answers(data))
     states = [_state(answer) for _, answer in compared]
     changes = [", ".join(changed_keys(first, run.text)) for run, _ in compared]
     columns += [

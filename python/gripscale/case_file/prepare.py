@@ -28,10 +28,19 @@ from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
-from gripscale.core import FileError, InputError, about_file, about_keys, unstated
+from gripscale.core import (
+    CaseKey,
+    FileError,
+    InputError,
+    Words,
+    about_file,
+    about_keys,
+    unstated,
+)
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.experiment.measured_friction import read_measured_friction
-from gripscale.io.text_table import read_bytes
+from gripscale.half_space.grid import MOST_POINTS
+from gripscale.io.text_table import is_text, read_bytes
 from gripscale.model import FOOTPRINT
 from gripscale.rubber import (
     MasterCurve,
@@ -108,7 +117,7 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     """Return the surface of a case, its cut-off by the slope in contact solved."""
     table = file.case.surface
     rule = table.cut_off
-    load = file.case.load.nominal
+    load = file.case.load
     if not isinstance(rule, surfaces.ContactSlope):
         return prepare_surface(table, file.resolve, footprint=load.footprint)
     if table.map is not None:
@@ -138,6 +147,25 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     with about_keys("surface"):
         table = table.model_copy(update={"cut_off": solved})
         return _described(table, measured, file.resolve, load.footprint)
+
+
+def _require_few_points(file: CaseFile) -> None:
+    """Raise `InputError` for a text of more points than a contact takes, before it is read."""
+    table = file.case.surface
+    ends = (table.smallest_wavelength, table.crop, table.map)
+    if any(end is not None for end in ends) or table.cut_off not in (None, "instrument"):
+        return
+    for path in map(file.resolve, table.measured_files):
+        if path.is_file() and path.stat().st_size > 2 * MOST_POINTS:
+            raw = read_bytes(path)
+            points = raw.count(b"\n") if is_text(raw) else 0
+            if points > MOST_POINTS:
+                words = (
+                    f" must be a length, at least {points / MOST_POINTS:.2g} times what the "
+                    f"measurement carries: {path} has {points} lines, a contact at most "
+                    f"{MOST_POINTS} points, four in each wave"
+                )
+                raise InputError(Words(f"{file.path}: ", CaseKey("cut_off"), words))
 
 
 @about_keys("surface")
@@ -345,9 +373,10 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
 
 
 def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
-    if not isinstance(source.shift, str):
-        return source.shift
-    path = resolve(source.shift)
+    shift: Shift | str | None = source.shift
+    if not isinstance(shift, str):
+        return shift
+    path = resolve(shift)
     try:
         return read_shift_table(path)
     except InputError as error:
@@ -400,13 +429,18 @@ def _below_measurement(file: CaseFile) -> BelowMeasurement:
     return BelowMeasurement(table.down_to, roughness, table.seed)
 
 
-def case_chain(file: CaseFile) -> Chain:
-    """Return the chain of a case, without its conditions, which `Case` has."""
+def case_chain(file: CaseFile, conditions: Conditions | None = None) -> Chain:
+    """Return the chain of a case, under its own conditions where they are not given.
+
+    Raises `FileError` and `InputError` for conditions that cannot be used.
+    """
     case = file.case
+    conditions = conditions or prepare_conditions(case.conditions, file.resolve)
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
         extrapolate=case.rubber.extrapolate,
+        conditions=conditions and conditions.dry,
     )
 
 
@@ -442,22 +476,19 @@ def read_case(path: CaseFile | str | Path) -> Case:
         with about_keys("measured"):
             friction = read_measured_friction(file.resolve(name))
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    chain = case_chain(file)
+    chain = case_chain(file, conditions)
+    _require_few_points(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    load, table = file.case.load, file.case.surface
+    table = file.case.surface
     cleaned = table.clean and surface.measured is not None
     with about_keys("rubber.shift"):
         try:
             return Case(
                 surface,
                 rubber,
-                pressure=load.pressure,
-                speed=load.speed,
-                footprint=load.footprint,
-                tester=load.tester,
+                **file.case.load.model_dump(),
                 kind=table.kind,
-                load_time=load.nominal.load_time,
                 thickness=file.case.rubber.thickness,
                 chain=chain,
                 conditions=conditions,
@@ -467,7 +498,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 klueppel_heinrich=file.case.compare,
                 friction=friction,
                 cleaning=_options(table, surfaces.clean) if cleaned else None,
-                options={"uncertainty": file.case.uncertainty.options()},
+                options={"uncertainty": file.case.uncertainty.model_dump(exclude_none=True)},
                 origin=Origin(
                     str(file.path),
                     file.text,

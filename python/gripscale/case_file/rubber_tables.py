@@ -6,12 +6,11 @@ those of the package: their fields say which keys a case states them with.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, InstanceOf, model_validator
+from pydantic import Field, model_validator
 
 from gripscale.case_file.schema import (
     CaseTable,
@@ -27,15 +26,14 @@ from gripscale.case_file.schema import (
     stated_law,
     unit_of_file,
 )
-from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
-from gripscale.conditions.conditions import FLOODED, OFF
+from gripscale.conditions.area_term import SHEAR_STRESSES
+from gripscale.conditions.conditions import OFF, water_film
 from gripscale.conditions.defaults import Interface
 from gripscale.conditions.flash_temperature import ThermalProperties
-from gripscale.core.units import parse_quantity
 from gripscale.io.text_table import MOST_LINES
-from gripscale.rubber.shift import SHIFTS, Shift, ShiftTable
+from gripscale.rubber.shift import SHIFTS, ShiftTable
 from gripscale.rubber.softening import Kraus, SofteningTable, softening_of_sweeps
-from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean, StrainEnergy
+from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean
 from gripscale.rubber.strain_sweeps import read_strain_sweeps
 from gripscale.rubber.typical_tread import TypicalTread
 
@@ -67,12 +65,6 @@ def _files(value: Any) -> Any:
     names = value if isinstance(value, list) else [value]
     if value is not None and not (names and all(isinstance(name, str) for name in names)):
         raise ValueError(f"expected {_FILES}")
-    return value
-
-
-def _warn_or_refuse(value: Any) -> Any:
-    if value == "say":  # the word of older cases
-        raise ValueError('"say" is called "warn" now')
     return value
 
 
@@ -115,7 +107,7 @@ class RubberSource(LayoutKeys):
     """Of temperature ramps: moduli are interpolated at multiples of this."""
     reference_temperature: Temperature | None = None
     """Temperature the master curve holds for, or sweeps are shifted to."""
-    shift: Annotated[InstanceOf[Shift] | str, stated_law(SHIFT_LAWS, or_file=True)] | None = None
+    shift: Annotated[Any, stated_law(SHIFT_LAWS, or_file=True)] = None
     """Time-temperature shift, needed away from the reference temperature."""
     vertical: bool = False
     """Find a vertical shift of sweeps, too."""
@@ -134,9 +126,9 @@ class RubberSource(LayoutKeys):
     answer has both numbers. Filled rubber with no softening of its own is a typical tread."""
     thickness: Length | None = None
     """Thickness of the rubber on a rigid base; without it the rubber has no end."""
-    extrapolate: Annotated[Literal["warn", "refuse"], BeforeValidator(_warn_or_refuse)] = "warn"
+    extrapolate: Literal["warn", "refuse"] = "warn"
     """Waves beyond the measured frequencies: solved with a warning, or refused."""
-    strain_energy: Annotated[InstanceOf[StrainEnergy], stated_law(STRAIN_ENERGIES)] = NeoHookean()
+    strain_energy: Annotated[Any, stated_law(STRAIN_ENERGIES)] = NeoHookean()
     """Law of the permanent network at large strain."""
 
     @model_validator(mode="after")
@@ -189,47 +181,25 @@ SOFTENING: dict[str, type] = {
 }
 
 
-_Softening = InstanceOf[Kraus] | StrainSweeps | InstanceOf[TypicalTread]
-
-
-def _film(value: Any) -> Any:
-    """Accept "flooded" or a length."""
-    if value is None or value == FLOODED:
-        return value
-    film = parse_quantity(value, "length")
-    if not 0.0 < film < math.inf:
-        raise ValueError(f'expected "{FLOODED}" or a length above zero')
-    return film
-
-
 class ConditionsTable(CaseTable):
     """Effects beside the rubber as measured."""
 
     temperature: Temperature | None = None
     """Temperature of the rubber before the contact; that of the master curve by default."""
-    softening: Annotated[_Softening | Literal["none"], stated_law(SOFTENING, off=OFF)] | None = None
+    softening: Annotated[Any, stated_law(SOFTENING, off=OFF)] = None
     """Softening by strain; that of a typical tread for filled rubber by default, or "none"."""
     strain_norm: Literal["slope", "stretch"] | None = None
     """Of a wave: by the rms slope in its contact (the default), or the largest stretch less one."""
-    heat: (
-        Annotated[
-            InstanceOf[ThermalProperties] | Literal["none"], stated_law(ThermalProperties, off=OFF)
-        ]
-        | None
-    ) = None
+    heat: Annotated[Any, stated_law(ThermalProperties, off=OFF)] = None
     """The rubber warms by its own friction, with typical constants by default where it has a
     temperature shift, or "none"."""
-    counterface: Annotated[InstanceOf[ThermalProperties], stated_law(ThermalProperties)] | None = (
-        None
-    )
+    counterface: Annotated[Any, stated_law(ThermalProperties)] = None
     """What takes up heat through the contact; stone by default, of a floor concrete and of a
     counterface steel."""
     interface: Interface | None = None
     """A dry interface: the real contact area is sheared at the stress of typical treads, unless
     shear_stress states another. Without it the friction is that of the hysteresis alone."""
-    shear_stress: (
-        Annotated[InstanceOf[InterfacialShearStress], stated_law(SHEAR_STRESSES)] | None
-    ) = None
+    shear_stress: Annotated[Any, stated_law(SHEAR_STRESSES)] = None
     """The area term: the real contact area sheared at this stress."""
-    water: Annotated[Any, Reading('"flooded" or a length', _film)] = None
+    water: Annotated[Any, Reading('"flooded" or a length', water_film)] = None
     """Water on a measured map that contact can trap: flooded, or a film of this thickness."""

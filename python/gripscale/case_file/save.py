@@ -39,7 +39,6 @@ from gripscale.rubber.softening import SofteningTable
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface import HeightMap, Profile, fit_sines
 from gripscale.surface.cut_off import ContactSlope, RmsSlope
-from gripscale.uncertainty_options import UncertaintyOptions
 from gripscale.wave.problem import Mesh
 
 
@@ -119,8 +118,7 @@ def _even_distances(x: Array) -> tuple[str, Array]:
 
 def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
     """Return the tables of a case by name, each with the keys that have a value."""
-    load, options = case.load, case.options.get("uncertainty", UncertaintyOptions())
-    continued = case.below_measurement
+    load, continued = case.load, case.below_measurement
     below: dict[str, Any] = {"down_to": continued.down_to, "seed": continued.seed}
     match continued.roughness:
         case HurstExponent(hurst=hurst):
@@ -149,7 +147,7 @@ def _tables(case: Case, inputs: _Inputs) -> dict[str, dict[str, Any]]:
         "below_measurement": below,
         "measured": measured,
         "compare": {} if case.klueppel_heinrich is None else law_keys(case.klueppel_heinrich),
-        "uncertainty": vars(options),
+        "uncertainty": case.options.get("uncertainty", {}),
     }
     schemas = table_schema(CaseTables)["properties"]
     for name, keys in tables.items():

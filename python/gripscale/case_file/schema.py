@@ -398,8 +398,8 @@ def stated_law(laws: type | Mapping[str, type], *, or_file: bool = False, off: s
     texts = [{"type": "string"}] * or_file + [{"enum": [off]}] * bool(off)
 
     def read(value: Any) -> Any:
-        stands_for_it = isinstance(value, str) and (or_file or (off and value == off))
-        if stands_for_it or isinstance(value, tuple(by_kind.values())):
+        is_word = isinstance(value, str) and (or_file or (off and value == off))
+        if value is None or is_word or isinstance(value, tuple(by_kind.values())):
             return value
         if not isinstance(value, Mapping):
             raise ValueError(f"expected {words}")

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
+from functools import partial
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, InstanceOf, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case_file.schema import (
@@ -22,12 +22,13 @@ from gripscale.case_file.schema import (
     Speed,
     TemperatureDifference,
     column_key,
+    expected,
     stated_law,
     unit_of_file,
 )
 from gripscale.conditions.conditions import OFF
-from gripscale.core.units import in_mm, parse_quantity, such_as
-from gripscale.model import MOST_CLASSES, Load
+from gripscale.core.units import in_mm, parse_quantity
+from gripscale.model import LOAD_TIME, MOST_CLASSES, checked_load_time
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface.surface import SurfaceKind
 from gripscale.testers import TESTERS, TesterName
@@ -37,7 +38,7 @@ from gripscale.uncertainty_options import (
     MOST_SAMPLES,
     MOST_SEED,
     PRESSURE_ERROR,
-    UncertaintyOptions,
+    SAMPLES,
     pressure_error,
 )
 
@@ -75,13 +76,8 @@ def _channel(value: Any) -> Any:
     return None if value is None else column_key(value)
 
 
-_SPIKES = '"isolated", "iso13473" or "none"'
-
-
-def _spikes(value: Any) -> str | None:
-    if value not in ("isolated", "iso13473", "none", None):
-        raise ValueError(f"expected {_SPIKES}")
-    return None if value == "none" else value
+def _spikes(rule: str | None) -> str | None:
+    return None if rule == "none" else rule
 
 
 class WaveTable(CaseTable):
@@ -161,7 +157,9 @@ class CleaningKeys(CaseTable):
     """Lowest and highest height to believe; others become missing."""
     trim: float = Field(default=0.5, ge=0.0, le=1.0, allow_inf_nan=False)
     """Share of missing heights above which a border line of a map is cut off."""
-    spikes: Annotated[str | None, Reading(_SPIKES, _spikes)] = "isolated"
+    spikes: Annotated[Literal["isolated", "iso13473", "none"] | None, AfterValidator(_spikes)] = (
+        "isolated"
+    )
     """Rule by which spikes become missing: runs of up to three samples that go out and back, or
     every steep step of a profile (ISO 13473-1)."""
     spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)
@@ -268,23 +266,6 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SourceKeys):
         return self
 
 
-LOAD_TIME = '"passage", "infinite" or a time such as "1 s"'
-
-
-def _load_time(value: Any) -> float | str:
-    if value == "passage":
-        return "passage"
-    if value in ("infinite", math.inf):
-        return math.inf
-    try:
-        seconds = parse_quantity(value, "time")
-    except ValueError as error:
-        raise ValueError(f'{error}, or "passage", or "infinite"') from error
-    if seconds <= 0.0:
-        raise ValueError("expected a time greater than zero")
-    return seconds
-
-
 class LoadTable(CaseTable):
     """How hard, how fast and over what length the rubber is pressed and slid."""
 
@@ -296,7 +277,9 @@ class LoadTable(CaseTable):
     """Sliding speed; 0 is the relaxed rubber at rest."""
     footprint: Length
     """Length of the nominal contact: how long the largest wave is loaded."""
-    load_time: Annotated[Any, Reading(LOAD_TIME, _load_time)] = "passage"
+    load_time: Annotated[Any, Reading(LOAD_TIME, partial(checked_load_time, "load_time"))] = (
+        "passage"
+    )
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
     tester: TesterName | None = None
     """A tester, whose pressure, speed and footprint then need not be stated."""
@@ -307,11 +290,6 @@ class LoadTable(CaseTable):
         preset = TESTERS.get(str(values.get("tester"))) if isinstance(values, dict) else None
         keys = ("pressure", "speed", "footprint")
         return values if preset is None else {k: getattr(preset, k) for k in keys} | values
-
-    @property
-    def nominal(self) -> Load:
-        """The load on the whole surface, at the speed stated."""
-        return Load(self.pressure, self.speed, self.footprint, self.load_time)
 
 
 class SolverTable(CaseTable):
@@ -371,35 +349,22 @@ SourceName = Literal[
     "waves",
 ]
 
-FACTOR = "factor"  # kind of values that have no unit
+
+def _rising(values: list[float]) -> list[float]:
+    if any(b <= a for a, b in pairwise(values)):
+        raise ValueError("expected rising values")
+    return values
 
 
-def _values(kind: str) -> Reading:
-    """Return what reads values of a source: quantities of one kind, or factors."""
-    each = f"a {kind}" if kind == FACTOR else f"a {kind} {such_as(kind)}"
-    words = f"a list of two ends or of equally likely values, each {each}"
-
-    def number(value: Any) -> float:
-        if kind != FACTOR:
-            return parse_quantity(value, kind)
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ValueError(f"expected {words}")
-        return float(value)
-
-    def read(value: Any) -> list[float]:
-        if not isinstance(value, list) or not value:
-            raise ValueError(f"expected {words}")
-        numbers = [number(item) for item in value]
-        if numbers[0] <= 0.0 or any(b <= a for a, b in pairwise(numbers)):
-            raise ValueError("expected rising values greater than zero")
-        return numbers
-
-    return Reading(words, read)
+def _in_words(schema: dict[str, Any]) -> None:
+    each = expected(schema["items"])
+    schema["expected"] = f"a list of two ends or of equally likely values, each {each}"
 
 
-Moduli = Annotated[list[float], _values("pressure")]
-Lengths = Annotated[list[float], _values("length")]
-Factors = Annotated[list[float], _values(FACTOR)]
+Ends = (Field(min_length=1, json_schema_extra=_in_words), AfterValidator(_rising))
+Moduli = Annotated[list[Pressure], *Ends]
+Lengths = Annotated[list[Length], *Ends]
+Factors = Annotated[list[Annotated[float, Field(gt=0.0, allow_inf_nan=False)]], *Ends]
 
 
 def _pressure_error(value: Any) -> Any:
@@ -434,7 +399,7 @@ class RangesTable(CaseTable):
 class UncertaintyTable(CaseTable):
     """What `gripscale uncertainty` samples; its options go before what is stated here."""
 
-    samples: int = Field(default=200, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
+    samples: int = Field(default=SAMPLES, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
     """Samples of all that is not known at once."""
     seed: int = Field(default=0, ge=0, le=MOST_SEED)
     """Seed of the random numbers."""
@@ -448,10 +413,6 @@ class UncertaintyTable(CaseTable):
     """Length of the blocks of profiles that are drawn; four of the largest waves by default."""
     tolerance: float | None = Field(default=None, gt=0.0, lt=1.0)
     """Estimated relative error of each direct contact; that of its first full grid by default."""
-
-    def options(self) -> UncertaintyOptions:
-        """Return what is stated as options of the question."""
-        return UncertaintyOptions(**self.model_dump(exclude_none=True))
 
 
 FigureKind = Literal["png", "pdf", "svg"]
@@ -528,7 +489,7 @@ class CaseTables(CaseTable):
     """Friction measured elsewhere."""
     output: OutputTable = OutputTable()
     """Where results go."""
-    compare: Annotated[InstanceOf[KlueppelHeinrich], stated_law(KlueppelHeinrich)] | None = None
+    compare: Annotated[Any, stated_law(KlueppelHeinrich)] = None
     """What `gripscale compare` puts beside the models: fits of Klueppel and Heinrich's theory."""
     uncertainty: UncertaintyTable = UncertaintyTable()
     """What is not known of all that."""

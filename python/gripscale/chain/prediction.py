@@ -273,7 +273,7 @@ class ChainResult(Pictured):
         running = {
             "running_contact_fraction": (
                 self.running_contact_fraction,
-                "real over nominal contact area down to the wave",
+                "real contact area down to the wave",
                 f"{LW}, equation 2",
             ),
             "running_friction": (

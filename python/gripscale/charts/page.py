@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 from gripscale.charts import page_elements
 from gripscale.charts.bokeh_parts import Part, columns
 from gripscale.charts.chart import (
-    Bars,
     CrossLine,
     Mark,
     Outline,
@@ -137,7 +136,7 @@ def _figure(panel: Panel, store: DataStore, *, along: bool = False) -> Part:
         if sum(bool(curve.label) for curve in curves) > 1:
             tips.insert(0, ("curve", "$name"))
         figure["toolbar"]["tools"].append(Part("HoverTool", renderers=points, tooltips=tips))
-    if panel.legend == "none" or not figure["above"][0]["items"]:
+    if not figure["above"][0]["items"]:
         figure.update(above=[])
     return figure
 
@@ -166,11 +165,6 @@ def _draw_mark(figure: Part, mark: Mark, panel: Panel, store: DataStore) -> list
                 look = {"fill_color": mark.colour, "fill_alpha": mark.alpha}
                 area = Part("VArea", **{name: Field(name) for name in source["data"]}, **look)
                 _draw_glyph(figure, source, area, mark.label)
-        case Bars():
-            ends = np.broadcast_arrays(*np.atleast_1d(mark.x0, mark.x1, mark.y0, mark.y1))
-            source = columns(dict(zip(("left", "right", "bottom", "top"), ends, strict=True)))
-            look = {"fill_color": mark.colour, "fill_alpha": mark.alpha, "line_color": None}
-            _draw_glyph(figure, source, _glyph("Quad", source, **look), mark.label)
         case CrossLine(to=None):
             _draw_cross_line(figure, mark, panel)
         case CrossLine(to=float(end)):
@@ -186,13 +180,9 @@ def _extent(marks: Sequence[Mark], which: str) -> Array:
     for mark in marks:
         match mark:
             case Series():
-                ends = [end for end in (mark.low, mark.high) if end is not None]
-                along = mark.level_bars == (which == "x")
-                parts += [getattr(mark, which), *(ends if along else [])]
+                parts.append(getattr(mark, which))
             case ShadedBand() | Outline():
                 parts += [mark.x] if which == "x" else [mark.low, mark.high]
-            case Bars():
-                parts += [mark.x0, mark.x1] if which == "x" else [mark.y0, mark.y1]
             case ValueMap():
                 parts.append(getattr(mark, which))
             case CrossLine() if mark.upright == (which == "x"):
@@ -253,13 +243,6 @@ def _limits(which: str, axis: PlotAxis, values: Array) -> Part:
 
 def _set_ticks(drawn: Part, axis: PlotAxis, values: Array) -> None:
     """Set where the numbers of an axis stand, if Bokeh would not find it well."""
-    if axis.ticks is not None:
-        names = {float(at): spelled_out(name) for at, name in axis.ticks.items()}
-        drawn.update(ticker=Part("FixedTicker", ticks=list(names)), major_label_overrides=names)
-        return
-    if axis.whole and values.size:
-        whole = list(range(int(np.ceil(values.min())), int(values.max()) + 1))
-        drawn.update(ticker=Part("FixedTicker", ticks=whole))
     values = values[values > 0.0]
     if not axis.log or not values.size:
         return
@@ -302,12 +285,6 @@ def _draw_series(figure: Part, series: Series, *, positive: bool) -> list[Part]:
     look: dict[str, Any] = {"line_color": series.colour, "line_alpha": series.alpha}
     lines: list[Part] = []
     points: list[Part] = []
-    if series.low is not None and series.high is not None:
-        low, high = _stored(series.low, positive=positive), _stored(series.high)
-        ends = (low, y, high, y) if series.level_bars else (x, low, x, high)
-        source = columns(dict(zip(("x0", "y0", "x1", "y1"), ends, strict=True)))
-        bars = _glyph("Segment", source, line_width=1.6, **look)
-        _draw_glyph(figure, source, bars, series.label, name)
     if series.dash:
         for part, dashed in stretches(np.broadcast_to(series.beyond, x.shape)):
             source = columns({"x": x[part], "y": y[part]})

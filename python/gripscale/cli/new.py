@@ -107,6 +107,7 @@ def in_terminal() -> bool:
 def _ask(question: str, answers: Sequence[str]) -> str:
     """Ask a question of which the first answer is the likeliest, until one is chosen."""
     listed = "\n".join(f"  {at}. {answer}" for at, answer in enumerate(answers, start=1))
+    terminal.end_steps()
     words = {str(at): answer for at, answer in enumerate(answers, start=1)}
     words |= {answer.lower(): answer for answer in answers}
     while True:
@@ -206,6 +207,8 @@ def new(
         z_axis=z_axis,
         longest_wavelength=longest_wavelength,
     )
+    console = terminal.screen()
+    terminal.show_step(console, terminal.READING)
     with naming_options():
         case = new_case(
             files,
@@ -222,12 +225,13 @@ def new(
             kinds=kinds_of(kinds),
             ask=_ask if in_terminal() else first_choice,
         )
+    terminal.end_steps()
     lines: list[str | Table] = [kinds_table(case.files), f"Case: {case.path}"]
     if case.findings:
         doubts = (f"  {at}. {finding}" for at, finding in enumerate(case.findings, start=1))
         lines += ["", "Doubts, the most important first:", *doubts]
     lines += ["", "Next:", f"  {shlex.join(['gripscale', 'run', str(case.path)])}"]
-    terminal.print_parts(terminal.screen(), lines)
+    terminal.print_parts(console, lines)
 
 
 @terminal.command

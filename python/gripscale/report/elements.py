@@ -66,6 +66,11 @@ class Code:
 Element = Text | Finding | Facts | Table | Chart | Image | Equation | Code
 
 
+def as_elements(parts: Iterable[str | Table]) -> list[Element]:
+    """Return sentences as paragraphs, tables as they are."""
+    return [Text(part) if isinstance(part, str) else part for part in parts]
+
+
 _OPEN_FIGURES = 2
 
 

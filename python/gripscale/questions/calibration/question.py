@@ -52,10 +52,9 @@ from gripscale.questions.calibration.profile_likelihood import groups_of
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import Result
-from gripscale.questions.uncertainty.page import as_elements
 from gripscale.questions.vary.inputs import default_model
 from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Page, Section, Text
+from gripscale.report.elements import Card, Page, Section, Text, as_elements
 from gripscale.report.failures import Failure, explained, failures_in
 from gripscale.rubber.extrapolation import require_measured
 

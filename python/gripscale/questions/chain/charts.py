@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import chart, draw, style
+from gripscale.charts import chart, style
 from gripscale.charts.chart import (
     Bars,
     CrossLine,
@@ -25,7 +25,6 @@ from gripscale.charts.chart import (
     ValueMap,
 )
 from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Chart
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, RED, SKY
 from gripscale.core import InputError
 from gripscale.core.units import MILLI, ZERO_CELSIUS
@@ -34,7 +33,6 @@ from gripscale.questions.answer.variables import (
     ANSWER,
     AXIS_TITLES,
     HEADINGS,
-    JUDGE,
     OF_THE_PAPER,
     answer_number,
 )
@@ -66,39 +64,22 @@ def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
     return Sheet([_total_panel(views, name) for name in AXIS_TITLES], legend_title=title)
 
 
-def contact_charts(view: PredictionView, direct: xr.Dataset | None = None) -> list[Chart]:
-    """Return area and friction of the waves.
-
-    The totals of `direct`, what judges the waves, are level lines. Waves that did not converge are
-    red crosses.
-    """
-    views = [view, *([] if direct is None else [PredictionView(direct, JUDGE)])]
-    names = ["contact_fraction", *(["friction"] if view.moving else [])]
-    panels = [_total_panel(views, name).with_marks(_failed(view, name)) for name in names]
-    return draw.panels_on_page(panels)
-
-
 def _total_panel(views: Views, name: str) -> Panel:
     """Return the panel of the contact fraction or the friction, of and down to each wave."""
     if name == "contact_fraction":
-        words, sum_of, title = "real contact area", "A_r/A_0", "contact-area"
-        axis = PlotAxis(f"{words} $A_r/A_0$ [-]", log=True, high=1.15)
+        axis = PlotAxis(f"{HEADINGS[name]} $A_r/A_0$ [-]", log=True, high=1.15)
     else:
-        words, sum_of, title = HEADINGS[name], "sum", name
         least = [float(np.nanmin(view.usable(name), initial=0.0)) for view in views if view.waves]
-        axis = PlotAxis(f"{words} [-]", low=min(0.0, *least, 0.0))
+        axis = PlotAxis(f"{HEADINGS[name]} [-]", low=min(0.0, *least, 0.0))
     abscissa = _wavelengths(views)
-    return Panel(
-        abscissa,
-        axis,
-        [mark for view, colour in zip(views, COLOURS, strict=False)
-         if view.moving or name != "friction"
-         for mark in _total_marks(view, name, colour, abscissa)],
-        name=title,
-        caption=f"{words.capitalize()}: {sum_of} down to each wave (filled), and of each wave "
-        "(open); dashed beyond the measured band.",
-        alt=f"{words.capitalize()} against wavelength, which falls to the right.",
-    )  # fmt: skip
+    marks = [
+        mark
+        for view, colour in zip(views, COLOURS, strict=False)
+        if view.moving or name != "friction"
+        for mark in _total_marks(view, name, colour, abscissa)
+    ]
+    failed = (mark for view in views if view.waves for mark in _failed(view, name))
+    return Panel(abscissa, axis, [*marks, *failed])
 
 
 def _wavelengths(views: Views) -> PlotAxis:

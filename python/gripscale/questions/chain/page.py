@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gripscale.charts.draw import image
+from gripscale.charts.page_elements import Picture
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import (
@@ -18,8 +20,14 @@ from gripscale.io.table import (
 )
 from gripscale.model import with_adhesive
 from gripscale.questions.answer.reliance import is_measured
-from gripscale.questions.answer.variables import OF_THE_PAPER, SYMBOLS, answer_number, has_answer
-from gripscale.questions.chain.charts import contact_charts
+from gripscale.questions.answer.variables import (
+    JUDGE,
+    OF_THE_PAPER,
+    SYMBOLS,
+    answer_number,
+    has_answer,
+)
+from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.findings import (
     conditions_notes,
     exponent_sentence,
@@ -180,5 +188,13 @@ def chain_section(chain: xr.Dataset, answer: xr.Dataset) -> Section:
     waves, *heat = chain_tables(chain)
     elements += [replace(waves, name="chain"), *heat]
     if view.waves:
-        elements += contact_charts(view, judge)
+        models = {view.name: chain, **({} if judge is None else {JUDGE: judge})}
+        picture = Picture(
+            "contact_and_friction",
+            contact_sheet(models).on_paper(),
+            "Area and friction: running total down to each wave (filled), and of each wave (open); "
+            "dashed beyond the measured band.",
+            "Two panels of points against wavelength, which falls to the right.",
+        )
+        elements.append(image(picture))
     return Section("chain", title, elements)

@@ -6,30 +6,27 @@ Surfaces and compounds side by side are in `gripscale.questions.vary.charts_side
 from __future__ import annotations
 
 import math
-import textwrap
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from gripscale.charts import chart, draw, style
-from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts import chart, style
+from gripscale.charts.chart import Mark, Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Chart
+from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
-from gripscale.core.arrays import Array
-from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
+from gripscale.core.units import DisplayUnit, display_unit_of
 from gripscale.experiment.measured_friction import MeasuredSeries, measured_series
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
+from gripscale.questions import view
 from gripscale.questions.answer.variables import AXIS_TITLES, believed
 from gripscale.questions.compare import charts_of_ladder as ladder
-from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, Row
-from gripscale.questions.vary.axis import axis_label, axis_shown
+from gripscale.questions.compare.charts_of_ladder import BEST, Row
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,9 +34,6 @@ if TYPE_CHECKING:
 # Largest over smallest number of an axis, at least: less has no numbers of a log axis in it.
 _LEAST_RANGE = 3.0
 HALF = 0.27  # half the height of a bar, in rows
-_ROW = 44  # height of a row of the ladder on the page [px]
-# Letters of a line of a label beside the ladder: the frame keeps its width on a telephone.
-_LINE = 24
 
 
 def comparison_figure(comparison: xr.Dataset) -> Figure:
@@ -51,7 +45,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     """
     panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
     labels = list((panels[0].y.ticks or {}).values())
-    star = any(label.endswith(STAR) for label in labels)
+    star = any(label.endswith(view.STAR) for label in labels)
     return Sheet(
         panels,
         height=0.95 + 0.33 * len(labels),
@@ -60,20 +54,6 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
         keys=[Series([], [], INK, BEYOND_LABEL, dash="", marker="$*$")] if star else (),
         layout={"sharey": True},
     ).on_paper()
-
-
-def ladder_charts(comparison: xr.Dataset) -> list[Chart]:
-    """Return the steps from model to model, and the models down to each wavelength."""
-    panels = []
-    for name in _quantities(comparison):
-        panel, ticks = _ladder_panel(comparison, name), {}
-        for at, row in enumerate(ladder.rows_of(comparison, name)):
-            text = row.label if math.isfinite(row.value) else f"{row.label} ({row.note})"
-            ticks[float(at)] = textwrap.fill(text, _LINE)
-        panels.append(replace(panel, y=replace(panel.y, ticks=ticks)))
-    if np.isfinite(ladder.on_the_surface(comparison).running_friction.values).any():
-        panels += [_wavelength_panel(comparison, name) for name in _quantities(comparison)]
-    return draw.panels_on_page(panels)
 
 
 def _quantities(comparison: xr.Dataset) -> list[str]:
@@ -99,27 +79,14 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     marks += [mark for at, row in enumerate(rows) for mark in _row_marks(at, row)]
     labels = zip(comparison.model.values, comparison.label.values, strict=True)
     strong = {BEST} | {f"{label}{end}" for member, label in labels if member == DirectContact.name
-                       for end in ("", STAR)}  # fmt: skip
-    words, capital = _words(name)
+                       for end in ("", view.STAR)}  # fmt: skip
     return Panel(
         PlotAxis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3),
         PlotAxis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
              ticks={float(at): row.label for at, row in enumerate(rows)}),
         marks,
-        name=f"ladder-{name}",
-        caption=f"{capital} from model to model: a bar runs from the model before, blue "
-        "where the number falls, orange where it rises; lines are one standard uncertainty, a "
-        "star is for friction partly beyond the measured band.",
-        alt=f"{words} of each model, with the step from the one before.",
-        height=90 + _ROW * len(rows),
         legend="none",
     )  # fmt: skip
-
-
-def _words(name: str) -> tuple[str, str]:
-    """Return what a quantity is called within a sentence, and at its beginning."""
-    words = chart.spelled_out(AXIS_TITLES[name])
-    return words, words[0].upper() + words[1:]
 
 
 def _row_marks(at: int, row: Row) -> Iterator[Mark]:
@@ -144,47 +111,25 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     yield chart.Note(max(row.numbers), at, text, offset=(5.0, 0.0))
 
 
+def _by_label(comparison: xr.Dataset) -> xr.Dataset:
+    """Return the models on the surface, called by what figures call them."""
+    data = ladder.on_the_surface(comparison)
+    return data.assign_coords(model=("model", data["label"].values))
+
+
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     """Describe area or friction of each model down to each wavelength.
 
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
-    data = ladder.on_the_surface(comparison)
+    data = _by_label(comparison)
     data = data.isel(wavelength=ladder.worth_drawing(data))
-    length = data.wavelength.values / MILLI
-    beyond = style.down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
-    marks: list[Mark] = []
-    for member, look in _compared_models(data):
-        values = member[f"running_{name}"].values
-        solved = np.isfinite(values)
-        if solved.any():
-            marks.append(_curve(length[solved], values[solved], member, look, beyond[solved]))
-    area, (words, capital) = name == "contact_fraction", _words(name)
-    return Panel(
-        chart.wavelength_axis(length),
-        PlotAxis(f"{AXIS_TITLES[name]},\nlonger waves [-]", log=area, low=None if area else 0.0),
-        marks,
-        name=f"by-wavelength-{name}",
-        caption=f"{capital} down to each wavelength, of every model: where area is lost "
-        "and friction made. Dashed is beyond the measured band.",
-        alt=f"Running {words} of each model against wavelength, which falls to the right.",
-        height=400,
-    )
-
-
-def _compared_models(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
-    names = [str(name) for name in data["model"].values]
-    for at, look in enumerate(ladder.looks(names)):
-        yield data.isel(model=at), look
-
-
-def _curve(x: Array, y: Array, member: xr.Dataset, look: Look, beyond: NDArray[np.bool_]) -> Series:
-    """Return the curve of a model; the one the others are judged by is drawn stronger."""
-    strong = str(member.model.item()) == DirectContact.name
-    width, size, order = (2.0, 4.0, 3.0) if strong else (1.2, 3.2, 2.0)
-    return Series(x, y, look.colour, str(member.label.item()), look.dash, width, look.marker, size,
-                  beyond=beyond, order=order, clip=False)  # fmt: skip
+    flags = xr.DataArray(False)
+    if FLAG in data:
+        flags = data[FLAG].copy(data=style.down_to(data[FLAG] == 1))
+    panel = view.panel(data, f"running_{name}", "wavelength", flags=flags)
+    return replace(panel, y=replace(panel.y, label=f"{AXIS_TITLES[name]},\nlonger waves [-]"))
 
 
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
@@ -192,43 +137,39 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     return Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7).on_paper()
 
 
-def axis_charts(comparison: xr.Dataset) -> list[Chart]:
-    """Return area and friction of every model over the axis of a comparison."""
-    return draw.panels_on_page([_axis_panel(comparison, name) for name in AXIS_TITLES])
-
-
 _MARGIN = 0.03  # room beside the values of an axis, over its extent
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
-    comparison, axis = ladder.on_the_surface(comparison), ladder.varied(comparison)
-    x = axis_shown(comparison, axis).of(comparison[axis].values)
-    area, (words, capital) = name == "contact_fraction", _words(name)
-    marks: list[Mark] = []
-    for member, look in _compared_models(comparison):
-        values, spread = member[f"total_{name}"].values, member[f"{name}_spread"].values
-        if not np.isfinite(values).any():
-            continue
-        curve = _curve(x, values, member, look, style.predictions_beyond(member))
-        marks.append(replace(curve, filled=(member.converged_samples == member.samples).values))
-        if np.isfinite(spread).any():
-            # A spread above the number itself has no end on a logarithmic axis.
-            low = np.maximum(values - spread, 1e-3 * values)
-            high = np.minimum(values + spread, 1.0 if area else np.inf)
-            marks.append(ShadedBand(x, low, high, look.colour, curve.label, alpha=0.18))
+    total, axis, area = f"total_{name}", ladder.varied(comparison), name == "contact_fraction"
+    data = _by_label(comparison)
+    spread = data[f"{name}_spread"]
+    # a spread above the number itself has no end on a logarithmic axis
+    low = np.maximum(data[total] - spread, 1e-3 * data[total])
+    high = np.minimum(data[total] + spread, 1.0 if area else np.inf)
+    data = data.assign(spread_low=low, spread_high=high)
+    data[total].attrs["interval"] = "spread_low spread_high"
+    panel = view.panel(data, total, axis)
+    whole = data["converged_samples"] == data["samples"]
+    marks = [
+        replace(mark, filled=whole.sel(model=mark.label).values)
+        if isinstance(mark, Series)
+        else mark
+        for mark in panel.marks
+    ]
+    x = view.plot_axis(comparison[axis])[1]
     if np.isfinite(comparison[f"answer_{name}_factor"]).any():
         answer = believed(comparison, name)
         values, *ends = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))
         marks.append(Series(x, values, INK, BEST, "", marker="*", size=8.0, order=4.0,
                             low=ends[0], high=ends[1]))  # fmt: skip
-    if name == "friction" and (adhesive := with_adhesive(comparison)) is not None:
-        for (_, look), values in zip(_compared_models(comparison), adhesive.values, strict=True):
-            if np.isfinite(values).any():
-                term = Series(x, values, look.colour, "with the area term", "dashdot", width=0.9)
-                marks.append(term)
+    if name == "friction" and (adhesive := with_adhesive(data)) is not None:
+        curves = view.panel(data.assign(adhesive=adhesive), "adhesive", axis).marks
+        look: dict[str, Any] = {"label": "with the area term", "dash": "dashdot", "marker": ""}
+        marks += [replace(mark, width=0.9, **look) for mark in curves if isinstance(mark, Series)]
     low, high = float(x.min()), float(x.max())
     if axis == "speed" and name == "friction":
-        points = list(ladder.measured_points(comparison, axis_shown(comparison, "speed")))
+        points = list(ladder.measured_points(comparison, view.shown_unit(comparison[axis])))
         marks += points
         speeds = [speed for series in points for speed in np.asarray(series.x)]
         low, high = min([low, *speeds]), max([high, *speeds])
@@ -237,16 +178,10 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     extent = (high / low) ** _MARGIN if log else _MARGIN * (high - low)
     low, high = (low / extent, high * extent) if log else (low - extent, high + extent)
     least = min(0.0, float(comparison.total_friction.min()))
-    text = axis.replace("_", " ")
     return Panel(
-        PlotAxis(axis_label(comparison, axis), log=log, low=low, high=high),
+        replace(panel.x, log=log, low=low, high=high),
         PlotAxis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
         marks,
-        name=f"over-{axis}-{name}",
-        caption=f"{capital} of every model over {text}; bands are the standard deviation "
-        "over its samples, dashed is beyond the measured band.",
-        alt=f"{words} of each model against {text}.",
-        height=400,
     )
 
 
@@ -258,13 +193,15 @@ LEAST_WIDTH = 4.5  # width below which the legend has no room [inch]
 def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
     """Draw measured friction with its spread, and the total of every model at the same points."""
     names = [str(name) for name in data.model.values]
+    colours = style.colours(len(names), ordered=False)
 
     def models(series: MeasuredSeries, speed_unit: DisplayUnit) -> Iterator[Mark]:
-        for name, look in zip(names, ladder.looks(names), strict=True):
+        for name, colour in zip(names, colours, strict=True):
             values = data.friction.sel(model=name).values[series.rows]
             if np.isfinite(values).any():
-                yield Series(speed_unit.of(series.speed), values, look.colour,
-                             labels.get(name, name), look.dash, 1.2, look.marker, 3.5)  # fmt: skip
+                label = labels.get(name, name)
+                yield Series(speed_unit.of(series.speed), values, colour, label, width=1.2,
+                             marker="o", size=3.5)  # fmt: skip
 
     return measured_sheet(data, models, head=1.2).on_paper()
 
@@ -299,12 +236,31 @@ def measured_sheet(
     )
 
 
-def comparison_figures(data: xr.Dataset) -> Iterator[tuple[str, Figure]]:
+def comparison_pictures(data: xr.Dataset) -> Iterator[Picture]:
     """Yield the figures of a comparison: its ladder and wavelengths, or all over its axis."""
     if axis := ladder.varied(data):
-        yield f"over_{axis}", comparison_axis_figure(data)
+        yield Picture(
+            f"over_{axis}",
+            comparison_axis_figure(data),
+            f"Area and friction of every model over {axis.replace('_', ' ')}; bands are the "
+            "standard deviation over its samples, dashed is beyond the measured band.",
+            "Two panels with a curve for each model.",
+        )
         return
-    yield "comparison", comparison_figure(data)
+    yield Picture(
+        "comparison",
+        comparison_figure(data),
+        "Area and friction from model to model: a bar runs from the model before, blue where the "
+        "number falls, orange where it rises; lines are one standard uncertainty, a star is for "
+        "friction partly beyond the measured band.",
+        "Area and friction of each model, with the step from the one before.",
+    )
     if ladder.worth_drawing(ladder.on_the_surface(data)).any():
         panels = [_wavelength_panel(data, name) for name in _quantities(data)]
-        yield "by_wavelength", Sheet(panels, height=3.5).on_paper()
+        yield Picture(
+            "by_wavelength",
+            Sheet(panels, height=3.5).on_paper(),
+            "Area and friction down to each wavelength, of every model: where area is lost and "
+            "friction made. Dashed is beyond the measured band.",
+            "Two panels with a curve for each model against wavelength, which falls to the right.",
+        )

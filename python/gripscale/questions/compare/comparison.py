@@ -140,7 +140,7 @@ def comparison_setups(
 
     Arguments and errors are those of `compare`.
     """
-    tasks = {"": Task(case.rubber, case.surface, case.load, case.chain)}
+    tasks = {"": case.task()}
     rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
     axis: Axis | None = None
     if vary is not None:

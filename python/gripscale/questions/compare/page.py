@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale import model
+from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Topic, from_json
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.measured_friction import FRICTION_DOUBTS
@@ -29,11 +30,11 @@ from gripscale.questions.answer.variables import (
     is_estimated,
 )
 from gripscale.questions.chain.findings import comparison_notices
-from gripscale.questions.compare.charts import axis_charts, ladder_charts
+from gripscale.questions.compare.charts import comparison_pictures
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.stored import predicted_tree
-from gripscale.questions.vary.axis import axis_shown
+from gripscale.questions.view import shown_unit
 from gripscale.report import elements
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -129,7 +130,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     data = comparison.transpose(axis, ...)
     failed = flawed(data)
     beyond = data[model.FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
-    words, unit = axis.replace("_", " "), axis_shown(comparison, axis)
+    words, unit = axis.replace("_", " "), shown_unit(comparison[axis])
     look = unit.unit, unit.divisor, unit.zero, "{:.3g}".format
     columns = [Column(axis, data[axis].values, words, *look)]
     for at, member in enumerate(data.model.values):
@@ -230,7 +231,7 @@ def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]
     for point in points:
         data, where = comparison.isel(point), ""
         if axis:
-            value = axis_shown(comparison, axis).text(float(data[axis]), 4)
+            value = shown_unit(comparison[axis]).text(float(data[axis]), 4)
             where = f"{axis.replace('_', ' ')} {value}, "
         words = model.status_words(data, "status").values
         for label, text, word in zip(data.label.values, data.status.values, words, strict=True):
@@ -283,8 +284,8 @@ def comparison_elements(compared: Compared) -> list[Element]:
     if ladder is not None:
         elements.append(comparison_table(ladder))
         elements += map(Text, temperature_only(ladder))
-        elements += ladder_charts(ladder)
+        elements += map(image, comparison_pictures(ladder))
     for data in compared.over:
         elements += [axis_table(data, varied(data), name) for name in SYMBOLS]
-        elements += axis_charts(data)
+        elements += map(image, comparison_pictures(data))
     return elements

@@ -33,7 +33,7 @@ from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.answer.variables import SYMBOLS, believed, is_estimated
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
-from gripscale.questions.compare.charts import comparison_figures
+from gripscale.questions.compare.charts import comparison_pictures
 from gripscale.questions.compare.charts_of_ladder import varied
 from gripscale.questions.compare.comparison import (
     OnStage,
@@ -114,7 +114,7 @@ class Comparison(Result):
         return page.comparison_table(self.data)
 
     def figures(self) -> Iterator[tuple[str, Figure]]:
-        return comparison_figures(self.data)
+        yield from ((picture.name, picture.figure) for picture in comparison_pictures(self.data))
 
     def page_content(self) -> Page:
         return page.comparison_page(page.Compared([self.data]))

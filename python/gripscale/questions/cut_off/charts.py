@@ -14,8 +14,8 @@ from gripscale.core.units import MILLI
 from gripscale.questions.cut_off.curve import AREA, CONTACT_SLOPE, FRICTION, SLOPE_IN_CONTACT
 
 _CURVES = {
-    FRICTION: ("friction $\\mu$ [-]", ORANGE, "Friction"),
-    AREA: ("contact area $A_r/A_0$ [-]", BLUE, "Real over nominal contact area"),
+    FRICTION: ("friction $\\mu$ [-]", ORANGE),
+    AREA: ("contact area $A_r/A_0$ [-]", BLUE),
 }
 _SAME = 0.01  # relative distance of two rules that lie on each other in a figure
 
@@ -35,7 +35,7 @@ def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
     )
     rules = list(_rules(data))
     panels = []
-    for name, (label, colour, title) in _CURVES.items():
+    for name, (label, colour) in _CURVES.items():
         area = name == AREA
         low, high = (data[f"{name}_{end}"].values for end in ("lower", "upper"))
         words = "" if area else "90 % band of the continuation"
@@ -44,10 +44,6 @@ def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
             axis,
             chart.PlotAxis(label, log=area, low=None if area else 0.0),
             [band, *_curve(data, name, colour), *rules],
-            name=f"cut-off-{'area' if area else 'friction'}",
-            caption=f"{title} against the cut-off: measured roughness solid, continued dotted, "
-            "with its 90 % band. Upright lines are rules of cut-off.",
-            alt=f"{title} against the shortest wavelength of the surface.",
         )
         panels.append(panel)
     unlabelled = (replace(rule, label="") for rule in rules)
@@ -55,9 +51,6 @@ def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
         axis,
         chart.PlotAxis("rms slope in contact [-]", low=0.0),
         [*_curve(data, SLOPE_IN_CONTACT, GREY), chart.CrossLine(CONTACT_SLOPE), *unlabelled],
-        name="cut-off-slope",
-        caption="Rms slope of the surface where it touches: small strain ends near 1.",
-        alt="Rms slope in contact against the cut-off.",
     )
     return [*panels, slope]
 

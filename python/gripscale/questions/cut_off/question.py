@@ -14,8 +14,8 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts import draw
-from gripscale.charts.draw import Sheet
+from gripscale.charts.draw import Sheet, image
+from gripscale.charts.page_elements import Picture
 from gripscale.core import Finding, Severity
 from gripscale.core.units import MILLI, display_unit_of, in_mm, si_value
 from gripscale.experiment.design import CONVERGED
@@ -24,7 +24,7 @@ from gripscale.io.table import Column, Table, change, on_page, significant
 from gripscale.model import STATUS, OnProgress
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.variables import HEADINGS, SYMBOLS
-from gripscale.questions.cut_off.charts import cut_off_panels, cut_off_sheet
+from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.cut_off.curve import (
     AREA,
     FRICTION,
@@ -132,8 +132,15 @@ class CutOff(Result):
         """Return curves, rules and tables for a page; nothing without a curve."""
         if self.failure:
             return []
-        charts = draw.panels_on_page(cut_off_panels(self.data))
-        return [*map(Text, self.basis), *charts, self.rules_table(), self.table()]
+        curves = Picture(
+            "cut_off",
+            cut_off_sheet(self.data).on_paper(),
+            "Friction, area and the rms slope where the surface touches against the cut-off: "
+            "measured roughness solid, continued dotted, with its 90 % band. Upright lines are "
+            "rules of cut-off; small strain ends near a slope of 1.",
+            "Three panels of curves against the shortest wavelength of the surface.",
+        )
+        return [*map(Text, self.basis), image(curves), self.rules_table(), self.table()]
 
     def page_content(self) -> Page:
         case = case_title(self.data.attrs)

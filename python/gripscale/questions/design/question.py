@@ -41,10 +41,9 @@ from gripscale.questions.design.goal_friction import CompoundGoal
 from gripscale.questions.design.page import design_cards, design_lines
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
-from gripscale.questions.uncertainty.page import as_elements
 from gripscale.questions.vary.inputs import measured_rubber_of, reading_notes
 from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Page, Section
+from gripscale.report.elements import Page, Section, as_elements
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

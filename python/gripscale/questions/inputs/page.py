@@ -24,7 +24,6 @@ from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, signif
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
 from gripscale.questions.inputs.record import InputRecord, rubber_variables
-from gripscale.questions.vary.axis import dimensions
 from gripscale.report.elements import Element, Facts, Section, Text, number_text, percent_text
 from gripscale.rubber import Rubber, ShiftTable
 from gripscale.rubber.material import BEYOND, End, fast_end, slow_end
@@ -416,7 +415,7 @@ _CONDITIONS = ("temperature", "softening", "heat", "shear_stress")
 
 def input_sections(data: xr.Dataset) -> list[Section]:
     """Return the chapters on the inputs of a study; those its file does not tell of are empty."""
-    attrs, axes = data.attrs, dimensions(data)
+    attrs, axes = data.attrs, data["total_friction"].dims
 
     def quantity(key: str, attribute: str) -> str:
         if key in axes:

@@ -15,7 +15,7 @@ from gripscale.charts.style import BLUE, GREY, NARROW, ORANGE
 from gripscale.core.units import MEGA
 from gripscale.questions.answer.charts import NamedTrace, named_traces
 from gripscale.questions.sensitivity.friction_sensitivity import LOSS, STORAGE
-from gripscale.questions.vary.axis import dimensions, points
+from gripscale.questions.view import dimensions, points
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

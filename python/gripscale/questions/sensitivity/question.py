@@ -36,12 +36,12 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
     derivatives_of_answer,
     with_rules_of_thumb,
 )
-from gripscale.questions.uncertainty.page import as_elements
-from gripscale.questions.vary.axis import axes_of, points
+from gripscale.questions.vary.axis import axes_of
 from gripscale.questions.vary.inputs import reading_notes
 from gripscale.questions.vary.study import Study, coordinates
+from gripscale.questions.view import points
 from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Page, Section, Text
+from gripscale.report.elements import Card, Page, Section, Text, as_elements
 from gripscale.report.failures import Failure, explained, failures_in, first_of
 
 if TYPE_CHECKING:

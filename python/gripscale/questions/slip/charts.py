@@ -28,7 +28,7 @@ def slip_panels(data: xr.Dataset) -> list[Panel]:
     colours = style.colours(len(each), ordered=len(each) > 1)
     slip = np.concatenate([[0.0], 100.0 * data.slip.values])
     panels = []
-    for number, kind in enumerate(data.kind.values, start=1):
+    for kind in data.kind.values:
         bands: list[Mark] = []
         curves: list[Mark] = []
         for (i, j), colour in zip(each, colours, strict=True):
@@ -44,10 +44,7 @@ def slip_panels(data: xr.Dataset) -> list[Panel]:
             PlotAxis("slip [%]", low=0.0, high=100.0),
             PlotAxis("braking force over load [-]", low=0.0, high=highest),
             [*bands, *curves],
-            name=f"slip-{number}",
             title=str(kind),
-            caption=f"Braking force over slip, friction: {kind}. Bands: 90 % interval of it.",
-            alt="Braking force over load against slip.",
         )
         panels.append(panel)
     return panels

@@ -20,8 +20,8 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from gripscale.case import Case
-from gripscale.charts import draw
-from gripscale.charts.draw import Sheet
+from gripscale.charts.draw import Sheet, image
+from gripscale.charts.page_elements import Picture
 from gripscale.core import Array, Finding, InputError, Severity, Topic, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm, si_value
 from gripscale.experiment.solve import OnTask, bench_in
@@ -29,7 +29,7 @@ from gripscale.io.table import Column, Table, on_page, significant
 from gripscale.questions.answer.variables import AnswerNumber
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
-from gripscale.questions.slip.charts import slip_panels, slip_sheet
+from gripscale.questions.slip.charts import slip_sheet
 from gripscale.questions.slip.friction_table import BOUNDS, TABLE, TableFriction, friction_table
 from gripscale.questions.slip.vehicle_formulas import FORMULAS, MISFIT, fitted_formulas
 from gripscale.questions.vary.axis import axes_of
@@ -160,9 +160,14 @@ class SlipCurve(Result):
             interval = f"{on_page(number.interval)} (90 %)" if number.interval else ""
             value = on_page(significant(number.value))
             cards.append(Card(title, value, detail, interval=interval))
-        charts = draw.panels_on_page(slip_panels(self.data))
+        chart = Picture(
+            "slip",
+            slip_sheet(self.data).on_paper(),
+            "Braking force over slip. Bands: 90 % interval of the friction.",
+            "Braking force over load against slip.",
+        )
         sections = [
-            Section("curves", "Force over slip", [*charts, self.table()]),
+            Section("curves", "Force over slip", [image(chart), self.table()]),
             Section("formulas", "For vehicle models", [self.formulas_table()]),
             rerun_section(self.data.attrs),
         ]

@@ -20,8 +20,7 @@ from gripscale.questions.answer.variables import (
     of_hysteresis,
 )
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
-from gripscale.questions.vary.axis import MODELS
-from gripscale.questions.vary.charts import varied_axis
+from gripscale.questions.view import plot_axis
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -108,7 +107,7 @@ def distribution_figure(data: xr.Dataset) -> Figure:
                 PlotAxis(f"samples (of {count})" if first else "", low=0.0, numbers=5, whole=True,
                      high=None if top is None else 1.45 * top),
                 marks,
-                title=MODELS.get(str(model), str(model)),
+                title={"direct": "direct contact"}.get(str(model), str(model)),
             ))  # fmt: skip
     keys: list[Mark] = [
         CrossLine(0.0, INK, "median of the samples", width=MEDIAN),
@@ -146,7 +145,7 @@ def _distribution(
 
 def band_figure(data: xr.Dataset, axis: str) -> Figure:
     """Draw the answer over what is varied, and medians with bands of 50 and 90 % of samples."""
-    abscissa, x = varied_axis(data, axis)
+    abscissa, x = plot_axis(data[axis])
     panels = []
     for name, label in _TOTALS.items():
         marks: list[Mark] = []

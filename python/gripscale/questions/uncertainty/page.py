@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
@@ -30,9 +30,9 @@ from gripscale.questions.uncertainty.next_measurement import next_measurements
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
-from gripscale.questions.vary.axis import name_of
+from gripscale.questions.view import name_at
 from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Element, Page, Section, Text
+from gripscale.report.elements import Element, Page, Section, Text, as_elements
 from gripscale.report.failures import Failure, explained, failures_in
 
 # Symbols of the quantities, in their order.
@@ -59,12 +59,12 @@ def loads_of(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
         yield "", data
         return
     for at in range(data.sizes[axis]):
-        yield f"{axis} {name_of(data, axis, at)}", data.isel({axis: at})
+        yield f"{axis} {name_at(data, axis, at)}", data.isel({axis: at})
 
 
 def answer_table(data: xr.Dataset, axis: str) -> Table:
     """Return the answer at each load."""
-    labels = [name_of(data, axis, at) for at in range(data.sizes[axis])]
+    labels = [name_at(data, axis, at) for at in range(data.sizes[axis])]
     columns = [Column(axis, labels)]
     for name, symbol in HEADS.items():
         best = believed(data, name)
@@ -238,11 +238,6 @@ def page_notices(data: xr.Dataset) -> list[Finding]:
     failed = sampling_failure(data)
     level = "error" if too_many_failed(data) else "warning"
     return [Finding(level, f"{explained(failed)}.", topic=Topic.SOLUTION)] if failed else []
-
-
-def as_elements(parts: Iterable[str | Table]) -> list[Element]:
-    """Return sentences as paragraphs, tables as they are."""
-    return [Text(part) if isinstance(part, str) else part for part in parts]
 
 
 def uncertainty_page(data: xr.Dataset) -> Page:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ import xarray as xr
 from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.core import Array, InputError, RubberWarning, checks
+from gripscale.core import Array, Checked, InputError, RubberWarning, checked, checks
 from gripscale.core.provenance import software
 from gripscale.experiment import design as designs
 from gripscale.experiment.design import CONVERGED, Design, Point
@@ -38,7 +38,7 @@ from gripscale.questions.uncertainty.sources import BOTH, GRID_PLACE, SOURCES
 from gripscale.questions.uncertainty.variance_shares import Shares, shares
 from gripscale.questions.vary.axis import Axis, axes_of
 from gripscale.questions.vary.study import coordinates
-from gripscale.uncertainty_options import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED
+from gripscale.uncertainty_options import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEED, SAMPLES
 
 OnAnswer = Callable[[xr.Dataset], None]
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)  # quantiles of the samples that a result holds
@@ -139,18 +139,17 @@ _RESULT = "uncertainty.nc"  # in the folder of the samples
 SAMPLED_OVER = ("speed", "pressure")
 
 
-@dataclass(frozen=True)
-class Plan:
+class Plan(Checked):
     """What is to be sampled: the case, its uncertainty, how often, by which models, over what."""
 
     case: Case
     uncertainty: Uncertainty
-    samples: int
-    seed: int
+    samples: int = checked(checks.whole, least=FEWEST_SAMPLES, most=MOST_SAMPLES)
+    seed: int = checked(checks.whole, least=0, most=MOST_SEED)
     models: tuple[str, ...]
     axes: tuple[Axis, ...]  # none, or one
     # Estimated relative error of a direct contact; None: that of its first full grid.
-    tolerance: float | None
+    tolerance: float | None = checked(checks.positive, default=None)
 
     @classmethod
     def of(
@@ -177,16 +176,14 @@ class Plan:
         if len(axes) > 1 or any(axis.name not in SAMPLED_OVER for axis in axes):
             names = ", ".join(axis.name for axis in axes)
             raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
-        number = defaults.samples if samples is None else samples
-        start = defaults.seed if seed is None else seed
         return cls(
             case,
             choice,
-            checks.whole("samples", number, least=FEWEST_SAMPLES, most=MOST_SAMPLES),
-            checks.whole("seed", start, least=0, most=MOST_SEED),
+            defaults.get("samples", SAMPLES) if samples is None else samples,
+            defaults.get("seed", 0) if seed is None else seed,
             tuple(name for name in BOTH["both"] if name in named),
             axes,
-            defaults.tolerance if tolerance is None else checks.positive("tolerance", tolerance),
+            defaults.get("tolerance") if tolerance is None else tolerance,
         )
 
     @property
@@ -235,7 +232,7 @@ def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
     The direct contact of a map takes minutes and has no blocks to draw. A range of a source that
     only the chain has asks for both.
     """
-    word, measured = sampling.stated_options(case).model, case.surface.measured
+    word, measured = sampling.stated_options(case).get("model"), case.surface.measured
     if word is None and (measured is None or measured.map is not None):
         word = "chain"
     elif word is None:

@@ -21,13 +21,12 @@ from gripscale.questions.uncertainty.sources import (
     SourceNotApplicable,
     SourceOptions,
 )
-from gripscale.uncertainty_options import UncertaintyOptions
 
 
-def stated_options(case: Case) -> UncertaintyOptions:
-    """Return what a case states about its uncertainty, or the defaults."""
-    options: UncertaintyOptions = case.options.get("uncertainty", UncertaintyOptions())
-    return options
+def stated_options(case: Case) -> Mapping[str, Any]:
+    """Return the arguments of `gripscale.uncertainty` that a case states."""
+    stating: Mapping[str, Any] = case.options.get("uncertainty", {})
+    return stating
 
 
 class Chosen(NamedTuple):
@@ -84,7 +83,7 @@ class Uncertainty:
     @classmethod
     def of_case(
         cls,
-        options: UncertaintyOptions,
+        options: Mapping[str, Any],
         *,
         without: Sequence[str] | None = None,
         ranges: Mapping[str, Any] | None = None,
@@ -95,12 +94,12 @@ class Uncertainty:
         A source in `ranges` goes before that the case gives or leaves it out, and `without` before
         all that the case leaves out and gives of the same.
         """
-        ranged = options.ranges.items()
+        ranged = options.get("ranges", {}).items()
         merged = {name: value for name, value in ranged if name not in (without or ())}
         now = dict(ranges or {})
         if without is None:
-            without = [name for name in options.without if name not in now]
-        length = options.block_length if block_length is None else block_length
+            without = [name for name in options.get("without", ()) if name not in now]
+        length = options.get("block_length") if block_length is None else block_length
         return cls(tuple(without), merged | now, length)
 
     def of(self, case: Case, models: Sequence[str]) -> Chosen:

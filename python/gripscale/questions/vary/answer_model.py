@@ -79,15 +79,12 @@ class AnswerModel(Checked, model.Model):
 
         Raises `InputError` if the surface was not measured.
         """
-        settings = {name: getattr(load, name) for name in ("footprint", "thickness", "load_time")}
         case = Case(
             surface,
             rubber,
-            pressure=load.pressure,
-            speed=load.speed,
+            **vars(load),
             conditions=self.conditions,
             below_measurement=self.below_measurement,
-            **settings,
         )
         design = direct_contact_design(case, load, tolerance=self.tolerance)
         if design is None:

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.core import InputError, checks
 from gripscale.core.units import (
-    GIVEN,
     KEYS,
     UNITS,
     ZERO_CELSIUS,
@@ -34,15 +31,14 @@ class VariedInput(NamedTuple):
     long_name: str
     quantity: str = ""  # kind of quantity; empty for plain numbers and for names
     example: str = "1:10:log5"  # of a range
-    label: str = ""  # what figures call it, where not by its long name
-    words: str = ""  # what figures call it where its values are names
-    display: DisplayUnit | None = None  # how it is shown, whatever was given
+    symbol: str = ""
+    noun: str = ""  # what stands behind a plain number
     most: int = 0  # largest of whole numbers
 
     @property
     def numeric(self) -> bool:
         """Whether its values are numbers; a cut-off may also be a rule in words."""
-        return bool(self.quantity or self.display)
+        return bool(self.quantity or self.noun)
 
     @property
     def unit(self) -> str:
@@ -51,35 +47,26 @@ class VariedInput(NamedTuple):
 
 
 VARIED_INPUTS = {
-    "speed": VariedInput("sliding speed", "speed", "0.01 m/s:10 m/s:log7", "sliding speed $v$"),
-    "pressure": VariedInput(
-        "nominal pressure", "pressure", "1 bar:5 bar:lin5", "nominal pressure $p$"
-    ),
+    "speed": VariedInput("sliding speed", "speed", "0.01 m/s:10 m/s:log7", "v"),
+    "pressure": VariedInput("nominal pressure", "pressure", "1 bar:5 bar:lin5", "p"),
     "temperature": VariedInput(
-        "temperature of the rubber before the contact", "temperature", "0 C:60 C:lin7",
-        "temperature $T$", display=DisplayUnit("°C", zero=ZERO_CELSIUS),
+        "temperature before the contact", "temperature", "0 C:60 C:lin7", "T"
     ),
     "smallest_wavelength": VariedInput("smallest wavelength", "length", "0.1 mm:1 mm:log4"),
     "thickness": VariedInput("thickness of the rubber", "length", "1 mm:8 mm:log4"),
-    "cut_off": VariedInput(
-        "shortest wavelength of the roughness", "length", "0.1 mm:1 mm:log4",
-        words="where the roughness ends",
-    ),
+    "cut_off": VariedInput("shortest wavelength of the roughness", "length", "0.1 mm:1 mm:log4"),
     "top_height_fraction": VariedInput(
-        "fraction of the heights, from the top, that counts", display=DisplayUnit("of the heights")
+        "fraction of the heights, from the top, that counts", noun="of the heights"
     ),
-    "waves": VariedInput("number of waves", display=DisplayUnit("waves"), most=MOST_SINE_WAVES),
+    "waves": VariedInput("number of waves", noun="waves", most=MOST_SINE_WAVES),
     "pressure_classes": VariedInput(
-        "number of pressure classes", display=DisplayUnit("pressure classes"), most=MOST_CLASSES
+        "number of pressure classes", noun="pressure classes", most=MOST_CLASSES
     ),
-    "factors": VariedInput(
-        "magnification factors of wavelength and amplitude",
-        words="magnification factors $s_\\lambda/s_A$",
-    ),
-    "effects": VariedInput("effects of the conditions on the rubber", words="effects"),
-    "rubber": VariedInput("rubber", words="rubber"),
-    "surface": VariedInput("surface", words="surface"),
-}  # fmt: skip
+    "factors": VariedInput("magnification factors of wavelength and amplitude"),
+    "effects": VariedInput("effects of the conditions on the rubber"),
+    "rubber": VariedInput("rubber"),
+    "surface": VariedInput("surface"),
+}
 
 COLDEST = 100.0  # temperature [K] below which a number without a unit is taken for degrees
 MOST_VALUES = 1000
@@ -295,85 +282,3 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     if VARIED_INPUTS[name].most:
         return [float(value) for value in np.unique(np.rint(values))]
     return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
-
-
-# The table of points that a study is, read by its axes.
-
-MODELS = {"chain": "chain", "direct": "direct contact"}  # what models that know effects are called
-# What selections of effects are called where nothing else says what they are of.
-EFFECTS = {"all": "all effects", "none": "no effects"}
-
-
-def dimensions(result: xr.Dataset) -> list[str]:
-    """Return the axes that were varied, in order."""
-    return [str(name) for name in result.total_friction.dims]
-
-
-def places(result: xr.Dataset) -> Iterator[dict[str, int]]:
-    """Yield the place of every prediction on the axes."""
-    names = dimensions(result)
-    for index in np.ndindex(*(result.sizes[name] for name in names)):
-        yield dict(zip(names, index, strict=True))
-
-
-def points(result: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield what every prediction is called, and the Dataset there."""
-    for at in places(result):
-        yield names_at(result, at), result.isel(at)
-
-
-def several(result: xr.Dataset) -> list[str]:
-    """Return the varied axes with at least two values."""
-    return [name for name in dimensions(result) if result.sizes[name] > 1]
-
-
-def numeric(result: xr.Dataset) -> list[str]:
-    """Return the varied axes of numbers with at least two values, longest first."""
-    axes = [name for name in several(result) if of_numbers(result, name)]
-    return sorted(axes, key=lambda name: -result.sizes[name])
-
-
-def of_numbers(result: xr.Dataset, axis: str) -> bool:
-    """Return whether an axis has numbers for values; a cut-off may be a rule in words."""
-    if axis not in VARIED_INPUTS or not VARIED_INPUTS[axis].numeric:
-        return False
-    return bool(np.issubdtype(result[axis].dtype, np.number))
-
-
-def axis_shown(result: xr.Dataset | xr.DataArray, axis: str) -> DisplayUnit:
-    """Return how the values of a numeric axis are shown: in the unit they were given in."""
-    display = VARIED_INPUTS[axis].display
-    if display is not None:
-        return display
-    unit = result[axis].attrs.get(GIVEN, "") if axis in result.coords else ""
-    return display_unit(axis, {axis: str(unit)})
-
-
-def axis_label(result: xr.Dataset, axis: str) -> str:
-    """Return what a figure calls a numeric axis, with its unit."""
-    unit = axis_shown(result, axis).unit if VARIED_INPUTS[axis].quantity else "-"
-    return f"{VARIED_INPUTS[axis].label or VARIED_INPUTS[axis].long_name} [{unit}]"
-
-
-def name_of(result: xr.Dataset, axis: str, i: int) -> str:
-    """Return what value `i` of an axis is called, with its unit."""
-    value = result[axis].values[i]
-    if axis == "effects":
-        return EFFECTS.get(str(value), str(value))
-    if not of_numbers(result, axis):
-        return str(value).replace("_", " ")
-    return axis_shown(result, axis).text(value, digits=3)
-
-
-def names_at(result: xr.Dataset, at: Mapping[str, int]) -> str:
-    """Return what a place on the axes is called; of an axis without values its number."""
-    return ", ".join(
-        name_of(result, axis, i) if axis in result.coords else f"{axis.replace('_', ' ')} {i + 1}"
-        for axis, i in at.items()
-    )
-
-
-def of_points(result: xr.Dataset, name: str) -> NDArray[Any]:
-    """Return a number or a text of every prediction, in the order of `places`."""
-    whole = result[name].broadcast_like(result.total_friction)
-    return np.ravel(whole.transpose(*dimensions(result)).values)

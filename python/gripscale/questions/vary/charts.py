@@ -1,4 +1,4 @@
-"""Charts of a study: totals over what was varied, which waves make them, speed and temperature.
+"""Charts of a study: the answer over what was varied, what makes it, speed and temperature.
 
 Contact area and friction against wavelength over a study are figures 5 to 9 of LW.
 """
@@ -8,116 +8,27 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
 from gripscale.charts import chart, style
-from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.chart import Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
-from gripscale.charts.style import BEYOND_LABEL, BLUE, GREY, INK, NARROW
-from gripscale.core.arrays import Array
+from gripscale.charts.style import BEYOND_LABEL, GREY, INK, NARROW
 from gripscale.core.units import MILLI
 from gripscale.io.table import significant
-from gripscale.questions.answer.variables import AXIS_TITLES, believed
-from gripscale.questions.vary.axis import (
-    VARIED_INPUTS,
-    axis_label,
-    axis_shown,
-    dimensions,
-    name_of,
-    names_at,
-    numeric,
-    of_numbers,
-    several,
-)
+from gripscale.model import STATUS
+from gripscale.questions import view
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, REDUCED_SPEED
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MOST_NAMES = 12  # names in a legend of curves, evenly spaced among more
-MOST_BANDS = 3  # curves beyond which intervals would cover each other, and are not drawn
-INTERVAL = "90 % interval"
 
-
-def varied_axis(data: xr.Dataset, name: str) -> tuple[PlotAxis, Array]:
-    """Return a varied axis of numbers and its values as they are drawn."""
-    x = axis_shown(data, name).of(data[name].values)
-    low, high = float(x.min()), float(x.max())
-    limits: dict[str, Any] = {"low": low, "high": high} if high > low else {}
-    return PlotAxis(axis_label(data, name), log=low > 0.0 and high > 8.0 * low, **limits), x
-
-
-def _curves(data: xr.Dataset, over: list[str]) -> Iterator[tuple[dict[str, int], str, str]]:
-    """Yield the points of the axes `over`, with colour and name."""
-    points = list(product(*(range(data.sizes[name]) for name in over)))
-    colours = style.colours(len(points), ordered=len(over) == 1 and over[0] in numeric(data))
-    if over == ["temperature"]:
-        colours = style.shades(len(points), "Plasma")
-    for point, colour in zip(points, colours, strict=True):
-        at = dict(zip(over, point, strict=True))
-        yield at, colour, names_at(data, at)
-
-
-def _beyond(data: xr.Dataset, variable: xr.DataArray) -> xr.DataArray:
-    """Return which predictions rest on extrapolation; where it is not known, none."""
-    flags = data["total_friction"].copy(data=style.predictions_beyond(data))
-    covered = set(flags.dims) <= set(variable.dims)
-    return xr.broadcast(flags if covered else xr.DataArray(False), variable)[0]
-
-
-def _ordinate(quantity: str) -> PlotAxis:
-    """Return the axis of a number of an answer: of areas logarithmic, of friction from zero."""
-    area = quantity == "contact_fraction"
-    return PlotAxis(f"{AXIS_TITLES[quantity]} [-]", log=area, low=None if area else 0.0)
-
-
-def _total_panel(data: xr.Dataset, quantity: str, axis: str) -> Panel:
-    """Return a total over an axis, a curve for each point of the others; names are points."""
-    name, numbers = believed(data, quantity), of_numbers(data, axis)
-    variable = data[name]
-    flags = _beyond(data, variable)
-    if numbers:
-        abscissa, x = varied_axis(data, axis)
-    else:
-        # A point over a name has no line to dash: a star is behind the name.
-        stars = flags.any([dim for dim in variable.dims if dim != axis]).values
-        names = [f"{name_of(data, axis, i)}{' *' * bool(star)}" for i, star in enumerate(stars)]
-        x = np.arange(len(names), dtype=float)
-        abscissa = PlotAxis(
-            f"{VARIED_INPUTS[axis].words} [-]", ticks=dict(enumerate(names)), margin=0.3
-        )
-    others = [str(dim) for dim in variable.dims if dim != axis]
-    ends = [data[f"{name}_{end}"] for end in ("low", "high") if f"{name}_{end}" in data]
-    drawn: dict[str, Any] = {"dash": "", "size": 4.5}
-    if numbers:
-        drawn = {"dash": "solid", "size": 3.0, "clip": False}
-    marks: list[Mark] = []
-    curves = list(_curves(data, others))
-    for at, colour, label in curves:
-        only = colour if others else BLUE
-        y, beyond, *interval = (
-            part.isel(at).transpose(axis).values for part in (variable, flags, *ends)
-        )
-        bars: dict[str, Any] = {}
-        if interval and np.isfinite(interval[0]).any():
-            if not numbers:
-                bars = dict(zip(("low", "high"), interval, strict=True))
-            elif len(curves) <= MOST_BANDS:
-                low, high = interval
-                marks.append(ShadedBand(x, low, high, only, "" if others else INTERVAL, 0.15))
-        marks.append(
-            Series(x, y, only, label or "sliding", marker="o", beyond=numbers & beyond, **drawn,
-                   **bars)
-        )  # fmt: skip
-    return Panel(abscissa, _ordinate(quantity), marks)
-
-
-def totals_figure(result: xr.Dataset) -> Figure:
+def totals_figure(data: xr.Dataset) -> Figure:
     """Draw A_r/A_0 and friction over the first numeric axis, a line for each value of the other.
 
     They are the answers with their 90 % intervals where there are any, else the totals.
@@ -125,63 +36,23 @@ def totals_figure(result: xr.Dataset) -> Figure:
     that did not converge leave gaps. What rests on the rubber beyond its measured band is dashed,
     of names has a star.
     """
-    names = dimensions(result)
-    axis = (numeric(result) or names)[0]
-    area, friction = (_total_panel(result, name, axis) for name in AXIS_TITLES)
+    along = (view.numeric(data) or view.dimensions(data))[0]
+    friction, area = (view.panel(data, name, along) for name in view.answers(data))
     keys = []
-    if any(name.endswith(" *") for name in (area.x.ticks or {}).values()):
+    if any(name.endswith(view.STAR) for name in (area.x.ticks or {}).values()):
         keys.append(Series([], [], GREY, BEYOND_LABEL, dash="", marker="$*$"))
-    named = len(area.marks) > 1 or len(friction.marks) > 1 or bool(keys)
-    named |= any(np.any(mark.beyond) for mark in area.marks if isinstance(mark, Series))
+    curves = [mark for mark in friction.marks if isinstance(mark, Series)]
+    named = len(friction.marks) > 1 or bool(keys) or any(np.any(c.beyond) for c in curves)
     legend = "above" if named else ""
     return Sheet([area, friction], legend=legend, legend_columns=4, keys=keys).on_paper()
 
 
-def _wave_panel(data: xr.Dataset, quantity: str) -> Panel:
-    """Return a number down to each wave against wavelength, a curve for each prediction."""
-    flags = data["wavelength"].copy(data=style.waves_beyond(data))
-    values, lengths, flags = xr.broadcast(
-        data[f"running_{quantity}"], data["wavelength"] / MILLI, flags
-    )
-    curves = list(_curves(data, [str(dim) for dim in values.dims if dim != "scale"]))
-    every = -(-len(curves) // _MOST_NAMES)
-    marks: list[Mark] = []
-    for i, (at, colour, label) in enumerate(curves):
-        x, y, beyond = (part.isel(at).values for part in (lengths, values, flags))
-        marks.append(Series(x, y, colour, label, marker="o", size=3.0,
-                            beyond=style.down_to(beyond), listed=i % every == 0))  # fmt: skip
-    area = quantity == "contact_fraction"
-    label = f"{_AREA if area else 'friction coefficient'} down to each wave [-]"
-    ordinate = PlotAxis(label, log=area, low=None if area else 0.0, high=1.15 if area else None)
-    return Panel(chart.wavelength_axis(lengths.values), ordinate, marks)
-
-
-_AREA = "real contact area $A_r/A_0$"
-# Octaves and decades that never reach this share of the friction are not drawn.
-_LEAST_SHARE = 0.005
-
-
-def _stacked(
-    result: xr.Dataset,
-    axis: str,
-    parts: xr.DataArray,
-    names: list[str],
-    ordinate: PlotAxis,
-    scale: str,
-) -> Panel:
-    """Return a band for each part, the last first: so they stand in the legend as in the stack."""
-    rows = parts.transpose(..., axis).values
-    there = np.nan_to_num(rows)
-    upper = np.where(np.isnan(rows).all(axis=0), np.nan, np.cumsum(there, axis=0))
-    seen = np.flatnonzero(there.max(axis=1) >= _LEAST_SHARE * there.sum(axis=0).max())
-    abscissa, x = varied_axis(result, axis)
-    bands: list[Mark] = [
-        ShadedBand(x, upper[i] - there[i], upper[i], colour, names[i], 1.0, edged=True)
-        for i, colour in zip(seen, style.shades(max(seen.size, 2), scale), strict=False)
-    ]
-    total = Series(x, upper[-1], INK, width=1.2, clip=False,
-                   beyond=style.predictions_beyond(result))  # fmt: skip
-    return Panel(abscissa, ordinate, [*bands[::-1], total])
+def _wave_panels(data: xr.Dataset) -> list[Panel]:
+    """Return contact area and friction down to each wave, a curve for each prediction."""
+    flags = data["wavelength"].copy(data=style.waves_beyond(data)).transpose(..., "scale")
+    flags = flags.copy(data=np.logical_or.accumulate(flags.values, axis=-1))
+    names = ("running_contact_fraction", "running_friction")
+    return [view.panel(data, name, "scale", over="wavelength", flags=flags) for name in names]
 
 
 def map_figure(result: xr.Dataset) -> Figure:
@@ -193,7 +64,7 @@ def map_figure(result: xr.Dataset) -> Figure:
     """
     result = result.sortby(["temperature", "speed"]).transpose("temperature", "speed", ...)
     (abscissa, speeds), (ordinate, celsius) = (
-        varied_axis(result, name) for name in ("speed", "temperature")
+        view.plot_axis(result[name]) for name in ("speed", "temperature")
     )
     beyond = style.predictions_beyond(result).astype(bool)
     shifted = result[BEYOND_SHIFT].values.astype(bool)
@@ -210,11 +81,11 @@ def map_figure(result: xr.Dataset) -> Figure:
         for rows, label, marker, colour, size in kinds
         if rows.any()
     ]  # fmt: skip
+    frame = replace(abscissa, grid=False), replace(ordinate, grid=False)
     panels = []
-    for quantity, title in reversed(AXIS_TITLES.items()):
-        solved_there = result[believed(result, quantity)].values
-        values = chart.ValueMap(speeds, celsius, solved_there, f"{title} [-]", levels=9)
-        frame = replace(abscissa, grid=False), replace(ordinate, grid=False)
+    for name in view.answers(result):
+        label = f"{view.title(result[name])} [-]"
+        values = chart.ValueMap(speeds, celsius, result[name].values, label, levels=9)
         panels.append(Panel(*frame, [values, *points]))
     return Sheet(panels, height=3.3, layout={"sharey": True}).on_paper()
 
@@ -225,48 +96,30 @@ def friction_master_figure(result: xr.Dataset) -> Figure:
     Where temperature does nothing but shift the relaxation times, they are one curve. Dashed is
     what rests on the rubber beyond its measured band.
     """
-    celsius = axis_shown(result, "temperature").of(result.temperature)
-    label = axis_label(result, "temperature")
-    bar = chart.ColourBar(float(celsius.min()), float(celsius.max()), "Plasma", label)
-    speeds = axis_shown(result, "speed")
-    shares = (celsius - celsius.min()) / max(float(np.ptp(celsius)), 1e-9)
-    scale = style.shades(256, "Plasma")
-    panels = []
-    for quantity in reversed(AXIS_TITLES):
-        name = believed(result, quantity)
-        flags = _beyond(result, result[name])
-        marks: list[Mark] = []
-        for i, share in enumerate(shares):
-            x, y, beyond = (
-                part.isel(temperature=i).values
-                for part in (result[REDUCED_SPEED], result[name], flags)
-            )
-            marks.append(Series(speeds.of(x), y, scale[round(255 * float(share))],
-                                name_of(result, "temperature", i), width=1.0, marker="o", size=2.6,
-                                beyond=beyond, listed=False))  # fmt: skip
-        abscissa = PlotAxis(f"reduced speed $a_T v$ [{speeds.unit}]", log=True, numbers=7)
-        panels.append(Panel(abscissa, _ordinate(quantity), marks))
-    return Sheet(panels, height=3.3, colour_bar=bar).on_paper()
+    names = view.answers(result)
+    panels = [view.panel(result, name, "speed", over=REDUCED_SPEED) for name in names]
+    return Sheet(panels, height=3.3, legend_columns=6).on_paper()
 
 
 def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
     """Return what makes the friction over a single axis of numbers, by the name of its figure."""
-    if several(data) != numeric(data) or len(several(data)) != 1:
+    several = [dim for dim in view.dimensions(data) if data.sizes[dim] > 1]
+    if several != view.numeric(data) or len(several) != 1:
         return {}
-    (axis,) = several(data)
-    data = data.isel({name: 0 for name in dimensions(data) if name != axis})
+    (along,) = several
+    data = data.isel({dim: 0 for dim in view.dimensions(data) if dim != along})
     panels = {}
     if "octave_friction" in data:
-        parts = data.octave_friction.sortby("octave", ascending=False)
-        names = [f"from {significant(end, 2)} mm" for end in parts.octave.values / MILLI]
-        ordinate = PlotAxis("friction coefficient $\\mu$, octave upon octave [-]", low=0.0)
-        panels["stacked"] = _stacked(data, axis, parts, names, ordinate, "Viridis")
+        data = data.sortby("octave", ascending=False)
+        names = [f"from {significant(end, 2)} mm" for end in data.octave.values / MILLI]
+        y = PlotAxis("friction coefficient $\\mu$, octave upon octave [-]", low=0.0)
+        panels["stacked"] = view.stacked_panel(data, "octave_friction", along, names, y)
     if "friction_by_decade" in data:
-        parts = data.friction_by_decade / data[believed(data, "friction")]
-        parts = parts.rename("friction_by_decade")
-        names = [f"from {style.power_of_ten(round(math.log10(t)))} s" for t in parts.decade.values]
-        ordinate = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
-        panels["decades"] = _stacked(data, axis, parts, names, ordinate, "Cividis")
+        parts = data["friction_by_decade"]
+        shares = data.assign(shares=(parts / parts.sum("decade")).assign_attrs(parts.attrs))
+        names = [f"from {style.power_of_ten(round(math.log10(t)))} s" for t in data.decade.values]
+        y = PlotAxis("share in $\\mu$, split as at small strain [-]", low=0.0, high=1.0)
+        panels["decades"] = view.stacked_panel(shares, "shares", along, names, y)
     return panels
 
 
@@ -294,20 +147,19 @@ def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
                 "Friction and contact area over speed and temperature.",
                 "Two maps over speed and temperature with a dot for each prediction.",
             )
-    axes = several(result)
-    if not (result.prediction_status == "converged").any():
+    several = [dim for dim in view.dimensions(result) if result.sizes[dim] > 1]
+    if not (result[STATUS] == "converged").any():
         return
-    if len(axes) == 1 and "wavelength" in result:
-        alone = result.isel({name: 0 for name in dimensions(result) if name not in axes})
-        panels = [_wave_panel(alone, quantity) for quantity in AXIS_TITLES]
+    if len(several) == 1 and "wavelength" in result:
+        alone = result.isel({dim: 0 for dim in view.dimensions(result) if dim not in several})
         yield Picture(
             "wavelength",
-            Sheet(panels, legend="beside").on_paper(),
+            Sheet(_wave_panels(alone), legend="beside").on_paper(),
             "Contact area and friction of each wave and all longer ones.",
             "Two panels of curves against wavelength, which falls to the right.",
         )
     for name, panel in stacked_panels(result).items():
         figure = Sheet([panel], 1, NARROW, 3.6, gap=0.02, legend="beside").on_paper()
         parts = "octaves of wavelength" if name == "stacked" else "relaxation times"
-        over = axes[0].replace("_", " ")
+        over = several[0].replace("_", " ")
         yield Picture(name, figure, f"Friction by {parts}, stacked.", f"Bands against {over}.")

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import chart
-from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
-from gripscale.charts.style import COLOURS, power_of_ten
+from gripscale.charts.style import COLOURS
 from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.io.table import significant
+from gripscale.questions import view
 from gripscale.questions.answer.variables import believed
 from gripscale.questions.inputs.charts_of_rubber import compound_moduli_figure
 
@@ -24,11 +23,8 @@ if TYPE_CHECKING:
 
     from gripscale.rubber import Rubber
 
-# Of the largest difference: decades at either end with less are not drawn.
-LEAST_MODULUS_SHARE = 0.005
-MOST_TICKS = 4
 CUBIC_MM = 1e-9
-LEAST_POWER_SHARE = 0.02  # share of the largest friction of an octave from which one is drawn
+LEAST_POWER_SHARE = 0.02  # share of the largest part of the friction from which one is drawn
 _RANKING = (
     "Friction over that of the first, with the 90 % interval of the ratio, and μ below it; "
     "friction of all waves down to each wavelength"
@@ -40,9 +36,9 @@ def compound_pictures(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Iterat
     yield Picture(
         "compound_friction",
         ranking_figure(data, "rubber"),
-        f"{_RANKING}; difference from the first by relaxation time, split as at small strain.",
-        "A point with an interval and a curve for each compound, rising towards short waves, and "
-        "bars of differences.",
+        f"{_RANKING}; and up to each relaxation time, split as at small strain.",
+        "A point with an interval and two curves for each compound, rising towards short waves "
+        "and long times.",
     )
     if rubbers:
         yield Picture(
@@ -88,57 +84,24 @@ def ranking_figure(data: xr.Dataset, dim: str) -> Figure:
     ordinate = PlotAxis("$\\mu$ over that of the first [-]", margin=0.1)
     panels = [Panel(abscissa, ordinate, marks)]
     if "octave_friction" in data:
-        panels.append(_octaves_panel(data, dim))
+        panels.append(_running_panel(data, "octave_friction", "longer waves"))
     if dim == "rubber" and "friction_by_decade" in data:
-        panels.append(_decades_panel(data))
+        panels.append(_running_panel(data, "friction_by_decade", "faster relaxation"))
     return Sheet(panels, len(panels), height=3.2).on_paper()
 
 
-def _octaves_panel(data: xr.Dataset, dim: str) -> Panel:
-    """Return the friction of all longer waves over wavelength, where something is lost."""
-    parts = data.octave_friction.transpose(dim, "octave").fillna(0.0).sortby("octave", False)
-    lost = np.abs(parts.values).max(axis=0)
-    octaves = np.flatnonzero(lost > LEAST_POWER_SHARE * lost.max(initial=0.0))
-    running = np.cumsum(parts.values, axis=1)
-    if octaves.size:
-        kept = slice(max(octaves[0] - 1, 0), octaves[-1] + 1)
-        parts, running = parts.isel(octave=kept), running[:, kept]
-    wavelength = parts.octave.values / MILLI
-    marks: list[Mark] = [
-        Series(wavelength, row, colour, str(name), marker="o", size=3.0)
-        for name, row, colour in zip(data[dim].values, running, COLOURS, strict=False)
-    ]
-    ordinate = PlotAxis("$\\mu$ of this and longer waves [-]", low=0.0)
-    return Panel(chart.wavelength_axis(wavelength), ordinate, marks)
-
-
-def _decades_panel(data: xr.Dataset) -> Panel:
-    """Return the difference of each compound to the first by decade of relaxation time."""
-    names = data.rubber.values.tolist()[1:]
-    parts = data.friction_by_decade.transpose("rubber", "decade").fillna(0.0)
-    differences = parts - parts.isel(rubber=0, drop=True)
-    largest = np.abs(differences.values).max(axis=0)
-    seen = np.flatnonzero(largest >= LEAST_MODULUS_SHARE * largest.max(initial=0.0))
+def _running_panel(data: xr.Dataset, name: str, words: str) -> Panel:
+    """Return the running sum of parts of the friction, from where something is lost."""
+    stacks = data[name].attrs["stacks"]
+    parts = data[name].fillna(0.0).sortby(stacks, stacks != "octave")
+    lost = np.abs(parts.transpose(..., stacks).values).max(axis=0)
+    seen = np.flatnonzero(lost > LEAST_POWER_SHARE * lost.max(initial=0.0))
+    running = parts.cumsum(stacks).assign_coords({stacks: parts[stacks]})
+    running = running.assign_attrs({"long_name": f"friction of this and {words}", "symbol": "μ"})
     if seen.size:
-        differences = differences.isel(decade=slice(seen[0], seen[-1] + 1))
-    start = np.arange(differences.sizes["decade"]) - 0.4
-    width = 0.8 / len(names)
-    marks: list[Mark] = [
-        Bars(start + i * width, start + (i + 1) * width, 0.0, differences.sel(rubber=name).values,
-             COLOURS[(i + 1) % len(COLOURS)])
-        for i, name in enumerate(names)
-    ]  # fmt: skip
-    step = max(1, math.ceil(start.size / MOST_TICKS))
-    ticks = {
-        float(i): power_of_ten(round(math.log10(time)))
-        for i, time in enumerate(differences.decade.values)
-        if i % step == 0
-    }
-    return Panel(
-        PlotAxis("relaxation time from [s]", ticks=ticks),
-        PlotAxis("difference of $\\mu$ from the first [-]"),
-        [*marks, CrossLine(0.0, width=0.7)],
-    )
+        running = running.isel({stacks: slice(max(seen[0] - 1, 0), seen[-1] + 1)})
+    curves = running.to_dataset(name="running")
+    return view.panel(curves, "running", stacks, flags=xr.DataArray(False))
 
 
 def roads_statistics_figure(data: xr.Dataset) -> Figure:

@@ -124,7 +124,7 @@ def with_decades(data: xr.Dataset) -> xr.Dataset:
     parts = data.friction_by_decade.transpose(..., "decade")
     data = data.assign(friction_by_decade=parts.fillna(0.0).where(parts.notnull().any("decade")))
     time = [10.0**n for n in data.decade.values.tolist()]
-    described = variable_attributes("shortest relaxation time of the decade", "s")
+    described = variable_attributes("relaxation time, from", "s")
     return data.assign_coords(decade=xr.Variable("decade", time, described))
 
 

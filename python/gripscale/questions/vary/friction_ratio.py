@@ -55,6 +55,13 @@ from gripscale.surface import Surface
 
 ERROR_RATIO = 0.4  # error after halving the spacing over the change by it, as in `grid_sequence`
 EXTREME = 3.0  # standard deviations of an admissible series from the best one
+# Names and meanings of what is said of each pair.
+RANKED = {
+    "friction_ratio": "friction over that of `over`",
+    "friction_ratio_low": "low end of its 90 % interval",
+    "friction_ratio_high": "high end of its 90 % interval",
+    "confidence": "probability that the friction is larger than that of `over`",
+}
 
 
 @dataclass(frozen=True)

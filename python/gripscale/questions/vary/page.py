@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from dataclasses import replace
 
-import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
 
+from gripscale.charts.chart import spelled_out
 from gripscale.charts.draw import image
-from gripscale.core.arrays import Array
 from gripscale.core.finding import Finding, Severity, Topic, sentences
 from gripscale.core.units import display_unit_of
 from gripscale.experiment.design import CONVERGED
@@ -19,54 +17,36 @@ from gripscale.io.table import NONE, Column, Table, least_to_most, percent, sign
 from gripscale.model import (
     ADHESIVE_FRICTION,
     FRICTION_OUTSIDE_BAND,
-    METHOD,
     STATUS,
     input_doubts_of,
     status_words,
+    with_adhesive,
 )
+from gripscale.questions import view
 from gripscale.questions.answer.estimate import ISOTROPY_ASSUMED, LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
-from gripscale.questions.answer.variables import (
-    HEADINGS,
-    HYSTERESIS,
-    INTERFACE,
-    SYMBOLS,
-    believed,
-    is_estimated,
-)
+from gripscale.questions.answer.variables import HYSTERESIS, INTERFACE, SYMBOLS, is_estimated
 from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.cut_off.curve import CONTINUED_TO
-from gripscale.questions.inputs.page import input_sections
-from gripscale.questions.vary.axis import (
-    dimensions,
-    name_of,
-    names_at,
-    of_points,
-    places,
-)
 from gripscale.questions.vary.charts import study_pictures
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT
-from gripscale.report.again import case_title, rerun_section
+from gripscale.report.again import case_title
 from gripscale.report.elements import Card, Page, Section, percent_text
-from gripscale.report.equations import method_section
 from gripscale.report.failures import Failure, explained
 
-_MOST_ROWS = 200  # predictions in the terminal; a page has all of them
 # Models in words; others by their names.
 _MODELS = {"chain": "chain of sine waves", "direct": "direct contact of the measured surface"}
 
 
 def study_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the answer of a study, what it is for, and what it rests on."""
-    courses = [course(data, name) for name in reversed(SYMBOLS)]
-    texts = [text for text in courses if text]
+    texts = [text for name in view.answers(data) if (text := view.course(data, name))]
     if not texts:
         yield "Answer: none; no prediction has a result."
         return
+    level = " (90 % intervals)" if view.interval_ends_of(data, view.answers(data)[-1]) else ""
     estimated = is_estimated(data, "contact_fraction")
-    has_intervals = estimated and bool(data["answer_contact_fraction_low"].notnull().any())
-    level = " (90 % intervals)" if has_intervals else ""
     by = "" if estimated else f" by the {_model(data)}, without an interval"
     yield f"Answer{by}: {'; '.join(texts)}{level}."
     yield from (f"  {line}" for line in study_basis(data))
@@ -78,7 +58,7 @@ def study_basis(data: xr.Dataset) -> Iterator[str]:
         yield f"not to be relied on: {sentences(doubts)}"
     held = []  # what was not varied
     for name in ("pressure", "speed"):
-        if name not in dimensions(data) and f"nominal_{name}" in data.attrs:
+        if name not in view.dimensions(data) and f"nominal_{name}" in data.attrs:
             value = float(data.attrs[f"nominal_{name}"])
             held.append(display_unit_of(data.attrs, name).text(value))
     ends = [float(data[name]) for name in ("cutoff_wavelength", CONTINUED_TO) if name in data]
@@ -96,7 +76,7 @@ def study_basis(data: xr.Dataset) -> Iterator[str]:
     elif data.attrs.get("surface_measured") and data.attrs.get("model") == "chain":
         yield (
             "the varied input belongs to the chain only: `gripscale run` has the answer"
-            if set(dimensions(data)) & set(OF_THE_CHAIN)
+            if set(view.dimensions(data)) & set(OF_THE_CHAIN)
             else "the surface was measured: `--model direct`, the default, gives the answer"
         )
     elif data.attrs.get("model") == "direct" and "answer_contact_fraction" in data:
@@ -109,42 +89,17 @@ def study_basis(data: xr.Dataset) -> Iterator[str]:
 
 def study_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield the range of friction and contact area over a study."""
-    for name in reversed(SYMBOLS):
-        values = data[believed(data, name)].values
-        if not (values > 0.0).any():
+    for name in view.answers(data):
+        values = data[name].values
+        values = values[values > 0.0]  # none at rest
+        if not values.size:
             continue
-        detail = _model(data)
-        if is_estimated(data, name):
-            width = float(data[f"answer_{name}_half_width"].max())
-            detail = f"answer; ± {percent_text(width)} (90 %)" if math.isfinite(width) else "answer"
-        title = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"
-        yield Card(title, least_to_most(values), detail)
-
-
-def course(data: xr.Dataset, name: str) -> str:
-    """Return in words from where to where `friction` or `contact_fraction` goes in a study.
-
-    Empty where it has no value, or nothing slides.
-    """
-    best = believed(data, name)
-    values = of_points(data, best)
-    values = np.where(values > 0.0, values, np.nan)  # none at rest
-    if not np.isfinite(values).any():
-        return ""
-    ends = [of_points(data, f"{best}_{end}") for end in ("low", "high") if f"{best}_{end}" in data]
-
-    def number(i: int) -> str:
-        interval = [significant(float(end[i])) for end in ends if math.isfinite(end[i])]
-        return significant(float(values[i])) + (f" ({' to '.join(interval)})" if interval else "")
-
-    def at(i: int) -> str:
-        return f"{number(i)} at {names_at(data, every[i])}"
-
-    title = f"{HEADINGS[name]} {SYMBOLS[name]}"
-    every = list(places(data))
-    if values.size == 1:
-        return f"{title} is {number(0)}"
-    return f"{title} from {at(int(np.nanargmin(values)))} to {at(int(np.nanargmax(values)))}"
+        detail = "answer" if name.startswith("answer") else _model(data)
+        if view.interval_ends_of(data, name):
+            width = float(data[f"{name}_half_width"].max())
+            detail = f"answer; ± {percent_text(width)} (90 %)"
+        title = spelled_out(view.title(data[name]))
+        yield Card(f"{title[0].upper()}{title[1:]}", least_to_most(values), detail)
 
 
 def _model(data: xr.Dataset) -> str:
@@ -179,7 +134,7 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if LINES_TO_SURFACE in data.factor_label.values:
         yield ISOTROPY_ASSUMED
-    if has_intervals and not {"surface", "rubber"} & set(dimensions(data)):
+    if has_intervals and not {"surface", "rubber"} & set(view.dimensions(data)):
         yield "most of an interval is common to all points: their differences are known better"
     if INTERFACE in data:
         term = data[INTERFACE]
@@ -189,74 +144,43 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield "intervals leave out errors of the master curve"
 
 
-def study_table(data: xr.Dataset, most: int = _MOST_ROWS) -> Table:
+def study_table(data: xr.Dataset) -> Table:
     """Return area, friction and status of each prediction of a study, over what was varied."""
-    every = list(places(data))
-    shown_places = every[:most]
-
-    def each(name: str) -> Array:
-        return of_points(data, name)[:most]
-
-    columns = [
-        Column(axis, [name_of(data, axis, at[axis]) for at in shown_places], axis.replace("_", " "))
-        for axis in dimensions(data)
-    ]
-    keys = len(columns)
-    if BEYOND_SHIFT in data:
-        marks = [" *" if beyond else "" for beyond in each(BEYOND_SHIFT)]
-        columns[-1] = columns[-1].of(columns[-1].values, marks=marks)
-    columns += answer_columns(data, each)
-    if not is_estimated(data, "friction") and "total_friction_from_dissipation" in data:
-        lost = each("total_friction_from_dissipation")
-        columns.append(Column("friction_from_dissipation", lost, "μ", "losses"))
-    if ADHESIVE_FRICTION in data:
-        term = each(INTERFACE if INTERFACE in data else ADHESIVE_FRICTION)
-        area_term = Column("area_term", term, "μ", "area term")
-        if HYSTERESIS in data:
-            hysteresis = Column("hysteresis", each(HYSTERESIS), "μ", "hysteresis")
-            columns += [hysteresis, area_term]
-        else:
-            total = term + each("total_friction")
-            columns += [area_term, Column("friction_with_area_term", total, "μ", "with it")]
+    estimated, names = is_estimated(data, "friction"), view.answers(data)
+    names += [] if estimated else ["total_friction_from_dissipation"]
+    names += [name for name in (HYSTERESIS, INTERFACE) if name in data]
+    both = with_adhesive(data)
+    if not estimated and both is not None:
+        about = {"symbol": "μ with it", "long_name": "friction of hysteresis and area term"}
+        data = data.assign(friction_with_area_term=both.assign_attrs(about))
+        names += [ADHESIVE_FRICTION, "friction_with_area_term"]
+    columns = list(view.number_columns(data, [name for name in names if name in data]))
     if study_sentence(data):
-        shares = each(FRICTION_OUTSIDE_BAND)
-        columns.append(Column("outside_band", shares, "μ", "beyond band", format=percent))
-    status = [str(text) for text in each("prediction_status")]
-    columns.append(Column("status", status))
-    more = len(every) - len(shown_places)
-    notes = [f"{more} more predictions are in the result file."] if more else []
-    bad = [text != CONVERGED for text in status]
-    return Table("study", columns, "Predictions of the study", notes, keys=keys, bad=bad)
-
-
-def answer_columns(data: xr.Dataset, each: Callable[[str], ArrayLike]) -> Iterator[Column]:
-    """Yield friction and contact area with their intervals, by the numbers of each row."""
-    for name in reversed(SYMBOLS):
-        column = believed(data, name)
-        values = np.asarray(each(column))
-        # no friction at rest is none, not zero
-        yield Column(column, np.where(values == 0.0, math.nan, values), SYMBOLS[name])
-        if f"{column}_low" in data and data[f"{column}_low"].notnull().any():
-            ends = np.stack([each(f"{column}_{end}") for end in ("low", "high")], axis=1)
-            yield Column(f"{column}_interval", ends, "90 %")
+        share = view.at_places(data, FRICTION_OUTSIDE_BAND)
+        columns.append(Column("outside_band", share, "μ", "beyond band", format=percent))
+    table = view.table(data, columns, "study", "Predictions of the study")
+    if BEYOND_SHIFT not in data:
+        return table
+    marks = [" *" if beyond else "" for beyond in view.at_places(data, BEYOND_SHIFT)]
+    places = [*table.columns]
+    places[table.keys - 1] = replace(places[table.keys - 1], marks=marks)
+    return replace(table, columns=places)
 
 
 def shift_sentence(data: xr.Dataset) -> str:
     """Return which temperatures lie beyond the shift; empty if none does."""
     if BEYOND_SHIFT not in data or not bool(data[BEYOND_SHIFT].any()):
         return ""
-    flags = of_points(data, BEYOND_SHIFT)
+    flags = view.at_places(data, BEYOND_SHIFT)
     count = f"{int(flags.sum())} of {flags.size} predictions"
     return f"{count} lie beyond the temperatures of the shift of the rubber."
 
 
 def study_failures(data: xr.Dataset) -> Iterator[Failure]:
     """Yield each prediction that is not `converged`."""
-    for index in places(data):
-        row = data.isel(index)
+    for where, row in view.points(data):
         if (status := str(row[STATUS].values[()])) != CONVERGED:
             word = str(status_words(row).item())
-            where = names_at(data, index)
             yield Failure(f"{where}: NOT converged: {status or NONE}", word)
 
 
@@ -281,23 +205,20 @@ def study_findings(data: xr.Dataset) -> Iterator[Finding]:
 
 def study_page(data: xr.Dataset) -> Page:
     """Return the page of a study: answer, predictions and curves, then the inputs."""
-    labels = [axis.replace("_", " ") for axis in dimensions(data)]
-    failed, count = len(list(study_failures(data))), len(list(places(data)))
+    labels = [axis.replace("_", " ") for axis in view.dimensions(data)]
+    failed, count = len(list(study_failures(data))), data[STATUS].size
     counts = [
         Card("Predictions", str(count), " × ".join(labels)),
         Card("Not converged", str(failed), "see the table of predictions", bad=failed > 0),
     ]
-    return Page.of(
-        f"Study: {case_title(data.attrs)}",
-        f"varied: {', '.join(labels)}",
+    return view.page(
+        data,
+        (f"Study: {case_title(data.attrs)}", f"varied: {', '.join(labels)}"),
         study_findings(data),
         [*study_cards(data), *counts],
         [
-            Section("predictions", "Predictions", [study_table(data, count)]),
+            Section("predictions", "Predictions", [study_table(data)]),
             Section("curves", "Curves", [*map(image, study_pictures(data))]),
-            *input_sections(data),
-            method_section(json.loads(data.attrs.get(METHOD, "[]"))),
-            rerun_section(data.attrs),
         ],
-        (line.strip() for line in study_lines(data)),
+        study_lines(data),
     )

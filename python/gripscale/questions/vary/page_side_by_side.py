@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import math
 from abc import abstractmethod
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, ClassVar
@@ -18,17 +18,15 @@ from gripscale.charts.style import power_of_ten
 from gripscale.core.arrays import Array
 from gripscale.core.finding import sentences
 from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
-from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, significant
-from gripscale.model import METHOD, STATUS, input_doubts_of
-from gripscale.questions.answer.variables import believed, is_estimated
-from gripscale.questions.inputs.page import input_sections, rubbers_of, texture_table
+from gripscale.model import input_doubts_of
+from gripscale.questions import view
+from gripscale.questions.answer.variables import is_estimated
+from gripscale.questions.inputs.page import rubbers_of, texture_table
+from gripscale.questions.vary.friction_ratio import RANKED
 from gripscale.questions.vary.inputs import READING_NOTES, TEMPERATURE
-from gripscale.questions.vary.page import answer_columns
 from gripscale.questions.vary.question import Variation
-from gripscale.report.again import rerun_section
-from gripscale.report.elements import Card, Element, Page, Section, Text
-from gripscale.report.equations import method_section
+from gripscale.report.elements import Card, Page, Section, as_elements
 from gripscale.surface.surface import SURFACE_KIND
 
 if TYPE_CHECKING:
@@ -59,7 +57,7 @@ class SideBySide(Variation):
     @cached_property
     def friction(self) -> Array:
         """Friction of each [-]."""
-        return np.asarray(self.data[believed(self.data, "friction")].transpose(self.dim).values)
+        return np.asarray(self.data[view.answers(self.data)[0]].transpose(self.dim).values)
 
     @cached_property
     def order(self) -> list[int]:
@@ -96,7 +94,7 @@ class SideBySide(Variation):
         texts = {at: f"{self.names[at]} {significant(self.friction[at])}" for at in self.order}
         over = [f" over {texts[low]}{self._confidence(high, low)}" for high, low in steps]
         lines = [f"Answer: friction μ ranks {texts[self.order[0]]}{''.join(over)}."]
-        area = data[believed(data, "contact_fraction")].values
+        area = data[view.answers(data)[1]].values
         for high, low in steps:
             ratio, *ends = (
                 self._of_pair(f"friction_ratio{end}", high, low) for end in ("", "_low", "_high")
@@ -156,41 +154,32 @@ class SideBySide(Variation):
 
     def table(self) -> Table:
         """Return the answers by rank, each with its friction over that of the next."""
-        data, order = self.data, list(self.order)
-        order += [at for at in range(len(self.names)) if at not in order]
-
-        def over_next(name: str) -> list[float]:
-            return [*(self._of_pair(name, *pair) for pair in pairwise(order)), math.nan]
-
-        columns = [Column(self.dim, [self.names[at] for at in order], self.noun)]
-        columns += answer_columns(data, lambda name: data[name].values[order].tolist())
-        columns.append(Column("friction_ratio", over_next("friction_ratio"), "μ over the next"))
-        ends = [over_next(f"friction_ratio_{end}") for end in ("low", "high")]
-        if np.isfinite(ends).any():
-            sure = over_next("confidence")
-            columns += [
-                Column("friction_ratio_interval", np.stack(ends, axis=1), "90 %"),
-                Column("confidence", sure, "confidence", format=percent_sure),
-            ]
-        status = [str(data[STATUS].values[at]) for at in order]
-        bad = [text != CONVERGED for text in status]
-        columns += [Column("status", status)] if any(bad) else []
-        return Table(f"{self.dim}s", columns, f"{self.noun.capitalize()}s by friction", bad=bad)
+        order = self.order + [at for at in range(len(self.names)) if at not in self.order]
+        ranked, about = self.data.isel({self.dim: order}), {"symbol": "μ over the next"}
+        for name in RANKED:
+            values = [*(self._of_pair(name, *pair) for pair in pairwise(order)), math.nan]
+            ranked[f"{name}_over_next"] = (self.dim, values, about)
+        interval = {"interval": "friction_ratio_low_over_next friction_ratio_high_over_next"}
+        ranked["friction_ratio_over_next"].attrs |= interval
+        names = [*view.answers(ranked), "friction_ratio_over_next"]
+        columns = list(view.number_columns(ranked, names))
+        sure = ranked["confidence_over_next"].values
+        if np.isfinite(sure).any():
+            columns.append(Column("confidence", sure, "confidence", format=percent_sure))
+        caption = f"{self.noun.capitalize()}s by friction"
+        table = view.table(ranked, columns, f"{self.dim}s", caption)
+        return table if any(table.bad) else replace(table, columns=table.columns[:-1])
 
     @property
     def notes(self) -> Sequence[str]:
         """How inputs were read, and what was not measured."""
         return tuple(str(self.data.attrs.get(READING_NOTES, "")).splitlines())
 
-    def tables(self) -> list[Table]:
-        """Return the ranking, and the texture of surfaces."""
-        textured = "rms_height" in self.data
-        textures = [texture_table(self.data, self.dim, self.noun)] if textured else []
-        return [self.table(), *textures]
-
     def parts(self) -> Iterator[str | Table]:
         """Yield the ranking, the texture of surfaces, and notes."""
-        yield from self.tables()
+        yield self.table()
+        if "rms_height" in self.data:
+            yield texture_table(self.data, self.dim, self.noun)
         yield from (f"note: {note}" for note in self.notes)
 
     @abstractmethod
@@ -212,23 +201,17 @@ class SideBySide(Variation):
             )
             for high, low in zip(self.order, [*self.order[1:], None], strict=True)
         ]
-        elements: list[Element] = [
-            *self.tables(),
-            *map(Text, self.notes),
-            *map(image, self.pictures()),
-        ]
-        return Page.of(
-            f"{self.noun.capitalize()}s side by side: {', '.join(self.names)}",
-            str(data.attrs.get("title", "")),
+        ranking = [*as_elements(self.parts()), *map(image, self.pictures())]
+        return view.page(
+            data,
+            (
+                f"{self.noun.capitalize()}s side by side: {', '.join(self.names)}",
+                str(data.attrs.get("title", "")),
+            ),
             self.findings,
             cards,
-            [
-                Section(f"{self.dim}s", "Ranking", elements),
-                *input_sections(data),
-                method_section(json.loads(data.attrs.get(METHOD, "[]"))),
-                rerun_section(data.attrs),
-            ],
-            [line.strip() for line in self.lines],
+            [Section(f"{self.dim}s", "Ranking", ranking)],
+            self.lines,
         )
 
 

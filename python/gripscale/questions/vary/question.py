@@ -16,6 +16,7 @@ from gripscale.experiment.solve import OnTask
 from gripscale.half_space.model import JUDGED_TO
 from gripscale.io.table import Table
 from gripscale.model import STATUS, Model
+from gripscale.questions import view
 from gripscale.questions.result import Result
 from gripscale.questions.vary import page
 from gripscale.questions.vary.study import Study
@@ -24,6 +25,8 @@ from gripscale.report.failures import failures_in, first_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+MOST_PRINTED = 200  # predictions in the terminal; a page has all of them
 
 
 class Variation(Result):
@@ -50,7 +53,7 @@ class Variation(Result):
         return first_of(failed, self.data[STATUS].size, f"{self.noun}s")
 
     def parts(self) -> Iterator[str | Table]:
-        yield page.study_table(self.data)
+        yield view.first_rows(page.study_table(self.data), MOST_PRINTED)
 
     def table(self) -> Table:
         return page.study_table(self.data)

@@ -23,7 +23,7 @@ from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.model import input_doubts
 from gripscale.questions.answer.variables import believed
 from gripscale.questions.vary.answer_model import AnswerModel
-from gripscale.questions.vary.friction_ratio import FrictionRatio, answer_ratio
+from gripscale.questions.vary.friction_ratio import RANKED, FrictionRatio, answer_ratio
 from gripscale.questions.vary.inputs import (
     READING_NOTES,
     TEMPERATURE,
@@ -43,13 +43,6 @@ from gripscale.surface.texture import textures
 _SAME = 0.5  # temperatures that differ by less are one [K]: 20 °C and 293 K
 _PER_DECADE = 12  # lags and wavenumbers at which roads are drawn together
 FEWEST_COMPARED, MOST_COMPARED = 2, 6
-# Names and meanings of what is said of each pair.
-RANKED = {
-    "friction_ratio": "friction over that of `over`",
-    "friction_ratio_low": "low end of its 90 % interval",
-    "friction_ratio_high": "high end of its 90 % interval",
-    "confidence": "probability that the friction is larger than that of `over`",
-}
 
 
 def compare_compounds(
@@ -64,7 +57,7 @@ def compare_compounds(
     """Rank several compounds on the road of a case by the friction of their answers.
 
     Returns over `rubber` the numbers of the answer; over `rubber` and `over` the ratio of their
-    frictions and so on (`gripscale.questions.vary.ranking.RANKED`); friction by octave of
+    frictions and so on (`gripscale.questions.vary.friction_ratio.RANKED`); friction by octave of
     wavelength, `octave_friction`, and by decade of relaxation time, `friction_by_decade`.
 
     Raises `InputError` if there are fewer than two or more than six compounds, or they cannot be

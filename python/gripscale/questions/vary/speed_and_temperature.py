@@ -52,7 +52,6 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
         shift_factor=("temperature", rubber.shift.a(kelvin, reference), horizontal),
         vertical_shift_factor=("temperature", rubber.shift.b(kelvin, reference), vertical),
     )
-    speed = (result.speed * result.shift_factor).assign_attrs(
-        variable_attributes("reduced speed a_T v", "m/s")
-    )
+    about = variable_attributes("reduced speed", "m/s") | {"symbol": "a_T v"}
+    speed = (result.speed * result.shift_factor).assign_attrs(result.speed.attrs | about)
     return result.assign_coords({REDUCED_SPEED: speed})

@@ -1,4 +1,4 @@
-"""`python -m reproduction.page`: the figures and statements of docs/paper.md, made anew.
+"""`python -m studies.paper_page`: the figures and statements of docs/paper.md, made anew.
 
 What stands above the marks in the page is written by hand and kept.
 """
@@ -18,7 +18,7 @@ from reproduction.inputs import ROAD, TREAD
 from reproduction.run import FIGURES, reproduce
 from reproduction.statement import Statement, as_markdown, count
 
-MADE = "<!-- made by python -m reproduction.page -->"
+MADE = "<!-- made by python -m studies.paper_page -->"
 SHOWN, SHADES = 0.6, 64
 """Size of a figure on the page, of that for print, and its number of colours."""
 

@@ -1,4 +1,4 @@
-"""`python -m reproduction.whole`: the chain beside the direct contact of whole surfaces.
+"""`python -m studies.chain_and_whole`: the chain beside the direct contact of whole surfaces.
 
 Prints each line of the table as it is solved, and draws both models in the plane of contact
 fraction and friction. A minute of one core.
@@ -18,7 +18,7 @@ from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import COLOURS, GREY
 from reproduction.inputs import read_inputs
-from reproduction.whole_surfaces import Cases, Found, solved
+from studies.whole_surfaces import Cases, Found, solved
 
 
 def main() -> None:
