@@ -60,7 +60,8 @@ def _in_proposed_units(file: Taken, keys: FileKeys) -> tuple[Taken, list[str]]:
         units["channel"] = units["channel"][0]
     table, of_table = ("surface", keys.surface) if of_surface else ("layout", keys.layout)
     read_by: Any = {table: {**of_table, **units}}
-    return take(file.path, replace(keys, **read_by), file.kind), reasons
+    read = take(file.path, replace(keys, **read_by), file.kind)
+    return replace(read, columns=file.columns), reasons
 
 
 def parts_of(file: Taken, keys: FileKeys) -> Iterator[str | Table]:
