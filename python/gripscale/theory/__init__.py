@@ -2,7 +2,8 @@
 
 Modules: `elastic` (closed forms), `half_plane` (small-strain model of one sliding wave), `layers`
 (rubber of finite thickness), `brush` (a tread that sticks and slides), `persson` and
-`klueppel_heinrich` (rough surfaces). The material point under any history, `uniaxial_stress` and `simple_shear_stress`, is in `gripscale.rubber.finite_strain`.
+`klueppel_heinrich` (rough surfaces). The material point under any history, `uniaxial_stress` and
+`simple_shear_stress`, is in `gripscale.rubber.finite_strain`.
 """
 
 import lazy_loader
