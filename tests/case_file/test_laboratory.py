@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -194,6 +195,27 @@ def test_of_two_compounds_the_files_of_one_are_taken(tmp_path: Path) -> None:
     assert any(words in str(finding) for finding in silent.findings)
     stated = new_case([folder], folder / "s.toml", kinds={"B_curve.csv": "master-curve"})
     assert keys(stated)["rubber"]["file"] == "B_curve.csv"
+
+
+def test_a_terminal_asks_for_what_no_file_tells(
+    tmp_path: Path, shell: Shell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    texts = {"A.csv": COMPOUND["A_curve.csv"], "B.csv": COMPOUND["A_curve.csv"]}
+    folder, asked = folder_of(tmp_path / "two", texts), []
+    replies = iter(["3", "B.csv", "YES"])  # the first is no answer
+
+    def reply(text: str, **_: Any) -> str:
+        asked.append(text.partition("\n")[0])
+        return next(replies)
+
+    monkeypatch.setattr("typer.prompt", reply)
+    module = sys.modules["gripscale.cli.new"]  # the package has a command of this name
+    monkeypatch.setattr(module, "in_terminal", lambda: True)
+    outcome = shell("new", folder, "-o", folder / "case.toml")
+    assert outcome.exit_code == 0, outcome.output
+    assert [text.partition(" ")[0] for text in asked] == ["Which", "Which", "Is"]
+    rubber = tomllib.loads((folder / "case.toml").read_text(encoding="utf-8"))["rubber"]
+    assert (rubber["file"], rubber["filled"]) == ("B.csv", True)
 
 
 def test_friction_of_another_compound_is_left_out(tmp_path: Path) -> None:

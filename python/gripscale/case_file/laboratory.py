@@ -100,7 +100,7 @@ class Laboratory:
             common = [_in_common(file.path, rubbers[0].path) for file in files]
             nearest = [max(_in_common(file.path, r.path)[0] for r in rivals) for file in files]
             each = zip(files, common, nearest, strict=True)
-            far = [f for f, own, most in each if own < max(common) or own[0] < most]
+            far = [f for f, near, most in each if near < max(common) or near[0] < most]
             self.leave_out(far, f"by its name not of {rubbers[0].path.name}")
         if kind != "strain-sweep":
             self.choose(kind, [[file] for file in self.of(kind)], BY_A_FACTOR)

@@ -55,6 +55,7 @@ _COMMENT: dict[str, Any] = {
 }
 
 
+_IS_FILLED = "Is the rubber filled (carbon black, silica), as every tread is?"
 _WITHOUT_END = (
     "the rubber is taken to have no end; --thickness states where it ends on a rigid base: 8 mm of "
     "a new tread, 2 mm of a worn one, 5 mm of a sole"
@@ -199,10 +200,13 @@ def propose(
         rubber.findings.append(assumption(TENS_OF_PERCENT, _WITHOUT_END))
     else:
         rubber.add("thickness", thickness)
+    strain = [file.path for file in lab.of("strain-sweep")]
+    if filled is None and not strain and not names:
+        filled = {"yes": True, "no": False}.get(ask(_IS_FILLED, ("unknown", "yes", "no")))
     if filled is not None:
         rubber.add("filled", filled, "as stated")
     conditions = conditions_proposal(rubber, rubbers, kelvin)
-    if strain := [file.path for file in lab.of("strain-sweep")]:
+    if strain:
         add_softening(conditions, strain, [inside[path] for path in strain])
     if interface is not None:
         conditions.add("interface", interface, "as stated")
