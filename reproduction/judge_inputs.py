@@ -118,7 +118,7 @@ def judge_factors(inputs: Inputs) -> list[Statement]:
                 "largest rms residual of all",
                 f"{residuals} decades",
                 holds,
-                "other factors, or another surface",
+                f"{inputs.worst_fit(road)} fits worst",
             )
         )
     return statements
@@ -133,6 +133,8 @@ def _one_or_two(inputs: Inputs, road: str, two: float, one: float) -> Statement:
         f"amplitudes fall as wavelength^{exponent:.2f} on this road, so one "
         f"factor (exponent 1) is nearly right; on the paper's asphalt the exponent is {paper:.2f}"
     )
+    if two > TWO_FACTORS_RESIDUAL:
+        why = "waves of constant factors do not follow C_z of this surface"
     return Statement(
         "fig4",
         "two magnification factors fit C_z, one for both lengths does not",

@@ -109,7 +109,7 @@ def test_docs_have_every_figure_and_statement() -> None:
     """The numbers of the page are those of the machine that made it; the statements are here."""
     page = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
     made = page[page.index(MADE) :]
-    assert {f"paper_{figure}" for figure in FIGURES} == set(re.findall(r"paper_\w+", made))
+    assert {f"paper_{figure}" for figure in FIGURES} == set(re.findall(r"paper_fig\w+", made))
     inputs = read_inputs()
     for statement in (*judge_inputs.judge_factors(inputs), *judge_inputs.judge_correlation(inputs)):
         for text in (statement.criterion, statement.where, f"**{statement.verdict}**"):
