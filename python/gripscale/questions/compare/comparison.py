@@ -164,7 +164,7 @@ def comparison_setups(
             checks.positive("tolerance", tolerance),
             case.klueppel_heinrich,
             chain.pressure_classes,
-            continuation=case.continuation(),
+            continuation=replace(case.continuation(), conditions=conditions),
             conditions=conditions,
         )
         if case.chain.extrapolate == "refuse":
