@@ -376,8 +376,16 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
 
 
 def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
-    shift = source.shift
-    return read_shift_table(resolve(shift)) if isinstance(shift, str) else shift
+    shift: Shift | str | None = source.shift
+    if not isinstance(shift, str):
+        return shift
+    path = resolve(shift)
+    try:
+        return read_shift_table(path)
+    except InputError as error:
+        if error.missing != "temperature_unit" or source.temperature_unit is None:
+            raise
+        return read_shift_table(path, temperature_unit=source.temperature_unit)
 
 
 _EFFECTS = {field.name for field in fields(Conditions)} & ConditionsTable.model_fields.keys()
@@ -424,13 +432,18 @@ def _below_measurement(file: CaseFile) -> BelowMeasurement:
     return BelowMeasurement(table.down_to, roughness, table.seed)
 
 
-def case_chain(file: CaseFile) -> Chain:
-    """Return the chain of a case, without its conditions, which `Case` has."""
+def case_chain(file: CaseFile, conditions: Conditions | None = None) -> Chain:
+    """Return the chain of a case, under its own conditions where they are not given.
+
+    Raises `FileError` and `InputError` for conditions that cannot be used.
+    """
     case = file.case
+    conditions = conditions or prepare_conditions(case.conditions, file.resolve)
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
         extrapolate=case.rubber.extrapolate,
+        conditions=conditions and conditions.dry,
     )
 
 
@@ -466,7 +479,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
         with about_keys("measured"):
             friction = read_measured_friction(file.resolve(name))
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    chain = case_chain(file)
+    chain = case_chain(file, conditions)
     _require_few_points(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)

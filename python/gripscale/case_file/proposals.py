@@ -31,7 +31,14 @@ from gripscale.core import (
 )
 from gripscale.io.cells import SEPARATORS, cells_of, is_comment
 from gripscale.io.text_table import TextTable, is_excel, read_lines
-from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
+from gripscale.rubber import (
+    MasterCurve,
+    ShiftTable,
+    Sweeps,
+    read_master_curve,
+    read_shift_table,
+    read_sweeps,
+)
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
@@ -326,6 +333,15 @@ def open_strain_sweeps(paths: list[Path]) -> tuple[list[StrainSweep], dict[str, 
         sweeps = read(paths, **asked)
     softening_of_sweeps(sweeps)
     return sweeps, asked
+
+
+def open_shift(path: Path) -> tuple[ShiftTable, dict[str, str]]:
+    """Return shift factors, and the unit of their temperatures if nothing states it."""
+    table, asked = read_with(read_shift_table, path, UNITS_OF_RUBBER)
+    if asked and table.temperature.mean() > _HOTTEST:
+        asked = {"temperature_unit": "K"}
+        table = read_shift_table(path, **asked)
+    return table, asked
 
 
 def add_softening(proposal: Proposal, paths: list[Path], names: list[str]) -> None:

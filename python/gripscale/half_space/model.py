@@ -90,19 +90,13 @@ def _with_basis(
     what the step from lines to a surface needs is NaN.
     """
     longest = float(surface.sines.wavelength[0])
-    piece, line = PIECE * longest, LineUnderLoad(*[math.nan] * 3)
+    piece, line = PIECE * longest, LineUnderLoad(*[math.nan] * 4)
     measured = surface.measured
     if measured is not None and measured.map is None:
-        pressed = {"pressure": load.pressure, "speed": load.speed}
+        pressed = {"largest_wavelength": longest, "pressure": load.pressure, "speed": load.speed}
         lines = [
-            line_under_load(
-                profile,
-                contact.body.rubber,
-                largest_wavelength=longest,
-                by_scale=contact.by_scale,
-                **pressed,
-            )
-            for profile, contact in zip(measured.cleaned, contacts, strict=True)
+            line_under_load(profile, each.rubber, contact=each, **pressed)
+            for profile, each in zip(measured.cleaned, contacts, strict=True)
         ]
         line = LineUnderLoad(*np.average(np.array(lines), axis=0, weights=lengths))
     strains = [pressure_over_modulus(each.body, load.pressure, longest) for each in contacts]

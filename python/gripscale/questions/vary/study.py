@@ -85,8 +85,8 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
         values = np.array(axis.values) if numeric else np.array(axis.labels, dtype=object)
         attrs = variable_attributes(kind.long_name, kind.unit if numeric else "1")
         display = axis.display_unit(units)
-        given = kind.noun if display is None else display.unit
-        attrs |= {name: text for name, text in ((GIVEN, given), ("symbol", kind.symbol)) if text}
+        unit = kind.noun if display is None else display.unit
+        attrs |= {name: text for name, text in ((GIVEN, unit), ("symbol", kind.symbol)) if text}
         coords[axis.name] = xr.Variable(axis.name, values, attrs)
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
@@ -187,12 +187,12 @@ class Study:
     def _steep_waves(self) -> Iterator[str]:
         """Yield which varied factors make waves that take minutes, or have no solution."""
         for (number, *changes), surface in self._varied.items():
-            factors, own = dict(changes).get("factors"), self.surfaces[number].sines
+            factors, sines = dict(changes).get("factors"), self.surfaces[number].sines
             steepest = float(surface.sines.slope.max()) if factors else 0.0
             if factors and steepest > _STEEPEST:
                 fitted = ""
-                if own.s_wavelength is not None and own.s_amplitude is not None:
-                    fitted = f"; fitted are {own.s_wavelength:.3g} and {own.s_amplitude:.3g}"
+                if sines.s_wavelength is not None and sines.s_amplitude is not None:
+                    fitted = f"; fitted are {sines.s_wavelength:.3g} and {sines.s_amplitude:.3g}"
                 yield (
                     f"  factors {factors[0]:.3g} and {factors[1]:.3g} make waves of slope "
                     f"{steepest:.2g}: steeper than {_STEEPEST:g} they take minutes or have no "
