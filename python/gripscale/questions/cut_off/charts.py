@@ -16,61 +16,42 @@ from gripscale.questions.cut_off.curve import AREA, CONTACT_SLOPE, FRICTION, SLO
 _CURVES = {
     FRICTION: ("friction $\\mu$ [-]", ORANGE),
     AREA: ("contact area $A_r/A_0$ [-]", BLUE),
+    SLOPE_IN_CONTACT: ("rms slope in contact [-]", GREY),
 }
 _SAME = 0.01  # relative distance of two rules that lie on each other in a figure
 
 
 def cut_off_sheet(data: xr.Dataset) -> draw.Sheet:
-    """Describe friction, contact and the slope in contact over the same cut-offs."""
-    layout = {"sharex": True, "height_ratios": [1.2, 1.0, 0.8]}
-    panels = cut_off_panels(data)
-    return draw.Sheet(panels, 1, WIDE, 6.6, gap=0.03, legend_columns=2, layout=layout)
+    """Describe friction, contact and the slope in contact over the same cut-offs.
 
-
-def cut_off_panels(data: xr.Dataset) -> list[chart.Panel]:
-    """Return friction, contact and slope in contact over the cut-off."""
-    lengths = data.cut_off.values / MILLI
-    axis = replace(
+    Curves are solid where the roughness was measured and dotted where it is continued.
+    """
+    lengths, measured = data.cut_off.values / MILLI, data.curve_measured.values.astype(bool)
+    x = replace(
         chart.wavelength_axis(lengths), label="cut-off: shortest wavelength of the surface [mm]"
     )
-    rules = list(_rules(data))
+    below = ~measured | np.append(~measured[1:], False)  # from the last measured point on
+    parts = (measured, "solid", "measured roughness"), (below, "dotted", "continued roughness")
     panels = []
     for name, (label, colour) in _CURVES.items():
+        first, values = name == FRICTION, data[name].values
+        marks: list[chart.Mark] = [
+            chart.Series(lengths[where], values[where], colour, words * first, dash, marker="o",
+                         size=3.0)
+            for where, dash, words in parts
+            if where.any()
+        ]  # fmt: skip
+        if name == SLOPE_IN_CONTACT:
+            marks.append(chart.CrossLine(CONTACT_SLOPE))
+        else:
+            low, high = (data[f"{name}_{end}"].values for end in ("lower", "upper"))
+            words = "90 % band of the continuation" * first
+            marks.insert(0, chart.ShadedBand(lengths, low, high, colour, words))
         area = name == AREA
-        low, high = (data[f"{name}_{end}"].values for end in ("lower", "upper"))
-        words = "" if area else "90 % band of the continuation"
-        band = chart.ShadedBand(lengths, low, high, colour, words)
-        panel = chart.Panel(
-            axis,
-            chart.PlotAxis(label, log=area, low=None if area else 0.0),
-            [band, *_curve(data, name, colour), *rules],
-        )
-        panels.append(panel)
-    unlabelled = (replace(rule, label="") for rule in rules)
-    slope = chart.Panel(
-        axis,
-        chart.PlotAxis("rms slope in contact [-]", low=0.0),
-        [*_curve(data, SLOPE_IN_CONTACT, GREY), chart.CrossLine(CONTACT_SLOPE), *unlabelled],
-    )
-    return [*panels, slope]
-
-
-def _curve(data: xr.Dataset, name: str, colour: str) -> Iterator[chart.Mark]:
-    """Yield a curve, solid where it was measured and dotted where it is continued.
-
-    That of the friction is in the legend.
-    """
-    lengths, values = data.cut_off.values / MILLI, data[name].values
-    measured = data.curve_measured.values.astype(bool)
-    below = ~measured | np.append(~measured[1:], False)  # from the last measured point on
-    for where, dash, label in (
-        (measured, "solid", "measured roughness"),
-        (below, "dotted", "continued roughness"),
-    ):
-        if where.any():
-            x, y = lengths[where], values[where]
-            words = label if name == FRICTION else ""
-            yield chart.Series(x, y, colour, words, dash, marker="o", size=3.0)
+        y = chart.PlotAxis(label, log=area, low=None if area else 0.0)
+        panels.append(chart.Panel(x, y, [*marks, *_rules(data)]))
+    layout = {"sharex": True, "height_ratios": [1.2, 1.0, 0.8]}
+    return draw.Sheet(panels, 1, WIDE, 6.6, gap=0.03, legend_columns=2, layout=layout)
 
 
 def _rules(data: xr.Dataset) -> Iterator[chart.CrossLine]:

@@ -51,6 +51,7 @@ if TYPE_CHECKING:
 DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
 # The two moduli: heading of a column, name of the derivative, and symbol.
 _MODULI = (("loss", LOSS, "E″"), ("storage", STORAGE, "E′"))
+_BY = "d_ln_friction_d_"
 # Ends of the names of derivatives by one number, with their headings and units.
 SCALARS = {
     "ln_pressure": ("pressure", "1"),
@@ -123,10 +124,6 @@ class Sensitivity(Result):
         if STORAGE not in self.data:
             return
         yield self.table()
-        if self._has_feedback:
-            columns = [self._points_column(), *self._scalar_columns(FEEDBACK)]
-            title = "The same where strain and temperature of the rubber follow the change"
-            yield Table("feedback", columns, title, keys=1)
         yield self.decades_table()
         if "rule" not in self.data.dims:
             yield (
@@ -144,11 +141,22 @@ class Sensitivity(Result):
 
     def table(self) -> Table:
         """Return the derivatives by each input, the moduli summed over frequency."""
-        sums = {name: self.data[name].sum("frequency").values.ravel() for _, name, _ in _MODULI}
-        moduli = [Column(key, sums[name], symbol, format=signed) for key, name, symbol in _MODULI]
-        columns = [self._points_column(), *moduli, *self._scalar_columns("")]
+        listed = list(points(self.data))
+        columns = [Column("point", [text for text, _ in listed], "")]
+        for key, name, symbol in _MODULI:
+            sums = self.data[name].sum("frequency").values.ravel()
+            columns.append(Column(key, sums, symbol, format=signed))
         notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
-        if self.data.attrs["iterated"] and not self._has_feedback:
+        for end, group in (("", ""), (FEEDBACK, "with feedback")):
+            for name, (heading, unit) in SCALARS.items():
+                values = [float(point.get(f"{_BY}{name}{end}", np.nan)) for _, point in listed]
+                size, unit_text = (0.01, "%/K") if unit == "1/K" else (1.0, "")
+                if np.isfinite(values).any():
+                    column = Column(f"{name}{end}", values, heading, unit_text, size, format=signed)
+                    columns.append(column.of(values, group=group))
+        if f"{_BY}ln_speed{FEEDBACK}" in self.data:
+            notes.append("With feedback strain and temperature of the rubber follow the change.")
+        elif self.data.attrs["iterated"]:
             notes.append("Strain and temperature of the rubber stay; with feedback they follow.")
         return Table("sums", columns, "What the friction depends on", notes, keys=1)
 
@@ -204,22 +212,6 @@ class Sensitivity(Result):
                 rerun_section(self.data.attrs),
             ],
         )
-
-    @property
-    def _has_feedback(self) -> bool:
-        return f"d_ln_friction_d_ln_speed{FEEDBACK}" in self.data
-
-    def _points_column(self) -> Column:
-        return Column("point", [text for text, _ in points(self.data)], "")
-
-    def _scalar_columns(self, end: str) -> Iterator[Column]:
-        """Yield the derivatives by single numbers that are known, with an end of their names."""
-        for name, (heading, unit) in SCALARS.items():
-            variable = f"d_ln_friction_d_{name}{end}"
-            if variable in self.data and np.isfinite(self.data[variable].values).any():
-                values = [float(point[variable]) for _, point in points(self.data)]
-                size, unit_text = (0.01, "%/K") if unit == "1/K" else (1.0, "")
-                yield Column(f"{name}{end}", values, heading, unit_text, size, format=signed)
 
 
 @overload

@@ -17,12 +17,6 @@ from gripscale.core.units import celsius
 
 def slip_sheet(data: xr.Dataset) -> Sheet:
     """Describe the braking force over slip, a panel for each kind of friction."""
-    panels = slip_panels(data)
-    return Sheet(panels, len(panels), WIDE, 3.6, legend_columns=4, layout={"sharey": True})
-
-
-def slip_panels(data: xr.Dataset) -> list[Panel]:
-    """Return the braking force over slip, a panel for each kind of friction."""
     highest = 1.08 * float(data.force.max())
     each = [*product(range(data.sizes["temperature"]), range(data.sizes["speed"]))]
     colours = style.colours(len(each), ordered=len(each) > 1)
@@ -40,11 +34,7 @@ def slip_panels(data: xr.Dataset) -> list[Panel]:
                 words.append(f"{3.6 * float(curve.speed):.3g} km/h")
             bands.append(ShadedBand(slip, low, high, colour))
             curves.append(Series(slip, value, colour, ", ".join(words)))
-        panel = Panel(
-            PlotAxis("slip [%]", low=0.0, high=100.0),
-            PlotAxis("braking force over load [-]", low=0.0, high=highest),
-            [*bands, *curves],
-            title=str(kind),
-        )
-        panels.append(panel)
-    return panels
+        x = PlotAxis("slip [%]", low=0.0, high=100.0)
+        y = PlotAxis("braking force over load [-]", low=0.0, high=highest)
+        panels.append(Panel(x, y, [*bands, *curves], title=str(kind)))
+    return Sheet(panels, len(panels), WIDE, 3.6, legend_columns=4, layout={"sharey": True})

@@ -97,25 +97,18 @@ class SlipCurve(Result):
 
     def parts(self) -> Iterator[str | Table]:
         yield self.table()
-        yield self.formulas_table()
 
-    def _rows(self) -> tuple[xr.Dataset, list[Column]]:
-        """Return the curves over `row`, and the columns that name them."""
+    def table(self) -> Table:
+        """Return peak, braking distances and formulas of vehicle models of each curve."""
         temperature = self.data.temperature.fillna(0.0)
         data = self.data.drop_vars(TABLE).assign_coords(temperature=temperature)
         rows = data.stack(row=("kind", "temperature", "speed"))
         kelvin = np.where(rows.temperature > 0.0, rows.temperature, np.nan)
-        return rows, [
+        value, ends = rows.sel(bound="value"), rows.peak.sel(bound=["low", "high"])
+        columns = [
             Column("friction", rows.kind.values.tolist()),
             Column("temperature", kelvin - ZERO_CELSIUS, "T", "°C"),
             Column("speed", rows.speed.values, "v", "km/h", 1.0 / 3.6),
-        ]
-
-    def table(self) -> Table:
-        """Return peak, slip at the peak, locked value and braking distances of each curve."""
-        rows, columns = self._rows()
-        value, ends = rows.sel(bound="value"), rows.peak.sel(bound=["low", "high"])
-        columns += [
             Column("peak", value.peak.values, "peak"),
             Column("peak_interval", ends.transpose("row", ...).values, "90 %"),
             Column("peak_slip", value.peak_slip.values, "at slip", "%", 0.01),
@@ -124,25 +117,22 @@ class SlipCurve(Result):
         for brake in BRAKES:
             distance = value.braking_distance.sel(brake=brake).values
             columns.append(Column(f"distance_{brake}", distance, brake, "m"))
-        note = f"Forces over the load; distances from {self._braking}, at the peak or locked."
-        return Table("slip", columns, "Braking", [note], keys=1)
+        notes = [f"Forces over the load; distances from {self._braking}, at the peak or locked."]
+        for name, formula in FORMULAS.items():
+            words = name.replace("_", " ").capitalize()
+            notes.append(f"{words}: {formula.text}; rms over the peak.")
+            for parameter in self.data[f"{name}_parameter"].values:
+                values = rows[name].sel({f"{name}_parameter": parameter}).values
+                as_percent = ("%", 0.01) if parameter == MISFIT else ()
+                column = Column(f"{name}_{parameter}", values, parameter, *as_percent)
+                columns.append(column.of(values, group=words))
+        return Table("slip", columns, "Braking", notes, keys=3)
 
     @property
     def _braking(self) -> str:
         """From which speed to which the distances go."""
         fast, slow = (f"{3.6 * v:.3g}" for v in self.data.attrs["braking"])
         return f"{fast} to {slow} km/h"
-
-    def formulas_table(self) -> Table:
-        """Return the parameters of Burckhardt's formula and of the Magic Formula."""
-        rows, columns = self._rows()
-        for name in FORMULAS:
-            for parameter in self.data[f"{name}_parameter"].values:
-                values = rows[name].sel({f"{name}_parameter": parameter}).values
-                as_percent = ("%", 0.01) if parameter == MISFIT else ()
-                columns.append(Column(f"{name}_{parameter}", values, parameter, *as_percent))
-        notes = [*(f"{formula.text}." for formula in FORMULAS.values()), "rms: over the peak."]
-        return Table("formulas", columns, "Formulas of vehicle models", notes, keys=1)
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
         yield "slip", slip_sheet(self.data)
@@ -168,7 +158,6 @@ class SlipCurve(Result):
         )
         sections = [
             Section("curves", "Force over slip", [image(chart), self.table()]),
-            Section("formulas", "For vehicle models", [self.formulas_table()]),
             rerun_section(self.data.attrs),
         ]
         title = f"Braking force over slip of {case_title(self.data.attrs)}"

@@ -20,7 +20,7 @@ from gripscale.questions.answer.variables import (
     of_hysteresis,
 )
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
-from gripscale.questions.view import axis_of as axis_and_values
+from gripscale.questions.view import plot_axis
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -145,7 +145,7 @@ def _distribution(
 
 def band_figure(data: xr.Dataset, axis: str) -> Figure:
     """Draw the answer over what is varied, and medians with bands of 50 and 90 % of samples."""
-    abscissa, x = axis_and_values(data[axis])
+    abscissa, x = plot_axis(data[axis])
     panels = []
     for name, label in _TOTALS.items():
         marks: list[Mark] = []

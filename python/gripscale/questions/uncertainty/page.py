@@ -30,7 +30,7 @@ from gripscale.questions.uncertainty.next_measurement import next_measurements
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
-from gripscale.questions.view import place
+from gripscale.questions.view import name_at
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Element, Page, Section, Text, as_elements
 from gripscale.report.failures import Failure, explained, failures_in
@@ -59,12 +59,12 @@ def loads_of(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
         yield "", data
         return
     for at in range(data.sizes[axis]):
-        yield f"{axis} {place(data, axis, at)}", data.isel({axis: at})
+        yield f"{axis} {name_at(data, axis, at)}", data.isel({axis: at})
 
 
 def answer_table(data: xr.Dataset, axis: str) -> Table:
     """Return the answer at each load."""
-    labels = [place(data, axis, at) for at in range(data.sizes[axis])]
+    labels = [name_at(data, axis, at) for at in range(data.sizes[axis])]
     columns = [Column(axis, labels)]
     for name, symbol in HEADS.items():
         best = believed(data, name)
