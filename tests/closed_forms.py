@@ -36,6 +36,31 @@ def largest_pressure(
     return 2.0 * load_per_length / (math.pi * half_width)
 
 
+def contact_fraction(pressure_ratio: ArrayLike) -> Array:
+    """Return the contact length over the wavelength [-] of a sine at p/p* [-]; 1 from p* on.
+
+    H. M. Westergaard, J. Appl. Mech. 6 (1939) A49; in this form K. L. Johnson, Contact Mechanics
+    (1985), sec. 13.2: sin^2(pi a/lambda) = p/p*.
+    """
+    ratio = np.minimum(np.asarray(pressure_ratio, dtype=float), 1.0)
+    return np.asarray(2.0 / np.pi * np.arcsin(np.sqrt(ratio)))
+
+
+def contact_pressure(
+    x: ArrayLike, *, wavelength: float, pressure: float, full_contact_pressure: float
+) -> Array:
+    """Return Westergaard's contact pressure [Pa] at `x` [m], the crest at 0; zero out of contact.
+
+    p(x) = 2 p cos(psi)/sin^2(psi_a) sqrt(sin^2(psi_a) - sin^2(psi)), psi = pi x/lambda.
+    """
+    psi = np.pi * np.asarray(x, dtype=float) / wavelength
+    if pressure >= full_contact_pressure:
+        return np.asarray(pressure + full_contact_pressure * np.cos(2.0 * psi))
+    edge = pressure / full_contact_pressure
+    root = np.sqrt(np.maximum(edge - np.sin(psi) ** 2, 0.0))
+    return np.asarray(2.0 * pressure / edge * np.abs(np.cos(psi)) * root)
+
+
 def step_relaxation_stress(rubber: Rubber, *, stretch: float, time: ArrayLike) -> Array:
     """Return the nominal stress [Pa] of an incompressible bar at `time` [s] after a step.
 

@@ -1,8 +1,6 @@
 from .brush import Brush as Brush
 from .brush import BrushForce as BrushForce
 from .brush import brush_force as brush_force
-from .elastic import contact_fraction as contact_fraction
-from .elastic import contact_pressure as contact_pressure
 from .elastic import full_contact_friction as full_contact_friction
 from .elastic import full_contact_pressure as full_contact_pressure
 from .elastic import plane_strain_modulus as plane_strain_modulus

@@ -1,20 +1,4 @@
-"""Closed forms of one sine: Westergaard's partial contact, pressure and friction in full contact.
-
-An elastic half-plane pressed on a rigid sine in part: Westergaard's contact.
-
-Geometry: plane strain, frictionless, small slope, wave z = A cos(2 pi x/lambda), crest at x = 0.
-
-Nomenclature: p mean pressure, p* = pi E/(1-nu^2) A/lambda the pressure of full contact
-(`full_contact_pressure`), psi = pi x/lambda, psi_a the same at the contact edge.
-
-    sin^2(psi_a) = p/p*                              contact fraction = (2/pi) psi_a
-    p(x) = 2 p cos(psi) / sin^2(psi_a) sqrt(sin^2(psi_a) - sin^2(psi))
-    p(0) = 2 p / sin(psi_a)                          the largest pressure
-
-Source: H. M. Westergaard, J. Appl. Mech. 6 (1939) A49; in this form K. L. Johnson, Contact
-Mechanics (1985), sec. 13.2, doi:10.1017/CBO9781139171731.
-
-A rubber half-plane that fills a rigid sine completely: pressure and friction in closed form.
+"""A rubber half-plane that fills a rigid sine completely: pressure and friction in closed form.
 
 Geometry: plane strain, wave z = A cos(k x), k = 2 pi/lambda, small slope, no adhesion; the rubber
 slides over it with speed v, so that every point is excited at w = k v.
@@ -33,41 +17,8 @@ pressure then is p + k A |M| / 2 cos(k x + phase), which must not be negative.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from gripscale.core import Array, InputError, Quantity, checks
-
-
-def contact_fraction(pressure_ratio: ArrayLike) -> Array:
-    """Return the contact length over the wavelength [-] at p/p* [-], same shape; 1 from p* on.
-
-    Raises `InputError` for a negative ratio or NaN.
-    """
-    ratio = checks.array(pressure_ratio, "pressure_ratio must be numbers not negative")
-    if not (ratio >= 0.0).all():
-        raise InputError(
-            f"pressure_ratio must not be negative; got {checks.short_repr(pressure_ratio)}"
-        )
-    return np.asarray(2.0 / np.pi * np.arcsin(np.sqrt(np.minimum(ratio, 1.0))))
-
-
-def contact_pressure(
-    x: ArrayLike, *, wavelength: Quantity, pressure: Quantity, full_contact_pressure: Quantity
-) -> Array:
-    """Return the contact pressure [Pa] at `x` [m], same shape; zero out of contact.
-
-    The crest is at x = 0; `pressure` is the mean and `full_contact_pressure` p* [Pa]. Raises
-    `InputError` if an argument is not a positive finite number.
-    """
-    length = checks.positive("wavelength", wavelength, unit="m")
-    mean = checks.positive("pressure", pressure, unit="Pa")
-    full = checks.positive("full_contact_pressure", full_contact_pressure, unit="Pa")
-    psi = np.pi * checks.real("x", x, unit="m") / length
-    if mean >= full:
-        return np.asarray(mean + full * np.cos(2.0 * psi))
-    edge = mean / full
-    root = np.sqrt(np.maximum(edge - np.sin(psi) ** 2, 0.0))
-    return np.asarray(2.0 * mean / edge * np.abs(np.cos(psi)) * root)
+from gripscale.core import InputError, Quantity, checks
 
 
 def plane_strain_modulus(youngs_modulus: complex, poisson_ratio: float) -> complex:
