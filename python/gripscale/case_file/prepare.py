@@ -60,7 +60,6 @@ from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
-from gripscale.surface.resampling import of_fewer_points
 
 Resolve = Callable[[str], Path]
 # What the files of a surface hold, before any cleaning.
@@ -191,8 +190,6 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
                 replace(line, name=f"{line.name} {name}")
                 for line, name in zip(lines, names, strict=True)
             ]
-        if isinstance(surface.cut_off, float):
-            lines = [of_fewer_points(line, surface.cut_off) for line in lines]
         if surface.reliable is None:
             return lines
         return [replace(line, reliable=surface.reliable) for line in lines]

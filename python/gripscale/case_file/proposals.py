@@ -58,7 +58,7 @@ _Measurement = TypeVar("_Measurement")
 _STATED = "as stated"
 _SCALES = 8  # waves of a surface that states none, as in `gripscale fit-surface`
 _CUT_OFF = "instrument"  # where its roughness ends: where the measurement does
-_ENOUGH_POINTS = 2**18  # of a line in a contact that is solved within a minute
+_ENOUGH_POINTS = 2**18  # of a line: its contact takes minutes with more
 ROOM = 293.15  # temperature taken where neither a file nor the caller states one [K]
 # Effects of what is taken for granted on the friction [-]: tens of per cent, a factor, or it is the
 # friction of another road or rubber.
