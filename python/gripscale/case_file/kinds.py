@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -136,7 +136,8 @@ def _seems(path: Path, keys: FileKeys) -> list[str]:
         return ["prony"]
     titled: set[str | None] = set()
     with suppress(GripscaleError):
-        blocks = read_blocks(path, layout, temperature_unit="C", most=ENOUGH_LINES)
+        of_titles = replace(layout, frequency=None)
+        blocks = read_blocks(path, of_titles, temperature_unit="C", most=ENOUGH_LINES)
         titled = {quantity(name) for block in blocks for name in block.table.names}
         titled |= {"loss" for block in blocks if other_content(block.table)}
     if "strain" in titled and holds_strain_sweeps(path):
