@@ -87,11 +87,10 @@ class CompoundDesign(Result):
             wet = data.attrs.get("wet_condition", "10 Hz and 0 °C")
             notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
 
-        def of_all(share: float) -> str:
-            return f"{100.0 * share:.0f} %"
-
         columns += [
-            Column("limited_share", data.limited_share.values, "at a limit", format=of_all),
+            Column(
+                "limited_share", data.limited_share.values, "at a limit", format="{:.0%}".format
+            ),
             Column("gap", data.gap.values, "left to gain", format=change),
         ]
         title = "Trade-off: each row is the admissible compound of most friction"
@@ -119,13 +118,10 @@ class CompoundDesign(Result):
 
 
 def _gain_columns(data: xr.Dataset, of: str, heading: str) -> list[Column]:
-    def unsigned_zero(value: float) -> str:
-        return change(round(value, 4) + 0.0)
-
     rolling = data[f"{of}rolling_ratio"].values - 1.0
     ends = np.column_stack([data[f"{of}gain_{end}"].values for end in ("low", "high")])
     return [
-        Column("rolling_change", rolling, heading, format=unsigned_zero),
+        Column("rolling_change", rolling, heading, format=change),
         Column("gain", data[f"{of}gain"].values, "friction gained", format=change),
         Column("gain_interval", ends, "90 % interval", format=change),
     ]
