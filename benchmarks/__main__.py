@@ -23,6 +23,7 @@ from benchmarks import (
     rival,
     rough_contact,
     scaling,
+    sizes,
     slip,
     sparse_factor,
     sweep,
@@ -45,10 +46,11 @@ SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
     "slip": lambda console, _: slip.run(console),
     "rival": lambda console, _: rival.run(console),
     "scaling": lambda console, figures: scaling.run(console, figures / "cost.png"),
+    "sizes": lambda console, _: sizes.run(console),
     "large_maps": lambda console, _: rough_contact.run(console, large=True),
     "sparse_factor": lambda console, _: sparse_factor.run(console),
 }
-ON_REQUEST = {"large_maps", "sparse_factor"}
+ON_REQUEST = {"large_maps", "sizes", "sparse_factor"}
 """Minutes, gigabytes or a compiler: only if asked for."""
 
 

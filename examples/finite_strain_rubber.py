@@ -11,14 +11,20 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+from matplotlib.figure import Figure
+
 from gripscale.charts import save_figure
-from gripscale.questions import finite_strain_figure
+from gripscale.charts.chart import Mark, Note, Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
+from gripscale.charts.style import COLOURS, GREY
 from gripscale.rubber import (
     FiniteStrainFit,
     UniaxialTest,
     fit_finite_strain,
     read_uniaxial_test,
     rms_error,
+    uniaxial_stress,
 )
 
 DATA = Path(__file__).parent / "data" / "rubber" / "finite_strain_vhb"
@@ -73,6 +79,35 @@ def table(fits: dict[str, FiniteStrainFit]) -> list[str]:
         }
         lines += [f"| {label} | {what} | " + " | ".join(row) + " |" for what, row in rows.items()]
     return lines
+
+
+def finite_strain_figure(fits: dict[str, FiniteStrainFit]) -> Figure:
+    """Draw nominal stress [kPa] against stretch, one panel for each test, with labelled fits.
+
+    The errors of the fits stand in their colours.
+    """
+    dashes = ("solid", "solid", "dashed", "dotted", "dashdot", "solid")
+    panels = []
+    for number, test in enumerate(next(iter(fits.values())).tests):
+        measured = test.stress / 1e3
+        marks: list[Mark] = [
+            Series(test.stretch, measured, GREY, "measured", "", marker="o", size=3.0,
+                   filled=False),
+            Note(0.03, 0.97, "error: rms, work lost", frame="xy", top=True),
+        ]  # fmt: skip
+        looks = zip(fits.items(), COLOURS, dashes, strict=False)
+        for row, ((label, fit), colour, dash) in enumerate(looks, 1):
+            stress = uniaxial_stress(fit.rubber, test.time, test.stretch) / 1e3
+            marks.append(Series(test.stretch, stress, colour, label, dash, width=1.1))
+            rms, work = 100.0 * fit.rms_errors[number], 100.0 * fit.work_errors[number]
+            text = f"{rms:.1f} %, {work:+.0f} %"
+            marks.append(Note(0.03, 0.97 - 0.075 * row, text, colour, frame="xy", top=True))
+        top = float(np.max(measured))
+        ends = min(0.0, float(np.min(measured))) - 0.04 * top, 1.25 * top
+        stress_axis = PlotAxis("nominal stress $P$ [kPa]", False, *ends)
+        panels.append(Panel(PlotAxis("stretch $s$ [-]"), stress_axis, marks, test.name))
+    height = 2.6 * -(-len(panels) // 2) + 0.3
+    return Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02).on_paper()
 
 
 def main(folder: str = "results/finite_strain") -> None:

@@ -10,12 +10,13 @@ and would become part of the law.
 
 The law is fitted to pairs of lines, since two lines is what a measurement often has:
 
-    ln(map / mean of the pair) = a_0 + a_1 t + a_2 (T / P)^(1/3),
+    ln(map / mean of the pair) = a_0 + a_1 t + a_2 (T / P)^(1/3) + a_3 S,
 
-with upper height t, tail T and relative load P of the pair. A pair that meets a summit has the
-larger friction and the larger tail: a law of the mean of all lines would count it twice. Each seed
-has a rubber and three pressures, every other family the lower ones. Half an hour of one core;
-solved maps are kept in the output folder, and a stopped run goes on.
+with upper height t, tail T, relative load P and softening S of the pair. A pair that meets a summit
+has the larger friction and the larger tail: a law of the mean of all lines would count it twice.
+Each seed has a rubber and three pressures, every other family the lower ones. The fourth rubber is
+softened as measured. Half an hour of one core; solved maps are kept in the output folder, and a
+stopped run goes on.
 """
 
 from __future__ import annotations
@@ -109,7 +110,7 @@ class SolvedMap:
     area: float
     friction: float
     lines: list[list[float]]
-    """Upper height, tail and relative load of the lines that converged."""
+    """Upper height, tail, relative load and softening of the lines that converged."""
     line_areas: list[float]
     line_frictions: list[float]
     line_errors: list[list[float]]
@@ -197,7 +198,7 @@ def solve_map(
         whole.contact_fraction,
         whole.friction_from_dissipation,
         [
-            list(map(float, line_under_load(line, material, by_scale=part.by_scale, **load)))
+            list(map(float, line_under_load(line, material, contact=part, **load)))
             for line, part in usable
         ],
         [part.contact_fraction for _, part in usable],
@@ -262,8 +263,8 @@ class FittedLaw:
             for family in {m.family for m in maps}
         }
         held_out = [_residuals(m, quantity, without[m.family]) for m in maps]
-        constant, slope, tail = numbers.tolist()
-        law = RatioLaw(constant, slope, tail, *scatter_of(maps, quantity, held_out))
+        scatter = scatter_of(maps, quantity, held_out)
+        law = RatioLaw(*np.append(numbers, scatter).tolist())
         residuals = [_residuals(m, quantity, numbers) for m in maps]
         return cls(quantity, law, maps, residuals, held_out)
 
@@ -289,7 +290,7 @@ def scatter_of(
     """
     sampling = np.array([np.mean(m.sampling_errors(quantity) ** 2) for m in maps])
     squares = np.array([np.mean(part**2) for part in missed]) - sampling
-    summits = np.array([np.mean(m.pairs[:, -1] ** 2) for m in maps])
+    summits = np.array([np.mean(m.pairs[:, 2] ** 2) for m in maps])
     columns, variance = np.column_stack([np.ones_like(summits), summits]), np.ones_like(summits)
     for _ in range(20):
         parts, _ = nnls(columns / variance[:, None], squares / variance)
@@ -306,7 +307,7 @@ def freedom_of(fitted: FittedLaw) -> float:
     """
     squares: dict[str, list[float]] = {}
     for m, missed in zip(fitted.maps, fitted.held_out, strict=True):
-        variance = fitted.law.scatter**2 + (fitted.law.tail_scatter * m.pairs[:, -1]) ** 2
+        variance = fitted.law.scatter**2 + (fitted.law.tail_scatter * m.pairs[:, 2]) ** 2
         variance += m.sampling_errors(fitted.quantity) ** 2
         squares.setdefault(m.family, []).append(float(np.mean(missed**2 / variance)))
     means = np.array([np.mean(each) for each in squares.values()])
@@ -365,9 +366,12 @@ def summary(fitted: FittedLaw) -> Iterator[str]:
     """Yield the law, its scatter, and the correlations of what it misses."""
     law = fitted.law
     of_maps = np.array([residual.mean() for residual in fitted.residuals])
-    yield (f"ln(map/lines) = {law.constant:+.3f} {law.slope:+.3f} t {law.tail:+.3f} (T/P)^(1/3)")
+    yield (
+        f"ln(map/lines) = {law.constant:+.3f} {law.slope:+.3f} t {law.tail:+.3f} (T/P)^(1/3) "
+        f"{law.softening:+.3f} S"
+    )
     ends = np.max([m.line.columns for m in fitted.maps], axis=0)
-    yield f"largest t and (T/P)^(1/3): {', '.join(f'{end:.1f}' for end in ends)}"
+    yield f"largest t, (T/P)^(1/3) and S: {', '.join(f'{end:.1f}' for end in ends)}"
     yield (
         f"estimates from pairs of lines: rms {_rms(fitted.residuals):.3f} about the law, "
         f"{_rms(fitted.held_out):.3f} about laws without the family, of which the choice of lines "

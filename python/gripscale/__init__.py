@@ -4,6 +4,7 @@ From a surface profile and a DMA master curve, through superposed sine waves, to
 viscoelastic contact solution of every wave (Lind & Wangenheim, ASME IMECE2014-37998).
 """
 
+from types import FunctionType
 from typing import Any
 
 import lazy_loader
@@ -17,4 +18,19 @@ def __getattr__(name: str) -> Any:
         from gripscale.core.provenance import version_of
 
         return version_of("gripscale")
-    return _lazy(name)
+    item = _lazy(name)
+    for function in (item, getattr(item, "__init__", None)):
+        if isinstance(function, FunctionType):
+            texts = function.__annotations__.items()
+            texts = {key: _Plain(text) for key, text in texts if isinstance(text, str)}
+            function.__annotations__ |= texts
+    return item
+
+
+class _Plain(str):
+    """The text of an annotation, which `help` shows without quotation marks."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return str(self)

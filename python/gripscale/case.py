@@ -37,8 +37,8 @@ from gripscale.core.units import (
     stated_units,
 )
 from gripscale.experiment.measured_friction import MeasuredFriction
-from gripscale.experiment.task import canonical_json
-from gripscale.model import FOOTPRINT, Load, LoadTime, load_doubts
+from gripscale.experiment.task import Task, canonical_json
+from gripscale.model import FOOTPRINT, Load, LoadTime, Model, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import (
@@ -299,6 +299,10 @@ class Case(Described):
         # the text of a file is that of another case
         kept["origin"] = Origin(self.origin.name, units=self.origin.units)
         return Case(**(self._arguments | kept | changes))
+
+    def task(self, model: Model | None = None) -> Task:
+        """Return how the case is predicted: by a model as it stands, or by its chain of waves."""
+        return Task(self.rubber, self.surface, self.load, self.chain if model is None else model)
 
     @property
     def softening_doubts(self) -> Sequence[Finding]:

@@ -288,13 +288,16 @@ SAMPLING_ERRORS = {
 }
 SAMPLING_FREEDOM = "total_freedom"
 STEEP_SHARE, MISSING_SHARE = "total_steep_share", "total_missing_share"
-LINE_UNDER_LOAD = "total_upper_height", "total_tail", "total_relative_load"
+LINE_UNDER_LOAD = tuple(
+    f"total_{n}" for n in ("upper_height", "tail", "relative_load", "softening")
+)
 PRESSURE_OVER_MODULUS = "total_pressure_over_modulus"
 # Names of what an answer from a measured surface rests on, where a model tells it.
 BASIS = SAMPLING_ERRORS | {
     "total_upper_height": "height that 1 % of the measured lines exceed, over the rms height",
     "total_tail": "height that 0.5 % of the lines exceed less that of 2 %, over the rms height",
     "total_relative_load": "pressure times largest wave, over modulus times rms height of lines",
+    "total_softening": "ln of E' of the lines over that at twice their strain, smallest wave",
     PRESSURE_OVER_MODULUS: "nominal pressure over |E*| of a seventh of the largest wave",
     SAMPLING_FREEDOM: "degrees of freedom of the sampling errors",
     STEEP_SHARE: "share of the friction from contact on slopes above 1",

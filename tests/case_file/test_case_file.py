@@ -184,7 +184,7 @@ WRONG = [
     (
         "scales = 8",
         'scales = 8\nspikes = "no"',
-        'spikes = \'no\': expected "isolated", "iso13473"',
+        'spikes = \'no\': expected "isolated" or "iso13473"',
     ),
     ('["road.dat"]', "[]", "[surface] files = []: expected a list of at least 1, each a text"),
     (

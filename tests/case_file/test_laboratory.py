@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -112,6 +113,7 @@ KINDS = {
         "1\t0.9\t0.1\t21\n10\t1.1\t0.1\t21\n",
         "friction",
     ),
+    "friction whose temperature has no unit": ("v [m/s],mu,T\n1,0.9,20\n2,1,20\n", "unused"),
     "a prediction": (PREDICTION, "unused"),
     "remarks": ("measured on 3 May by the laboratory\n", "unused"),
 }  # fmt: skip
@@ -195,12 +197,55 @@ def test_of_two_compounds_the_files_of_one_are_taken(tmp_path: Path) -> None:
     assert keys(stated)["rubber"]["file"] == "B_curve.csv"
 
 
+def test_a_terminal_asks_for_what_no_file_tells(
+    tmp_path: Path, shell: Shell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    texts = {"A.csv": COMPOUND["A_curve.csv"], "B.csv": COMPOUND["A_curve.csv"]}
+    folder, asked = folder_of(tmp_path / "two", texts), []
+    replies = iter(["3", "B.csv", "YES"])  # the first is no answer
+
+    def reply(text: str, **_: Any) -> str:
+        asked.append(text.partition("\n")[0])
+        return next(replies)
+
+    monkeypatch.setattr("typer.prompt", reply)
+    module = sys.modules["gripscale.cli.new"]  # the package has a command of this name
+    monkeypatch.setattr(module, "in_terminal", lambda: True)
+    outcome = shell("new", folder, "-o", folder / "case.toml")
+    assert outcome.exit_code == 0, outcome.output
+    assert [text.partition(" ")[0] for text in asked] == ["Which", "Which", "Is"]
+    rubber = tomllib.loads((folder / "case.toml").read_text(encoding="utf-8"))["rubber"]
+    assert (rubber["file"], rubber["filled"]) == ("B.csv", True)
+
+
+def test_friction_of_another_compound_is_left_out(tmp_path: Path) -> None:
+    other = {"B_curve.csv": COMPOUND["A_curve.csv"], "B_friction.csv": FRICTION}
+    names = {name: text for name, text in COMPOUND.items() if name != "A_friction.csv"}
+    folder = folder_of(tmp_path / "both", names | other)
+    case = new_case([folder], folder / "case.toml", kinds={"A_curve.csv": "master-curve"})
+    assert "measured" not in keys(case)
+    why = next(file.why for file in case.files if file.path.name == "B_friction.csv")
+    assert why == "friction; by its name not of A_curve.csv"
+
+
 def test_friction_may_state_temperature_and_pressure(tmp_path: Path) -> None:
     text = "v [mm/s],mu,T [C],pressure [kPa]\n1,0.8,35,200\n10,1.0,35,200\n100,1.1,35,200\n"
     folder = folder_of(tmp_path / "A", COMPOUND | {"A_friction.csv": text})
     found = keys(new_case([folder], folder / "case.toml"))
     assert found["conditions"]["temperature"] == "35 C"
     assert (found["load"]["pressure"], found["load"]["speed"]) == ("2 bar", "0.01 m/s")
+
+
+@pytest.mark.parametrize(("zero", "unit"), [(0.0, "C"), (273.15, "K")])
+def test_the_unit_of_the_shift_factors_is_proposed(tmp_path: Path, zero: float, unit: str) -> None:
+    titles, *rows = shifts("temperature,a_T").splitlines()
+    bare = [f"{float(t) + zero:.2f},{a}" for t, a in (row.split(",") for row in rows)]
+    text = "\n".join([titles, *bare])
+    folder = folder_of(tmp_path / "A", COMPOUND | {"A_shift.csv": text})
+    case = new_case([folder], folder / "case.toml")
+    assert keys(case)["rubber"]["temperature_unit"] == unit
+    assert keys(case)["rubber"]["reference_temperature"] == "40 C"
+    assert any("the shift factors do not state it" in str(finding) for finding in case.findings)
 
 
 def test_a_ramp_takes_the_shift_factors(tmp_path: Path) -> None:

@@ -75,23 +75,10 @@ def public_functions() -> Iterator[PublicFunction]:
 
 
 def _theory() -> Iterator[PublicFunction]:
-    hertz = {"load_per_length": 1.0, "radius": 1.0, "plane_strain_modulus": 1e6}
     full = {"plane_strain_modulus": 1e6 + 1e5j, **WAVE}
-    yield PublicFunction(theory.contact_fraction, {"pressure_ratio": 0.5})
-    yield PublicFunction(theory.contact_half_width, hertz)
-    yield PublicFunction(theory.largest_pressure, hertz)
-    yield PublicFunction(theory.crest_radius, WAVE)
-    pressures = {"pressure": 1e5, "full_contact_pressure": 2e5}
-    yield PublicFunction(
-        theory.contact_pressure, {"x": [0.0, 1e-4], "wavelength": 1e-3, **pressures}
-    )
     yield PublicFunction(theory.full_contact_pressure, full)
     yield PublicFunction(theory.full_contact_friction, {**full, "pressure": 1e6})
     yield PublicFunction(theory.plane_strain_modulus, {"youngs_modulus": 1e6, "poisson_ratio": 0.5})
-    slab = {"depth": 1e-3, "youngs_modulus": 1e6, "poisson_ratio": 0.49}
-    yield PublicFunction(theory.slab_compliance, {"wavenumber": [1e3, 2e3], **slab})
-    step = {"rubber": SOLID, "stretch": 1.5, "time": [0.0, 1.0]}
-    yield PublicFunction(theory.step_relaxation_stress, step)
     small = {"load_time": np.inf, "points": 64, "poisson_ratio": None, "most_iterations": 20}
     yield PublicFunction(theory.solve_half_plane, {"rubber": SOLID, **WAVE, **PRESSED, **small})
     yield PublicFunction(
@@ -124,9 +111,7 @@ def _rubber() -> Iterator[PublicFunction]:
     words = {"reference_temperature": 293.0, "name": "", "source": ""}
     yield PublicFunction(gs.MasterCurve, {**curve, **words})
     fit = {"terms": 3, "bulk_modulus": 2e9, "outlier_threshold": 8.0, "extrapolate_decades": 1.0}
-    yield PublicFunction(
-        gs.fit_prony, {"master": MASTER, **fit, "smoothing": 0.1, "loss_weight": 1.0}, slow=True
-    )
+    yield PublicFunction(gs.fit_prony, {"master": MASTER, **fit, "smoothing": 0.1}, slow=True)
     one, several = {"equilibrium_moduli": [1e6], "moduli": [[1e6]]}, {"relaxation_times": [1.0]}
     yield PublicFunction(rubber.AdmissibleSeries, several | one)
     yield PublicFunction(rubber.MooneyRivlin, {"share": 0.2})

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale.half_space.regions import periodic_regions
-from gripscale.theory import thin_film
+from tests import closed_forms
 from tests.half_space.rough_cases import isotropic_map, solve
 
 SQUARE = (1e-5, 1e-5)
@@ -37,7 +37,7 @@ def test_a_parallel_gap_flows_as_reynolds_says() -> None:
 def test_a_sine_across_and_along(amplitude: float) -> None:
     angle = 2.0 * np.pi * np.arange(64) / 64
     gap = np.tile(1e-6 * (1.0 + amplitude * np.sin(angle)), (12, 1))
-    across, along = (thin_film.flow_factor_across, thin_film.flow_factor_along)
+    across, along = (closed_forms.flow_factor_across, closed_forms.flow_factor_along)
     for turned, order in ((gap, 1), (gap.T, -1)):
         expected = (along(amplitude), across(amplitude))[::order]
         flow = gs.gap_flow(turned, spacing=(1e-5, 2e-5)[::order])
@@ -53,7 +53,7 @@ def test_gaussian_roughness_as_patir_and_cheng(ratio: float) -> None:
     for seed in range(3):
         gap = np.maximum(ratio + np.maximum(gaussian_heights(192, 5.0, seed), -3.0), 0.0)
         factors += gs.gap_flow(gap * 1e-6, spacing=SQUARE).flow_factor
-    assert np.mean(factors) == pytest.approx(thin_film.patir_cheng_flow_factor(ratio), rel=0.05)
+    assert np.mean(factors) == pytest.approx(closed_forms.patir_cheng_flow_factor(ratio), rel=0.05)
 
 
 def dense_flow_factor(gap: NDArray[np.float64]) -> float:

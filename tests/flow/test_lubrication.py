@@ -9,7 +9,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.flow import GapCurve, gap_curve, inclined_block, squeeze_out, wet_friction
-from gripscale.theory import thin_film
+from tests.closed_forms import stefan_time
 from tests.half_space.rough_cases import isotropic_map
 from tests.samples import ZENER
 
@@ -35,7 +35,7 @@ def test_parallel_plates_thin_as_stefan_says() -> None:
     water = squeeze_out(PLATES, film=1e-3, length=LENGTH, pressure=LOAD)
     for film in (5e-4, 1e-4, 1e-5):
         time = float(np.interp(-film, -water.mean_gap, water.time))
-        expected = thin_film.stefan_time(LENGTH, LOAD, VISCOSITY, 1e-3, film)
+        expected = stefan_time(LENGTH, LOAD, VISCOSITY, 1e-3, film)
         assert time == pytest.approx(expected, rel=1e-2)
 
 

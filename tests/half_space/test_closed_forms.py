@@ -11,11 +11,11 @@ import scipy.fft
 import gripscale as gs
 from gripscale.surface import HeightMap, Profile
 from gripscale.theory import (
-    contact_fraction,
     full_contact_pressure,
     plane_strain_modulus,
     solve_half_plane,
 )
+from tests.closed_forms import contact_fraction
 from tests.samples import ROOT
 
 from .rough_cases import (

@@ -83,18 +83,6 @@ def test_closed_form_solves_the_boundary_value_problem(modulus: complex, bulk: f
     np.testing.assert_allclose(compliance(0.01, number, modulus, bulk), expected, rtol=1e-11)
 
 
-@pytest.mark.parametrize("depth", [0.1, 0.2, 0.4, 1.0, 3.0])
-def test_closed_form_is_that_of_an_elastic_slab(depth: float) -> None:
-    number, modulus, bulk = np.array([2.0 * np.pi]), 6e6, 2e7
-    shear = modulus / 3.0
-    ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
-    expected = gs.theory.slab_compliance(
-        number, depth=depth, youngs_modulus=2.0 * shear * (1.0 + ratio), poisson_ratio=ratio
-    )
-    value = compliance(depth, number, modulus, bulk)
-    np.testing.assert_allclose(value, expected, rtol=1e-12)
-
-
 def test_limits_are_half_space_thin_sheet_and_oedometer() -> None:
     compression = shear_and_compression(np.full(1, 6e6 + 1e6j), BULK)[1]
     assert thickness_factor(np.array([1e4]), compression)[0] == 1.0

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.conditions.conditions import RubberByScale
+from gripscale.conditions.conditions import Conditions
 from gripscale.core.errors import InputError
 from gripscale.half_space import line_to_map
+from gripscale.rubber.softening import softening_of_sweeps
+from gripscale.rubber.strain_sweeps import StrainSweep
 from tests.verification.families import tread
 
 WAVE = 0.01
@@ -74,7 +76,7 @@ def test_reach_is_one_at_the_end_of_the_fit() -> None:
 
 
 def test_limits() -> None:
-    for line in ((1.0, 0.1, 0.3), (2.3, 0.5, 0.01), (4.0, 1.5, 1.0)):
+    for line in ((1.0, 0.1, 0.3, 0.0), (2.3, 0.5, 0.01, 0.3), (4.0, 1.5, 1.0, 0.0)):
         reach = line_to_map.LineUnderLoad(*line)
         area = line_to_map.contact_fraction_ratio(reach, [1e-6, 1.0])
         assert area.ratio == pytest.approx(
@@ -104,17 +106,32 @@ def test_relative_load_is_dimensionless() -> None:
 
 
 def test_softened_rubber_is_pressed_harder() -> None:
-    """The modulus that counts is that of the largest wave, as it slides."""
-    x = 1e-4 * np.arange(6400)
-    line = gs.Profile(x, 1e-3 * np.sin(2.0 * np.pi * x / WAVE))
-    load = {"largest_wavelength": WAVE, "pressure": 3e5, "speed": 0.3}
-    number, ones = np.array([0.1, 10.0]) * 2.0 * math.pi / WAVE, np.ones(2)
-    half = RubberByScale(RUBBER, number, ones, ones, 0.5 * ones, 0.5 * ones)
-    as_measured = line_to_map.line_under_load(line, RUBBER, **load)
-    softened = line_to_map.line_under_load(line, RUBBER, by_scale=half, **load)
+    """The modulus that counts is that of the largest wave as it slides, and what a map adds."""
+    x = 1e-4 * np.arange(1024)
+    line = gs.Profile(x, 3e-4 * np.sin(2.0 * np.pi * x / WAVE))
+    sweep = StrainSweep([1e-3, 1e-2, 1e-1, 1.0], [2e6, 1.6e6, 1.2e6, 0.8e6], [2e5] * 4)
+    softening = softening_of_sweeps([sweep], measured_at=1e-3)
+    load = {"pressure": 3e5, "speed": 0.3}
+    contact = gs.solve_rough_contact(
+        RUBBER, line, **load, smallest_wavelength=1e-3, conditions=Conditions(softening=softening)
+    )
+    load["largest_wavelength"] = WAVE
+    before = line_to_map.line_under_load(line, RUBBER, **load)
+    softened = line_to_map.line_under_load(line, RUBBER, contact=contact, **load)
+    assert contact.by_scale is not None
+    assert contact.scales is not None
+    number = 2.0 * math.pi / WAVE
+    slid = contact.by_scale.complex_modulus(0.3 * number, number)
+    kept = abs(complex(slid)) / abs(complex(RUBBER.complex_modulus(0.3 * number)))
+    assert kept < 0.9
     # the bulk modulus, which does not soften, is in the plane-strain modulus by 1 in 1,000
-    assert softened.relative_load == pytest.approx(2.0 * as_measured.relative_load, rel=2e-3)
-    assert softened[:2] == as_measured[:2]
+    assert softened.relative_load == pytest.approx(before.relative_load / kept, rel=1e-2)
+    assert softened[:2] == before[:2]
+    number = 2.0 * math.pi / 1e-3
+    strain = np.interp(math.log(number), np.log(contact.scales.wavenumber), contact.scales.strain)
+    less, more = softening.factors(np.array([strain, 2.0 * strain])).storage
+    assert (before.softening, softened.softening) == (0.0, pytest.approx(math.log(less / more)))
+    assert softened.softening > 0.02
 
 
 @pytest.mark.parametrize("pressure", [2e4, 3e5])

@@ -13,8 +13,9 @@ from gripscale.conditions import Conditions, ConstantStress
 from gripscale.half_space.model import DirectContact
 from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.report.elements import Equation, Text
-from gripscale.report.equations import draw_equations, method_equations, method_section
+from gripscale.report.equations import method_equations, method_section
 from gripscale.theory import Persson
+from tests.report.draw_equations import drawn
 
 EVERY = pytest.mark.parametrize("equation", method_equations(), ids=lambda equation: equation.name)
 
@@ -28,13 +29,13 @@ def test_picture_is_of_its_equation(equation: Equation) -> None:
 def test_picture_is_what_matplotlib_draws() -> None:
     first = method_equations()[0]
     size = r'width="([\d.]+)pt" height="([\d.]+)pt"'
-    drawn, stored = (
+    new_size, stored = (
         re.search(size, text)
-        for text in (draw_equations(first.latex), base64.b64decode(first.data).decode("utf-8"))
+        for text in (drawn(first.latex), base64.b64decode(first.data).decode("utf-8"))
     )
-    assert drawn is not None
+    assert new_size is not None
     assert stored is not None
-    for new, old in zip(drawn.groups(), stored.groups(), strict=True):
+    for new, old in zip(new_size.groups(), stored.groups(), strict=True):
         assert float(new) == pytest.approx(float(old), rel=0.02)
 
 

@@ -42,7 +42,6 @@ CALLS = {
     "shift_from_dict kind": lambda v: gr.shift_from_dict({"kind": v}),
     "Sweeps.temperature": lambda v: gr.Sweeps(v, *MADE),
     "Sweeps.tolerance": lambda v: gr.Sweeps([300.0], *MADE, v),
-    "Sweeps.between": lambda v: SWEEPS.between(v, 10.0),
     "sweeps_from_ramps": lambda v: gr.sweeps_from_ramps(
         [300.0, 310.0], [1.0] * 2, [1.0] * 2, [1.0] * 2, step=v
     ),
@@ -63,7 +62,7 @@ CALLS = {
     "read_sweeps.temperature": lambda v: gs.read_sweeps(FILE, temperature=v),
     "read_sweeps.temperature_step": lambda v: gs.read_sweeps(FILE, temperature_step=v),
     "read_sweeps.sheet": lambda v: gs.read_sweeps(FILE, sheet=v),
-    "read_strain_sweep": gr.read_strain_sweep,
+    "read_strain_sweeps": gr.read_strain_sweeps,
     "StrainSweep.deformation": lambda v: gr.StrainSweep(*MADE, v),
     "read_shift_table": gr.read_shift_table,
     "write_shift_table": lambda v: gr.write_shift_table("nowhere/shift.csv", v),

@@ -5,7 +5,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.rubber import blocks
-from gripscale.rubber.many_rows import MOST_ROWS, PER_DECADE, thinned
+from gripscale.rubber.many_rows import MOST_ROWS, ROWS_PER_DECADE, thinned
 
 
 def moduli(hertz):
@@ -27,7 +27,7 @@ TITLES = "f [Hz]\tE' [Pa]\tE'' [Pa]"
 def test_of_many_rows_some_of_each_decade_are_kept_as_measured(tmp_path):
     hertz = np.geomspace(1e-2, 1e2, 3 * MOST_ROWS)
     master = gs.read_master_curve(write(tmp_path / "log.txt", [([TITLES], hertz)]))
-    assert len(master) == 4 * PER_DECADE + 1
+    assert len(master) == 4 * ROWS_PER_DECADE + 1
     assert master.storage == pytest.approx(moduli(master.frequency)[0], rel=1e-5)
     assert np.diff(np.log10(master.frequency)) == pytest.approx(0.01, abs=0.006)
     assert master.notes == (

@@ -55,14 +55,14 @@ def test_a_gaussian_surface_has_the_waves_and_the_slope_it_should() -> None:
 def lawful(family: str, seed: int, heights: list[float], pressure: float = 3e5) -> SolvedMap:
     """Return a map whose area is small and that of its lines by a law; likewise its friction.
 
-    ln f = -0.1 - 0.2 t - 0.03 (T / P)^(1/3), with the means of the lines.
+    ln f = -0.1 - 0.2 t - 0.03 (T / P)^(1/3) + 0.9 S, with the means of the lines.
     """
     relative, t = pressure / 1e6 * (1.0 + len(family) / 10.0), float(np.mean(heights))
     tail = 0.1 + 0.2 * (seed % 3) + 0.05 * len(family)
-    few = np.cbrt(tail / relative)
-    area = 1e-6 * np.exp(-0.1 - 0.2 * t - 0.03 * few)
+    few, softening = np.cbrt(tail / relative), 0.1 * (len(family) % 3)
+    area = 1e-6 * np.exp(-0.1 - 0.2 * t - 0.03 * few + 0.9 * softening)
     friction = 0.2 * np.exp(-0.3 + 0.15 * t + 0.02 * few)
-    lines = [[height, tail, relative] for height in heights]
+    lines = [[height, tail, relative, softening] for height in heights]
     contacts = [[number] * len(heights) for number in (1e-6, 0.2)]
     errors = [[0.0, 0.0, 8.0]] * len(heights)
     return SolvedMap(family, seed, "tread", pressure, 0.3, area, friction, lines, *contacts, errors)
@@ -78,6 +78,7 @@ def test_a_law_without_scatter_comes_back() -> None:
     assert fitted.law.constant == pytest.approx(-0.1)
     assert fitted.law.slope == pytest.approx(-0.2, rel=1e-4)
     assert fitted.law.tail == pytest.approx(-0.03, rel=1e-4)
+    assert fitted.law.softening == pytest.approx(0.9, rel=1e-4)
     assert fitted.law.scatter == pytest.approx(0.0, abs=1e-4)
     assert fitted.law.tail_scatter == pytest.approx(0.0, abs=1e-4)
     assert FittedLaw.of(maps, "friction").law.slope == pytest.approx(0.15)

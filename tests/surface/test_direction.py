@@ -18,8 +18,9 @@ from gripscale.surface.direction import (
     direction_of_profiles,
 )
 from tests.samples import ZENER
-from tests.verification.known_surfaces import LARGEST, SMALLEST, surface, two_lines
+from tests.verification.known_surfaces import LARGEST, surface, two_lines
 
+SMALLEST = 0.4e-3
 LAGS = 0.5 * SMALLEST, 0.25 * LARGEST
 
 

@@ -222,7 +222,12 @@ def test_a_map_with_a_trailer(tmp_path: Path, name: str) -> None:
 
 @pytest.mark.parametrize(
     "titles",
-    ["q (1/m),C (m^4)", "Spatial frequency (1/m),Power spectral density (m^3)", "Wavelength,PSD"],
+    [
+        "q (1/m),C (m^4)",
+        "Spatial frequency (1/m),Power spectral density (m^3)",
+        "Wavelength,PSD",
+        "wavenumber q [1/m],areal spectrum C(q) [m^4]",
+    ],
 )
 def test_a_spectrum_is_named_as_one(tmp_path: Path, titles: str) -> None:
     path = tmp_path / "spectrum.csv"

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.surface import resample
+from gripscale.surface import Profile, resample, resampling
+from gripscale.surface.resampling import of_fewer_points
 
 RANDOM = np.random.default_rng(5)
 X = np.cumsum(RANDOM.uniform(0.5e-4, 1.5e-4, 400))
@@ -76,3 +77,17 @@ def test_it_carries_no_more_than_was_measured():
 def test_bad_arguments_are_refused(change, says):
     with pytest.raises(InputError, match=says):
         resample(**({"x": X, "z": sine(X), "step": 1e-4} | change))
+
+
+def test_a_very_long_line_below_a_coarse_cut_off_is_its_medians(monkeypatch):
+    x = 1e-6 * np.arange(5003)
+    z = 1e-5 * np.sin(2.0 * np.pi * x / 8e-5)
+    z[100] += 1.0  # a single spike
+    line = Profile(x, z, "long")
+    assert of_fewer_points(line, 8e-5) is line
+    monkeypatch.setattr(resampling, "MANY_POINTS", 5000)
+    few = of_fewer_points(line, 8e-5)
+    assert few.step == pytest.approx(5e-6)
+    assert few.z == pytest.approx(1e-5 * np.sin(2.0 * np.pi * few.x / 8e-5), abs=5e-7)
+    assert few.notes == ("medians of 5 neighbours each stand for 5003 heights",)
+    assert of_fewer_points(line, 2e-5) is line

@@ -16,7 +16,7 @@ from gripscale.rubber import (
     uniaxial_stress,
 )
 from gripscale.rubber.finite_strain import network_states
-from gripscale.theory import step_relaxation_stress
+from tests.closed_forms import step_relaxation_stress
 
 LAWS = [NeoHookean(), MooneyRivlin(0.4), Yeoh(-0.05, 0.004)]
 SERIES = {"moduli": [3e6, 5e6, 2e6], "relaxation_times": [0.03, 0.4, 5.0]}

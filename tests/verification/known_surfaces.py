@@ -34,12 +34,14 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.status import Status
-from gripscale.experiment.design import solve_design
+from gripscale.experiment.design import Design, Point, solve_design
 from gripscale.experiment.solve import Bench
+from gripscale.experiment.task import Task
 from gripscale.half_space import RoughContact
+from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.questions import Factor, LogNormalValue
-from gripscale.questions.answer.direct_contact import direct_contact_design
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_samples
+from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.rubber import styrene_butadiene
 from gripscale.rubber.softening import softening_of_sweeps
@@ -53,8 +55,8 @@ from tests.verification.known_families import LARGEST, RIDGED, SHAPE, STEP, surf
 
 Array = NDArray[np.float64]
 
-CUT_OFF, SMALLEST = 0.8e-3, 0.4e-3
-"""Cut-offs of isotropic surfaces and of ridges [m]; a line crosses shorter waves, too."""
+CUT_OFF = 0.8e-3
+"""Cut-off [m]; a line crosses shorter waves, too."""
 UNSEEN = (*known_families.FAMILIES, *INTERMITTENT)
 """Families that no law was fitted to; of the others seeds that it was not fitted to."""
 FITTED = tuple(surface_families.FAMILIES)
@@ -75,6 +77,8 @@ TOLERANCE, MOST_POINTS = 0.05, 2**20
 larger still, four times as many changed two areas by 0 and 2 %, the frictions by less than 1 %."""
 SOLVED = (Status.CONVERGED, Status.TOLERANCE_NOT_MET)
 QUANTITIES = ("area", "friction")
+ROUNDING = 1e-4
+"""Half-width of full contact, whose interval has none: a grid tells no smaller difference."""
 KEPT = ROOT / "results" / "known_surfaces"
 TRUTHS, LINES = KEPT / "truths.json", KEPT / "lines.json"
 
@@ -87,7 +91,6 @@ class Known(NamedTuple):
     pressure: float
     speed: float
     rubber: str = "tread"
-    cut_off: float = CUT_OFF
 
     @property
     def map(self) -> HeightMap:
@@ -146,7 +149,7 @@ def contact(which: Known, whole: HeightMap) -> RoughContact:
         whole,
         pressure=which.pressure,
         speed=which.speed,
-        smallest_wavelength=which.cut_off,
+        smallest_wavelength=CUT_OFF,
         periodic=True,
         workers=1,
         tolerance=TOLERANCE,
@@ -228,8 +231,8 @@ SMALL_STRAIN = Factor("finite_strain", "none", LogNormalValue(1.0, 0.0), LogNorm
 def lines_from_files(which: Known) -> xr.Dataset:
     """Return the direct contacts of two lines, from their files.
 
-    Without the errors of the series of the rubber and of its softening, which the truth has, too:
-    they would widen the interval by what cannot go wrong here.
+    Without alternatives: errors of the series of the rubber and of its softening, which the truth
+    has, too, would widen the interval by what cannot go wrong here.
     """
     with tempfile.TemporaryDirectory() as folder:
         profiles = [gs.read_profile(path) for path in written(which, which.map, Path(folder))]
@@ -238,15 +241,20 @@ def lines_from_files(which: Known) -> xr.Dataset:
         rubber(which.rubber),
         pressure=which.pressure,
         speed=which.speed,
-        smallest_wavelength=which.cut_off,
+        smallest_wavelength=CUT_OFF,
         cleaning={},
         conditions=which.conditions,
     )
-    design = direct_contact_design(case, case.load)
-    assert design is not None
+    direct = DirectContact(tolerance=JUDGED_TO, conditions=case.conditions)
+    lines = each_measured(case.surface)
+    points = [
+        Point((at,), name, Task(case.rubber, line, case.load, direct))
+        for at, (name, line) in enumerate(lines)
+    ]
+    subjects = {"subject": ("sample", [name for name, _ in lines])}
+    design = Design({"sample": len(points)}, points, subjects)
     samples = solve_design(design, Bench(None), sample_numbers)
-    parts = [name for name in samples.data_vars if samples[name].dims == ("sample",)]
-    return samples[parts].drop_vars("condition", errors="ignore")
+    return samples[[name for name in samples.data_vars if samples[name].dims == ("sample",)]]
 
 
 def lines_of(which: Known, anew: bool, path: Path = LINES) -> xr.Dataset:
@@ -285,7 +293,7 @@ class Judged:
     @property
     def half_widths(self) -> float:
         """Magnitude of the miss, in half-widths."""
-        return abs(self.miss) / self.estimate.half_width
+        return abs(self.miss) / max(self.estimate.half_width, ROUNDING)
 
 
 def judged(surfaces: Iterable[Known], anew: bool = True) -> dict[str, list[Judged]]:
@@ -360,7 +368,7 @@ def main() -> None:
     surfaces = all_known()
     if options.ridges:
         loads = product(RIDGED, range(4))
-        surfaces = [Known(family, seed, 3e5, 0.3, cut_off=SMALLEST) for family, seed in loads]
+        surfaces = [Known(family, seed, 3e5, 0.3) for family, seed in loads]
     for name, results in judged(surfaces, anew=not options.kept).items():
         print(name, *table(results), sep="\n", end="\n\n")
 

@@ -31,10 +31,9 @@ def test_start_stop_and_reversal():
     assert backward == pytest.approx(-forward, rel=1e-3)
     assert run.distance[-1] == pytest.approx(0.0, abs=1e-12)
     # The last stretch is the way back alone, though it passes the same places as the way forth.
-    mean, _, largest = run.cycle()["friction"]
-    assert mean < 0.0
+    mean, least, largest = run.cycle()["friction"]
     assert largest < 0.0
-    assert run.verdict() == "steady"
+    assert largest - least < 0.01 * abs(mean)
     assert run.time[-1] == pytest.approx(7 * PASSAGE)
 
 
@@ -51,7 +50,6 @@ def test_a_step_in_speed_goes_from_one_steady_state_to_the_other():
 def test_cycle_gives_mean_and_range_of_the_last_stretch():
     run = PLAIN.run(PLAIN.stage(3), columns=32, rows=8)
     mean, least, largest = run.cycle()["friction"]
-    assert run.verdict() == "steady"
     assert least <= mean <= largest
     assert largest - least < 1e-3 * mean
 
@@ -75,23 +73,9 @@ def made_up(friction, wavelengths=4.0):
     )
 
 
-@pytest.mark.parametrize(
-    ("friction", "verdict"),
-    [
-        (lambda x: 0.5 + 0.0 * x, "steady"),
-        (lambda x: 0.5 + 0.1 * np.exp(-x / 2) * np.sin(2 * np.pi * x), "settling"),
-        (lambda x: 0.5 + 0.1 * np.sin(2 * np.pi * x), "limit cycle"),
-    ],
-)
-def test_verdict_tells_steady_settling_and_cycling_apart(friction, verdict):
-    run = made_up(friction)
-    assert run.verdict() == verdict
-    if verdict == "limit cycle":
-        assert run.cycle()["friction"] == pytest.approx((0.5, 0.4, 0.6), abs=1e-3)
-
-
-def test_verdict_needs_two_wavelengths():
-    assert made_up(lambda x: 0.5 + 0.0 * x, wavelengths=1.5).verdict() == "too short"
+def test_cycle_of_a_made_up_course():
+    run = made_up(lambda x: 0.5 + 0.1 * np.sin(2 * np.pi * x))
+    assert run.cycle()["friction"] == pytest.approx((0.5, 0.4, 0.6), abs=1e-3)
 
 
 @pytest.mark.parametrize(

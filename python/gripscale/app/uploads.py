@@ -24,7 +24,7 @@ from gripscale.report.build import template_text
 NewText = Callable[[Mapping[str, bytes]], str]
 PAUSE = 3.0  # seconds without a further file after which those that are still announced do not come
 # What is read is named; a file that arrived is not green: it may be refused yet.
-READING = """\
+DROP_STYLE = """\
 :host([data-reading])::before { content: attr(data-reading); display: block; font-weight: 600;
     overflow-wrap: anywhere; padding: 0.2rem 0; }
 [data-filepond-item-state="processing-complete"] .filepond--item-panel { background: #64605e; }
@@ -58,7 +58,7 @@ def file_upload(
             sizing_mode="stretch_width",
             margin=(0, 8),
             previews=["image"],  # without any, Panel would load that of PDFs too, which fails
-            stylesheets=[READING],
+            stylesheets=[DROP_STYLE],
         )
         area.param.watch(receive, "value")
         return area

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ from gripscale.case_file.proposals import (
     UNITS_OF_SURFACE,
     holds_moduli,
     open_rubber,
+    open_shift,
     open_strain_sweeps,
     open_surface,
     read_with,
@@ -30,7 +31,7 @@ from gripscale.core.checks import shortened
 from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.io.table import least_to_most
 from gripscale.io.text_table import ColumnTitle, columns_noted
-from gripscale.rubber import MasterCurve, ShiftTable, Sweeps, read_shift_table
+from gripscale.rubber import MasterCurve, ShiftTable, Sweeps
 from gripscale.rubber.blocks import read_blocks, with_named_temperature
 from gripscale.rubber.columns import FileLayout, other_content, quantity
 from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
@@ -89,7 +90,7 @@ READERS: dict[str, Callable[[Path, FileKeys], tuple[Any, dict[str, Any]]]] = {
     "strain-sweep": lambda path, _: open_strain_sweeps([path]),
     "prony": lambda path, _: read_with(read_prony_table, path, UNITS_OF_RUBBER),
     "moduli": lambda path, keys: open_rubber([path], keys.layout),
-    "shift": lambda path, _: read_with(read_shift_table, path, UNITS_OF_RUBBER),
+    "shift": lambda path, _: open_shift(path),
     "friction": lambda path, _: (read_measured_friction(path), {}),
     "surface": lambda path, keys: open_surface(
         path, keys.step, UNITS_OF_SURFACE, **reading_keys(keys.surface)
@@ -118,10 +119,11 @@ def take(path: Path, keys: FileKeys, name: str | None = None) -> Taken:
                 measured, missing = READERS[kind](path, keys)
         except GripscaleError as error:
             refusals.append(error)
+            if error.missing in ("friction", "temperature"):  # of speeds, which are no heights
+                break
             continue
         return Taken(path, _kind_of(kind, measured), _about(measured), measured, missing, columns)
-    # speeds without friction are no heights
-    refusal = next((error for error in refusals if error.missing == "friction"), refusals[-1])
+    refusal = refusals[-1]
     why = str(refusal).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
     kind = {"moduli": RUBBERS[1], "prony": "prony"}.get(seems[0], UNUSED)
     return Taken(path, kind, why, refusal=refusal)
@@ -134,7 +136,8 @@ def _seems(path: Path, keys: FileKeys) -> list[str]:
         return ["prony"]
     titled: set[str | None] = set()
     with suppress(GripscaleError):
-        blocks = read_blocks(path, layout, temperature_unit="C", most=ENOUGH_LINES)
+        of_titles = replace(layout, frequency=None)
+        blocks = read_blocks(path, of_titles, temperature_unit="C", most=ENOUGH_LINES)
         titled = {quantity(name) for block in blocks for name in block.table.names}
         titled |= {"loss" for block in blocks if other_content(block.table)}
     if "strain" in titled and holds_strain_sweeps(path):

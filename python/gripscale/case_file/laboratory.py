@@ -72,23 +72,36 @@ class Laboratory:
         self.choose("surface", [group for group in groups if group], OF_ANOTHER_CASE)
 
     def choose_rubber(self, keys: FileKeys) -> None:
-        """Keep the sweeps, which are joined, or one other file: a curve first that has a shift."""
+        """Keep the sweeps, which are joined, or one other file.
+
+        A curve is likelier with shift factors, and a file to whose name others belong.
+        """
         rubbers = self.of(*RUBBERS)
         joined = [file for file in rubbers if joinable(file, keys.layout)]
         groups = [joined] * bool(joined) + [[file] for file in rubbers if file not in joined]
         first = "master-curve" if self.of("shift") else RUBBERS[0]
-        groups.sort(key=lambda group: (group[0].kind != first, RUBBERS.index(group[0].kind)))
+        others = self.of("shift", "strain-sweep", "friction")
+
+        def likelihood(group: list[Taken]) -> tuple[bool, int, int]:
+            common = sum(_in_common(file.path, group[0].path)[0] > 0 for file in others)
+            return group[0].kind != first, RUBBERS.index(group[0].kind), -common
+
+        groups.sort(key=likelihood)
         alike = len({group[0].kind for group in groups}) < len(groups)
         self.choose("rubber", groups, OF_ANOTHER_CASE if alike else BY_A_FACTOR)
 
-    def choose_companion(self, kind: str) -> None:
-        """Keep the files of a kind that belong to the rubber; but for strain sweeps one."""
-        files, rubbers = self.of(kind), self.of(*RUBBERS)
-        if len(files) > 1 and rubbers:
+    def choose_companion(self, kind: str, rivals: Sequence[Taken]) -> None:
+        """Keep the files of a kind that belong to the rubber; but for strain sweeps one.
+
+        `rivals` are all files of rubbers, those left out, too.
+        """
+        files, rubbers = [file for file in self.of(kind) if not file.by_caller], self.of(*RUBBERS)
+        if files and rubbers:
             common = [_in_common(file.path, rubbers[0].path) for file in files]
-            far = [f for f, n in zip(files, common, strict=True) if n < max(common)]
-            name = rubbers[0].path.name
-            self.leave_out([f for f in far if not f.by_caller], f"by its name not of {name}")
+            nearest = [max(_in_common(file.path, r.path)[0] for r in rivals) for file in files]
+            each = zip(files, common, nearest, strict=True)
+            far = [f for f, near, most in each if near < max(common) or near[0] < most]
+            self.leave_out(far, f"by its name not of {rubbers[0].path.name}")
         if kind != "strain-sweep":
             self.choose(kind, [[file] for file in self.of(kind)], BY_A_FACTOR)
 
@@ -136,7 +149,8 @@ def laboratory(
             raise file.refusal
     lab.leave_out([file for file in lab.of(*RUBBERS) if file.refusal], "not readable")
     lab.choose_surface()
+    rivals = lab.of(*RUBBERS)
     lab.choose_rubber(keys)
     for kind in ("shift", "strain-sweep", "friction"):
-        lab.choose_companion(kind)
+        lab.choose_companion(kind, rivals)
     return lab

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from gripscale.case_file.kinds import RUBBERS, SURFACES, FileKeys, Taken, take
-from gripscale.case_file.proposals import Proposal, rubber_proposal, surface_proposal
-from gripscale.core import ZERO_CELSIUS, Array, GripscaleError
+from gripscale.case_file.proposals import rubber_proposal, surface_proposal
+from gripscale.core import ZERO_CELSIUS, Array
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.io.table import Column, Table, least_to_most
 from gripscale.rubber import MasterCurve, ShiftTable, StrainSweep, Sweeps
@@ -44,27 +45,31 @@ def kinds_table(files: Sequence[Taken]) -> Table:
     return Table("files", [Column(name, texts, words=True) for name, texts in columns.items()])
 
 
+def _in_proposed_units(file: Taken, keys: FileKeys) -> tuple[Taken, list[str]]:
+    """Return a file read in the units that `gripscale new` proposes, and why in these."""
+    of_surface, name = file.kind in SURFACES, [file.path.name]
+    if not file.missing or not (of_surface or file.kind in RUBBERS):
+        return file, []
+    if of_surface:
+        proposal = surface_proposal([file.path], name, step=keys.step, keys=keys.surface)
+    else:
+        proposal = rubber_proposal([file.path], name, layout=keys.layout)
+    units = {key: proposal.keys[key] for key in file.missing}
+    reasons = [f"  {key} = {unit}: {proposal.reasons[key]}" for key, unit in units.items()]
+    if isinstance(units.get("channel"), list):
+        units["channel"] = units["channel"][0]
+    table, of_table = ("surface", keys.surface) if of_surface else ("layout", keys.layout)
+    read_by: Any = {table: {**of_table, **units}}
+    read = take(file.path, replace(keys, **read_by), file.kind)
+    return replace(read, columns=file.columns), reasons
+
+
 def parts_of(file: Taken, keys: FileKeys) -> Iterator[str | Table]:
-    """Yield how a file is read, in the units that `gripscale new` proposes where it states none."""
-    name = [file.path.name]
-    proposal, units = Proposal(), {}
-    try:
-        if file.missing and file.kind in SURFACES:
-            proposal = surface_proposal([file.path], name, step=keys.step, keys=keys.surface)
-            units = {key: proposal.keys[key] for key in file.missing}
-            channel = {"channel": file.missing["channel"][0]} if "channel" in units else {}
-            read_by = {**keys.surface, **units, **channel}
-            file = take(file.path, replace(keys, surface=read_by), file.kind)
-        elif file.missing and file.kind in RUBBERS:
-            proposal = rubber_proposal([file.path], name, layout=keys.layout)
-            units = {key: proposal.keys[key] for key in file.missing}
-            file = take(file.path, replace(keys, layout={**keys.layout, **units}), file.kind)
-    except GripscaleError as error:
-        proposal, units = Proposal(), {}
-        yield f"  {error}"
+    """Yield how a file is read: kind, columns, notes, first rows and a picture of each column."""
+    file, reasons = _in_proposed_units(file, keys)
     yield f"{file.path.name}: {file.kind}; {file.why}"
     yield from (line for line in (f"  {file.titles}",) if file.titles)
-    yield from (f"  {key} = {unit}: {proposal.reasons[key]}" for key, unit in units.items())
+    yield from reasons
     yield from (f"  note: {note}" for note in getattr(file.measured, "notes", ()))
     measured = file.measured[0] if isinstance(file.measured, list) else file.measured
     if isinstance(measured, HeightMap):

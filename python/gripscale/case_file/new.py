@@ -18,6 +18,7 @@ from gripscale.case_file.laboratory import Ask, Laboratory, first_choice, labora
 from gripscale.case_file.prepare import read_case
 from gripscale.case_file.proposals import (
     BY_A_FACTOR,
+    OF_ANOTHER_CASE,
     TENS_OF_PERCENT,
     Proposal,
     add_shift,
@@ -54,6 +55,7 @@ _COMMENT: dict[str, Any] = {
 }
 
 
+_IS_FILLED = "Is the rubber filled (carbon black, silica), as every tread is?"
 _WITHOUT_END = (
     "the rubber is taken to have no end; --thickness states where it ends on a rigid base: 8 mm of "
     "a new tread, 2 mm of a worn one, 5 mm of a sole"
@@ -171,6 +173,7 @@ def propose(
         rubber.add("name", names[0], "known by published parameters")
         add_shift(rubber, shift)
     else:
+        units: Mapping[str, str] = {}
         options: dict[str, Any] = {"shift": shift, "reference": reference}
         if shifts and shift is None and lab.of(*RUBBERS)[0].kind != "sweeps":
             options["shift"] = inside[shifts[0].path]
@@ -178,7 +181,7 @@ def propose(
             if reference is None and unity is not None:
                 reason = f"a_T of {shifts[0].path.name} is 1 there"
                 options |= {"reference": celsius_text(unity), "reason": reason}
-            shifts = []
+            units, shifts = shifts[0].missing, []
         rubber = rubber_proposal(
             rubbers,
             [inside[path] for path in rubbers],
@@ -186,6 +189,8 @@ def propose(
             layout=layout,
             **options,
         )
+        for key, unit in units.items():
+            rubber.add(key, unit, "the shift factors do not state it", OF_ANOTHER_CASE)
     for file in () if shift is not None else shifts:
         cure = f'shift = "{inside[file.path]}" in [rubber] takes them'
         unused = f"{inside[file.path]} holds shift factors and is not used: {cure}"
@@ -195,10 +200,13 @@ def propose(
         rubber.findings.append(assumption(TENS_OF_PERCENT, _WITHOUT_END))
     else:
         rubber.add("thickness", thickness)
+    strain = [file.path for file in lab.of("strain-sweep")]
+    if filled is None and not strain and not names:
+        filled = {"yes": True, "no": False}.get(ask(_IS_FILLED, ("unknown", "yes", "no")))
     if filled is not None:
         rubber.add("filled", filled, "as stated")
     conditions = conditions_proposal(rubber, rubbers, kelvin)
-    if strain := [file.path for file in lab.of("strain-sweep")]:
+    if strain:
         add_softening(conditions, strain, [inside[path] for path in strain])
     if interface is not None:
         conditions.add("interface", interface, "as stated")

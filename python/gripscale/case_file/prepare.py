@@ -28,10 +28,19 @@ from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
-from gripscale.core import FileError, InputError, about_file, about_keys, unstated
+from gripscale.core import (
+    CaseKey,
+    FileError,
+    InputError,
+    Words,
+    about_file,
+    about_keys,
+    unstated,
+)
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.experiment.measured_friction import read_measured_friction
-from gripscale.io.text_table import read_bytes
+from gripscale.half_space.grid import MOST_POINTS
+from gripscale.io.text_table import is_text, read_bytes
 from gripscale.model import FOOTPRINT
 from gripscale.rubber import (
     MasterCurve,
@@ -51,6 +60,7 @@ from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
+from gripscale.surface.resampling import of_fewer_points
 
 Resolve = Callable[[str], Path]
 # What the files of a surface hold, before any cleaning.
@@ -140,6 +150,25 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
         return _described(table, measured, file.resolve, load.footprint)
 
 
+def _require_few_points(file: CaseFile) -> None:
+    """Raise `InputError` for a text of more points than a contact takes, before it is read."""
+    table = file.case.surface
+    ends = (table.smallest_wavelength, table.crop, table.map)
+    if any(end is not None for end in ends) or table.cut_off not in (None, "instrument"):
+        return
+    for path in map(file.resolve, table.measured_files):
+        if path.is_file() and path.stat().st_size > 2 * MOST_POINTS:
+            raw = read_bytes(path)
+            points = raw.count(b"\n") if is_text(raw) else 0
+            if points > MOST_POINTS:
+                words = (
+                    f" must be a length, at least {points / MOST_POINTS:.2g} times what the "
+                    f"measurement carries: {path} has {points} lines, a contact at most "
+                    f"{MOST_POINTS} points, four in each wave"
+                )
+                raise InputError(Words(f"{file.path}: ", CaseKey("cut_off"), words))
+
+
 @about_keys("surface")
 def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
     """Return what the files of `surface` hold before any cleaning; no profile without files.
@@ -162,6 +191,8 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
                 replace(line, name=f"{line.name} {name}")
                 for line, name in zip(lines, names, strict=True)
             ]
+        if isinstance(surface.cut_off, float):
+            lines = [of_fewer_points(line, surface.cut_off) for line in lines]
         if surface.reliable is None:
             return lines
         return [replace(line, reliable=surface.reliable) for line in lines]
@@ -345,8 +376,16 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
 
 
 def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
-    shift = source.shift
-    return read_shift_table(resolve(shift)) if isinstance(shift, str) else shift
+    shift: Shift | str | None = source.shift
+    if not isinstance(shift, str):
+        return shift
+    path = resolve(shift)
+    try:
+        return read_shift_table(path)
+    except InputError as error:
+        if error.missing != "temperature_unit" or source.temperature_unit is None:
+            raise
+        return read_shift_table(path, temperature_unit=source.temperature_unit)
 
 
 _EFFECTS = {field.name for field in fields(Conditions)} & ConditionsTable.model_fields.keys()
@@ -393,13 +432,18 @@ def _below_measurement(file: CaseFile) -> BelowMeasurement:
     return BelowMeasurement(table.down_to, roughness, table.seed)
 
 
-def case_chain(file: CaseFile) -> Chain:
-    """Return the chain of a case, without its conditions, which `Case` has."""
+def case_chain(file: CaseFile, conditions: Conditions | None = None) -> Chain:
+    """Return the chain of a case, under its own conditions where they are not given.
+
+    Raises `FileError` and `InputError` for conditions that cannot be used.
+    """
     case = file.case
+    conditions = conditions or prepare_conditions(case.conditions, file.resolve)
     return Chain(
         wave_solver(case.solver.model, case.solver.options()),
         pressure_classes=case.chain.pressure_classes,
         extrapolate=case.rubber.extrapolate,
+        conditions=conditions and conditions.dry,
     )
 
 
@@ -435,7 +479,8 @@ def read_case(path: CaseFile | str | Path) -> Case:
         with about_keys("measured"):
             friction = read_measured_friction(file.resolve(name))
     conditions = prepare_conditions(file.case.conditions, file.resolve)
-    chain = case_chain(file)
+    chain = case_chain(file, conditions)
+    _require_few_points(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
     table = file.case.surface

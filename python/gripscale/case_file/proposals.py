@@ -31,7 +31,14 @@ from gripscale.core import (
 )
 from gripscale.io.cells import SEPARATORS, cells_of, is_comment
 from gripscale.io.text_table import TextTable, is_excel, read_lines
-from gripscale.rubber import MasterCurve, Sweeps, read_master_curve, read_sweeps
+from gripscale.rubber import (
+    MasterCurve,
+    ShiftTable,
+    Sweeps,
+    read_master_curve,
+    read_shift_table,
+    read_sweeps,
+)
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
@@ -41,6 +48,7 @@ from gripscale.rubber.softening import softening_of_sweeps
 from gripscale.rubber.strain_sweeps import StrainSweep, read_strain_sweeps
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, read_map, read_profile
+from gripscale.surface.low_pass import POINTS_IN_CUT_OFF
 from gripscale.surface.plausibility import has_likely_units
 from gripscale.surface.read import POINT_SUFFIXES, is_text_surface
 from gripscale.surface.supports import road_between, support_plates
@@ -50,6 +58,7 @@ _Measurement = TypeVar("_Measurement")
 _STATED = "as stated"
 _SCALES = 8  # waves of a surface that states none, as in `gripscale fit-surface`
 _CUT_OFF = "instrument"  # where its roughness ends: where the measurement does
+_ENOUGH_POINTS = 2**18  # of a line in a contact that is solved within a minute
 ROOM = 293.15  # temperature taken where neither a file nor the caller states one [K]
 # Effects of what is taken for granted on the friction [-]: tens of per cent, a factor, or it is the
 # friction of another road or rubber.
@@ -179,7 +188,11 @@ def surface_proposal(
             proposal.add("crop", [in_mm(first), in_mm(last)], words, BY_A_FACTOR)
     proposal.add("scales", _SCALES, "sine waves of the chain")
     words = "roughness below what the measurement carries is left out; it may add friction"
-    proposal.add("cut_off", _CUT_OFF, words, TENS_OF_PERCENT)
+    cut_off = _CUT_OFF
+    if isinstance(surface, Profile) and len(surface) > _ENOUGH_POINTS:
+        cut_off = in_mm(POINTS_IN_CUT_OFF * surface.length / _ENOUGH_POINTS, 2)
+        words = f"the contact of all {len(surface)} points takes too long; shorter {words}"
+    proposal.add("cut_off", cut_off, words, TENS_OF_PERCENT)
     return proposal
 
 
@@ -320,6 +333,15 @@ def open_strain_sweeps(paths: list[Path]) -> tuple[list[StrainSweep], dict[str, 
         sweeps = read(paths, **asked)
     softening_of_sweeps(sweeps)
     return sweeps, asked
+
+
+def open_shift(path: Path) -> tuple[ShiftTable, dict[str, str]]:
+    """Return shift factors, and the unit of their temperatures if nothing states it."""
+    table, asked = read_with(read_shift_table, path, UNITS_OF_RUBBER)
+    if asked and table.temperature.mean() > _HOTTEST:
+        asked = {"temperature_unit": "K"}
+        table = read_shift_table(path, **asked)
+    return table, asked
 
 
 def add_softening(proposal: Proposal, paths: list[Path], names: list[str]) -> None:

@@ -7,7 +7,7 @@ from functools import partial
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.case_file.schema import (
@@ -22,11 +22,12 @@ from gripscale.case_file.schema import (
     Speed,
     TemperatureDifference,
     column_key,
+    expected,
     stated_law,
     unit_of_file,
 )
 from gripscale.conditions.conditions import OFF
-from gripscale.core.units import in_mm, parse_quantity, such_as
+from gripscale.core.units import in_mm, parse_quantity
 from gripscale.model import LOAD_TIME, MOST_CLASSES, checked_load_time
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface.surface import SurfaceKind
@@ -75,13 +76,8 @@ def _channel(value: Any) -> Any:
     return None if value is None else column_key(value)
 
 
-_SPIKES = '"isolated", "iso13473" or "none"'
-
-
-def _spikes(value: Any) -> str | None:
-    if value not in ("isolated", "iso13473", "none", None):
-        raise ValueError(f"expected {_SPIKES}")
-    return None if value == "none" else value
+def _spikes(rule: str | None) -> str | None:
+    return None if rule == "none" else rule
 
 
 class WaveTable(CaseTable):
@@ -161,7 +157,9 @@ class CleaningKeys(CaseTable):
     """Lowest and highest height to believe; others become missing."""
     trim: float = Field(default=0.5, ge=0.0, le=1.0, allow_inf_nan=False)
     """Share of missing heights above which a border line of a map is cut off."""
-    spikes: Annotated[str | None, Reading(_SPIKES, _spikes)] = "isolated"
+    spikes: Annotated[Literal["isolated", "iso13473", "none"] | None, AfterValidator(_spikes)] = (
+        "isolated"
+    )
     """Rule by which spikes become missing: runs of up to three samples that go out and back, or
     every steep step of a profile (ISO 13473-1)."""
     spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)
@@ -351,35 +349,22 @@ SourceName = Literal[
     "waves",
 ]
 
-FACTOR = "factor"  # kind of values that have no unit
+
+def _rising(values: list[float]) -> list[float]:
+    if any(b <= a for a, b in pairwise(values)):
+        raise ValueError("expected rising values")
+    return values
 
 
-def _values(kind: str) -> Reading:
-    """Return what reads values of a source: quantities of one kind, or factors."""
-    each = f"a {kind}" if kind == FACTOR else f"a {kind} {such_as(kind)}"
-    words = f"a list of two ends or of equally likely values, each {each}"
-
-    def number(value: Any) -> float:
-        if kind != FACTOR:
-            return parse_quantity(value, kind)
-        if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ValueError(f"expected {words}")
-        return float(value)
-
-    def read(value: Any) -> list[float]:
-        if not isinstance(value, list) or not value:
-            raise ValueError(f"expected {words}")
-        numbers = [number(item) for item in value]
-        if numbers[0] <= 0.0 or any(b <= a for a, b in pairwise(numbers)):
-            raise ValueError("expected rising values greater than zero")
-        return numbers
-
-    return Reading(words, read)
+def _in_words(schema: dict[str, Any]) -> None:
+    each = expected(schema["items"])
+    schema["expected"] = f"a list of two ends or of equally likely values, each {each}"
 
 
-Moduli = Annotated[list[float], _values("pressure")]
-Lengths = Annotated[list[float], _values("length")]
-Factors = Annotated[list[float], _values(FACTOR)]
+Ends = (Field(min_length=1, json_schema_extra=_in_words), AfterValidator(_rising))
+Moduli = Annotated[list[Pressure], *Ends]
+Lengths = Annotated[list[Length], *Ends]
+Factors = Annotated[list[Annotated[float, Field(gt=0.0, allow_inf_nan=False)]], *Ends]
 
 
 def _pressure_error(value: Any) -> Any:

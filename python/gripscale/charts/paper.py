@@ -135,7 +135,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
         axes.grid(axis.grid, axis=which)
         if axis.margin is not None:
             (axes.set_xmargin if which == "x" else axes.set_ymargin)(axis.margin)
-        if axis.low is not None and axis.high is not None:  # nothing need be drawn between them
+        if axis.low != axis.high and None not in (axis.low, axis.high):  # nothing need be drawn
             (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
     for mark in panel.marks:
         _draw_mark(figure, axes, mark)
@@ -155,7 +155,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
 def _end_axis(axes: Axes, which: str, axis: chart.PlotAxis) -> None:
     """Set the limits of an axis, and place numbers or names along it."""
     drawn: DrawnAxis = axes.xaxis if which == "x" else axes.yaxis
-    if axis.low is not None or axis.high is not None:
+    if axis.low != axis.high:
         (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
     if axis.ticks is not None:
         drawn.set_ticks(list(axis.ticks), list(axis.ticks.values()))

@@ -25,6 +25,7 @@ from gripscale.core.errors import about_keys
 from gripscale.io.text_table import files_read_once
 from gripscale.questions.terminal import (
     COLUMNS,
+    READING,
     LongestWavelength,
     SurfaceAxis,
     SurfaceChannel,
@@ -34,12 +35,14 @@ from gripscale.questions.terminal import (
     column_of,
     columns_of,
     command,
+    end_steps,
     keys_of,
     lengths_of,
     option,
     print_parts,
     print_wrapped,
     screen,
+    show_step,
     with_options,
 )
 
@@ -180,7 +183,8 @@ def fit_surface(
         values["channel"] = column_of(channel)
     if scales is None and smallest_wavelength is None and cut_off is None:
         values["scales"] = 8
-    raw = None
+    raw, console = None, screen()
+    show_step(console, READING)
     if len(files) == 1:
         # whether two steps are right depends on what the file holds
         validate(SurfaceTable, values | {"step": None}, "options")
@@ -194,7 +198,7 @@ def fit_surface(
     if output is not None:
         require_writable(output)
     prepared = prepare_surface(surface, raw=raw)
-    console = screen()
+    end_steps()
     sines = prepared.sines
     parts: list[str | Table] = [
         *(f"doubt: {with_options(doubt.sentence, context.params)}" for doubt in prepared.doubts),
@@ -285,6 +289,8 @@ def fit_rubber(
     from gripscale.questions.inputs import page
     from gripscale.rubber.strain_sweeps import holds_strain_sweeps
 
+    console, law, prepared = screen(), None, None
+    show_step(console, READING)
     layout: dict[str, Any] = {} if columns is None else {"columns": columns_of(columns)}
     if sheet is not None:
         layout["sheet"] = column_of(sheet)
@@ -293,7 +299,6 @@ def fit_rubber(
     file = [name for name in file if name not in by_strain]
     if output is not None:
         require_writable(output)
-    console, law, prepared = screen(), None, None
     with naming_options():
         if by_strain:
             values = keys_of(context, StrainSweeps) | ({} if file else layout)
@@ -305,6 +310,7 @@ def fit_rubber(
             if wlf is not None:
                 values["shift"] = shift_of_wlf(wlf)
             prepared = prepare_rubber(validate(RubberSource, values, "options"))
+    end_steps()
     if prepared is not None:
         rubber = prepared.rubber
         terms_table = page.prony_table(rubber.relaxation_times, rubber.moduli)

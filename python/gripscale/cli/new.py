@@ -9,7 +9,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import click
 import typer
 from typer.core import TyperCommand
 
@@ -100,12 +99,21 @@ class KindCommand(TyperCommand):
         return super().parse_args(ctx, joined)
 
 
+def in_terminal() -> bool:
+    """Return whether somebody can be asked."""
+    return sys.stdin.isatty() and sys.stdout.isatty()
+
+
 def _ask(question: str, answers: Sequence[str]) -> str:
-    """Ask a question of which the first answer is the likeliest, by numbers."""
+    """Ask a question of which the first answer is the likeliest, until one is chosen."""
     listed = "\n".join(f"  {at}. {answer}" for at, answer in enumerate(answers, start=1))
-    numbers = click.IntRange(1, len(answers))
-    number: int = typer.prompt(f"{question}\n{listed}\n", default=1, type=numbers)
-    return answers[number - 1]
+    terminal.end_steps()
+    words = {str(at): answer for at, answer in enumerate(answers, start=1)}
+    words |= {answer.lower(): answer for answer in answers}
+    while True:
+        reply = str(typer.prompt(f"{question}\n{listed}\n", default="1")).strip().lower()
+        if reply in words:
+            return words[reply]
 
 
 @terminal.command
@@ -199,12 +207,8 @@ def new(
         z_axis=z_axis,
         longest_wavelength=longest_wavelength,
     )
-    in_terminal = sys.stdin.isatty() and sys.stdout.isatty()
-    if filled is None and in_terminal:
-        choices = click.Choice(["yes", "no", "unknown"])
-        question = "Is the rubber filled (carbon black, silica), as every tread is?"
-        reply = typer.prompt(question, default="unknown", type=choices)
-        filled = {"yes": True, "no": False}.get(reply)
+    console = terminal.screen()
+    terminal.show_step(console, terminal.READING)
     with naming_options():
         case = new_case(
             files,
@@ -219,14 +223,15 @@ def new(
             interface=interface,
             surface=surface,
             kinds=kinds_of(kinds),
-            ask=_ask if in_terminal else first_choice,
+            ask=_ask if in_terminal() else first_choice,
         )
+    terminal.end_steps()
     lines: list[str | Table] = [kinds_table(case.files), f"Case: {case.path}"]
     if case.findings:
         doubts = (f"  {at}. {finding}" for at, finding in enumerate(case.findings, start=1))
         lines += ["", "Doubts, the most important first:", *doubts]
     lines += ["", "Next:", f"  {shlex.join(['gripscale', 'run', str(case.path)])}"]
-    terminal.print_parts(terminal.screen(), lines)
+    terminal.print_parts(console, lines)
 
 
 @terminal.command

@@ -6,8 +6,8 @@ per area [W/m^2], lost at random depths Z and Z', in the steady state gives
     T(0)    = q E exp(-m Z) / (kappa m),      m^2 = |k|^2 + i k_x v / D,   Re m > 0
     T(lost) = q (E exp(-m |Z - Z'|) + (E exp(-m Z))^2) / (2 kappa m)
 
-at the surface, and on average where the energy is lost; for the exponential depth exp(-a z) the
-first is Q / (kappa m (m + a)) with Q = a q. A uniform q that lasts for a time t, l = 2 sqrt(D t):
+at the surface, and on average where the energy is lost. A uniform q that lasts for a time t,
+l = 2 sqrt(D t):
 
     T(0)    = q l E ierfc(Z/l) / kappa        (2 q sqrt(t / (pi kappa rho c)) at the surface)
     T(lost) = q l (E ierfc(|Z - Z'|/l) + E ierfc((Z + Z')/l)) / (2 kappa)
@@ -29,12 +29,10 @@ decay. Its means over depths are integrated over time: the waves are then the sa
 Depths of the loss: a pressure p cos(k x) that moves along a half-plane shears it with an amplitude
 p k z exp(-k z), the same everywhere along x (K. L. Johnson, Contact Mechanics (1985), sec. 13.2,
 doi:10.1017/CBO9781139171731). Its loss is distributed over depth as (k z)^2 exp(-2 k z), a gamma
-distribution of shape 3 and mean 3/(2 k). Shape 1 is the exponential exp(-a z), mean 1/a. With
-b = shape/mean and m of positive real part:
+distribution of shape 3 and mean 3/(2 k). With b = 3/mean and m of positive real part:
 
-    E exp(-m Z)        = (b/(b + m))^shape
-    E exp(-m |Z - Z'|) = b/(b + m)                                                shape 1
-                       = b/8 (3/(b + m) + 3 b/(b + m)^2 + 2 b^2/(b + m)^3)        shape 3
+    E exp(-m Z)        = (b/(b + m))^3
+    E exp(-m |Z - Z'|) = b/8 (3/(b + m) + 3 b/(b + m)^2 + 2 b^2/(b + m)^3)
 
 A solver may report the loss by layers instead. With the share s_i of the loss in the layer between
 the depths a_i and b_i, h_i = b_i - a_i, and the mean e_i = (1 - exp(-m h_i)) / (m h_i) of
@@ -81,7 +79,7 @@ from typing import Any, Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks
+from gripscale.core import Array, Checked, ComplexArray, Mask, checked, checks
 
 
 class ThermalProperties(Checked):
@@ -156,22 +154,14 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 _TIMES, _TIME_WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 
-def _loss_shape(name: str, value: Any) -> int:
-    if value not in (1, 3):
-        raise InputError(f"{name} must be 1 or 3; got {checks.short_repr(value)}")
-    return int(value)
-
-
 class LossDepth(Checked):
-    """A gamma distribution of the depth at which energy is lost.
+    """The depth at which a harmonic of the pressure loses energy: a gamma distribution of shape 3.
 
-    Raises `InputError` if the mean is no finite number from zero, or the shape another.
+    Raises `InputError` if the mean is no finite number from zero.
     """
 
     mean: float = checked(checks.not_negative, unit="m")
     """Mean depth [m]; zero is the surface itself."""
-    shape: int = checked(_loss_shape, default=3)
-    """1: exponential; 3: under a harmonic of the pressure."""
 
     @classmethod
     def under(cls, wavenumber: float) -> LossDepth:
@@ -180,19 +170,17 @@ class LossDepth(Checked):
 
     @property
     def rate(self) -> float:
-        """The rate b = shape/mean [1/m], infinite at the surface."""
-        return self.shape / self.mean if self.mean > 0.0 else math.inf
+        """The rate b = 3/mean [1/m], infinite at the surface."""
+        return 3.0 / self.mean if self.mean > 0.0 else math.inf
 
     def decay(self, m: ComplexArray) -> ComplexArray:
         """Return E exp(-m Z) for `m` [1/m], same shape."""
         near = 1.0 / (1.0 + np.asarray(m) / self.rate)
-        return np.asarray(near if self.shape == 1 else near * near * near)
+        return np.asarray(near * near * near)
 
     def decay_between(self, m: ComplexArray) -> ComplexArray:
         """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
         near = 1.0 / (1.0 + np.asarray(m) / self.rate)
-        if self.shape == 1:
-            return np.asarray(near)
         return np.asarray(near * (3.0 + near * (3.0 + 2.0 * near)) / 8.0)
 
     def spread(self, length: float, of: Distances = "depth") -> float:
@@ -205,18 +193,15 @@ class LossDepth(Checked):
         The first axis of the function's values is that of the distances, shape (n,). It changes
         over `length` [m] and vanishes at `WIDEST` lengths.
         """
-        from scipy.special import gamma
-
         if self.mean == 0.0:
             return function(np.zeros(1))[0]
         end = min(DEEPEST, WIDEST * self.rate * length)
         s = 0.5 * end * (_NODES + 1.0)
         if of == "difference":
-            polynomial = 1.0 if self.shape == 1 else (3.0 + 3.0 * s + s**2) / 8.0
-            density = polynomial * np.exp(-s)
+            density = (3.0 + 3.0 * s + s**2) / 8.0 * np.exp(-s)
         else:
-            shape = self.shape if of == "depth" else 2 * self.shape
-            density = s ** (shape - 1) * np.exp(-s) / gamma(shape)
+            power = 2 if of == "depth" else 5  # of one depth, and of the sum of two
+            density = s**power * np.exp(-s) / math.factorial(power)
         weights = 0.5 * end * _WEIGHTS * density
         return np.tensordot(weights, function(s / self.rate), axes=(0, 0))
 

@@ -20,5 +20,3 @@ LOG_AREA, LOG_FRICTION = 0.10, 0.05
 """Scatter of ln area and ln friction of a direct contact, the filler healing or not [-]."""
 SLOPE_FACTOR = 0.4
 """Strain of a wave of a chain over the rms slope in its contact [-]."""
-LOG_AREA_BY_SLOPE = 0.11
-"""Scatter of ln area with `SLOPE_FACTOR`, of a line at rest [-]."""

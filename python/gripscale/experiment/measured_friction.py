@@ -225,7 +225,8 @@ def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:
     if unit is None:
         raise FileError(
             f"{path}: {word} must have its unit in its title ({listed(kind)}), such as "
-            f"'{word} [C]'; got '{column.name}'"
+            f"'{word} [C]'; got '{column.name}'",
+            missing=word,
         )
     if spelled(unit, kind) is None:
         raise FileError(

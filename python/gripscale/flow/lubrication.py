@@ -6,10 +6,10 @@ pressure p_0:
 
     -dh/dt = (p_0 - p_c(h)) phi(h) h^3 / (eta L^2)
 
-Without contact and with phi = 1 this is Stefan's equation (`gripscale.theory.stefan_time`). A block
-that slides with speed v passes a spot of the road in L / v; in this time the mean of p_c / p_0 is
-the share of the load on asperities, and the wet friction is that of the contact with its share of
-the load, and the shear of the water, eta v / h.
+Without contact and with phi = 1 this is Stefan's equation. A block that slides with speed v passes
+a spot of the road in L / v; in this time the mean of p_c / p_0 is the share of the load on
+asperities, and the wet friction is that of the contact with its share of the load, and the shear of
+the water, eta v / h.
 
 A block with its leading edge higher by the slope s rides on the water, and sinks until water and
 contact carry p_0 (N. Patir & H. S. Cheng, J. Lubr. Technol. 101 (1979) 220, doi:10.1115/1.3453329,

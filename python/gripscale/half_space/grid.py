@@ -32,6 +32,7 @@ _Field = TypeVar("_Field", bound=NDArray[Any])
 
 DEFAULT_STEPS = 4  # steps of the surface in the smallest wave that is kept by default
 FEWEST_STEPS = 2
+MOST_POINTS = 2**22  # points of a grid beyond which no contact is solved unless it is asked for
 
 
 @dataclass(frozen=True)

@@ -6,19 +6,18 @@ On maps of eleven families (`python -m studies.line_to_map`) the contact of the 
 lines follows how far the heights of a line reach up and, the more so the fewer of them carry, how
 far its summits stand out of the places that carry beside them:
 
-    ln f = a_0 + a_1 t + a_2 (T / P)^(1/3),    ln g = b_0 + b_1 t + b_2 (T / P)^(1/3),
+    ln f = a_0 + a_1 t + a_2 (T / P)^(1/3) + a_3 S,    ln g likewise,
     t = (z_1 - mean height) / rms,    T = (z_0.5 - z_2) / rms,
-    P = pressure * largest wave / (|M| * rms),
+    P = pressure * largest wave / (|M| * rms),    S = ln(E'(e) / E'(2 e)),
 
-z_u is the height that u % of a line exceeds, rms that of its heights,
-f for small areas A of contact, g for friction, M the plane-strain modulus of the largest wave where
-it slides. Towards full contact the areas meet and the friction of the map is 1.11 times that of its
-lines, whatever the heights:
+z_u is the height that u % of a line exceeds, f for small areas A of contact, g for friction, M the
+plane-strain modulus of the largest wave where it slides. Softened rubber is strained more under a
+map than under its lines: S is what twice their strain e at the smallest wave would soften it.
+Towards full contact the areas meet and the friction of the map is 1.11 times that of its lines:
 
     A_map = erf(f^(1 - A/2) erfinv(A)),    ln(mu_map / mu) = (1 - A^4) ln g + A^4 ln 1.11.
 
-Speed and cut-off change the ratios by less than their scatter from map to map: 20 m/s in place of
-0.3 m/s by 3 and 4 %.
+Speed and cut-off change the ratios by less than their scatter: 20 m/s for 0.3 m/s by 3 and 4 %.
 """
 
 from __future__ import annotations
@@ -30,8 +29,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import Array, InputError, checks
+from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import plane_strain_modulus_of
 from gripscale.surface import Profile
@@ -50,26 +49,28 @@ class LineUnderLoad(NamedTuple):
     upper_height: float | Array  # t: height that 1 % of the line exceeds over its rms height
     tail: float | Array  # T: from the height that 2 % exceed to that of 0.5 %, over the rms height
     relative_load: float | Array  # P: pressure times largest wave over modulus times rms height
+    softening: float | Array = 0.0  # S: ln of E' over that at twice the strain, smallest wave
 
     @property
     def columns(self) -> tuple[Array, ...]:
         """What the numbers of a law multiply after its constant."""
-        t, tail, load = map(np.asarray, self)
-        return t, np.cbrt(tail / load)
+        t, tail, load, softening = map(np.asarray, self)
+        return t, np.cbrt(tail / load), softening
 
     @property
     def reach(self) -> Array:
         """The columns over the largest that the law was fitted to, the largest of them."""
-        pairs = zip(self.columns, FITTED_TO, strict=True)
+        pairs = zip(self.columns[:2], FITTED_TO, strict=True)
         return np.asarray(np.max([column / most for column, most in pairs], axis=0))
 
 
 class RatioLaw(NamedTuple):
-    """A ratio ln y = constant + slope t + tail (T / P)^(1/3), and how well it is known."""
+    """ln y = constant + slope t + tail (T / P)^(1/3) + softening S, and how well it is known."""
 
     constant: float
     slope: float
     tail: float
+    softening: float
     # Standard deviation of ln y about the law, over maps of all families, without the error of the
     # lines themselves: at high load, and what few summits add in squares, over (T / P)^(1/3).
     scatter: float
@@ -77,7 +78,7 @@ class RatioLaw(NamedTuple):
 
     def at(self, line: LineUnderLoad) -> Array:
         """Return the ratio of lines."""
-        terms = zip(self[1:3], line.columns, strict=True)
+        terms = zip(self[1:4], line.columns, strict=True)
         return np.asarray(np.exp(self.constant + sum(number * of for number, of in terms)))
 
     def uncertainty(self, line: LineUnderLoad) -> Array:
@@ -85,11 +86,11 @@ class RatioLaw(NamedTuple):
         return np.hypot(self.scatter, self.tail_scatter * line.columns[1])
 
 
-CONTACT_FRACTION_LAW = RatioLaw(-0.081, -0.126, -0.146, 0.091, 0.086)
-FRICTION_LAW = RatioLaw(-0.349, 0.073, 0.201, 0.087, 0.102)
+CONTACT_FRACTION_LAW = RatioLaw(-0.120, -0.113, -0.139, 1.068, 0.109, 0.074)
+FRICTION_LAW = RatioLaw(-0.336, 0.071, 0.197, -0.233, 0.085, 0.095)
 FULL_CONTACT_FRICTION = 1.11
 # Degrees of freedom of the scatter: its variance differs from family to family as with so many.
-FREEDOM = 49
+FREEDOM = 64
 # The largest t and (T / P)^(1/3) of the fit: beyond, the law is a guess.
 FITTED_TO = (4.1, 8.5)
 # What the law misses of the change of the logarithm of both ratios on one surface, over that of the
@@ -133,7 +134,7 @@ def line_under_load(
     largest_wavelength: float,
     pressure: float,
     speed: float,
-    by_scale: RubberByScale | None = None,
+    contact: RoughContact | None = None,
 ) -> LineUnderLoad:
     """Return how far lines reach up, and how hard they are pressed for their height.
 
@@ -151,8 +152,8 @@ def line_under_load(
         Longest wave of the roughness [m].
     pressure, speed : float
         Nominal pressure [Pa] and sliding speed [m/s]; zero is the relaxed rubber.
-    by_scale : RubberByScale, optional
-        The rubber at each scale as it slides, where it is softened or warmed.
+    contact : RoughContact, optional
+        That of the line under the load, where its rubber is softened or warmed.
     """
     longest = checks.positive("largest_wavelength", largest_wavelength, unit="m")
     pressed = checks.positive("pressure", pressure, unit="Pa")
@@ -169,9 +170,22 @@ def line_under_load(
     if not pieces:
         raise InputError("profile must have two different heights at least; got none")
     upper, top, next_to_it = np.mean(pieces, axis=0).tolist()
-    young = rubber.complex_modulus(omega)
-    if by_scale is not None:
-        young = by_scale.complex_modulus(omega, number)
+    young, softening = rubber.complex_modulus(omega), 0.0
+    if contact is not None and contact.by_scale is not None:
+        young = contact.by_scale.complex_modulus(omega, number)
+        softening = _further_softening(contact)
     modulus = abs(complex(plane_strain_modulus_of(young, rubber.bulk_modulus)))
     load = pressed * longest / (modulus * float(np.mean(rms)))
-    return LineUnderLoad(upper, top - next_to_it, load)
+    return LineUnderLoad(upper, top - next_to_it, load, softening)
+
+
+def _further_softening(contact: RoughContact) -> float:
+    """Return ln of E' over that at twice the strain of the smallest wave; 0 without softening."""
+    conditions, scales = contact.conditions, contact.scales
+    if conditions is None or conditions.softening is None or scales is None:
+        return 0.0
+    smallest = math.log(2.0 * math.pi / contact.smallest_wavelength)
+    strain = float(np.interp(smallest, np.log(scales.wavenumber), scales.strain))
+    kelvin = conditions.temperature_of(contact.rubber)
+    less, more = (conditions.softening.factors(e, kelvin) for e in (strain, 2.0 * strain))
+    return math.log(float(less.storage) / float(more.storage))

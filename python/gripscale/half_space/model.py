@@ -17,6 +17,7 @@ from gripscale.core import Array, Checked, InputError, Status, checked, checks, 
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.half_space.condition_errors import SERIES, condition_changes, log_change
 from gripscale.half_space.conditions import warming_of
+from gripscale.half_space.grid import MOST_POINTS
 from gripscale.half_space.large_strain import pressure_over_modulus
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
 from gripscale.half_space.location import contact_trace, with_traces
@@ -89,19 +90,13 @@ def _with_basis(
     what the step from lines to a surface needs is NaN.
     """
     longest = float(surface.sines.wavelength[0])
-    piece, line = PIECE * longest, LineUnderLoad(*[math.nan] * 3)
+    piece, line = PIECE * longest, LineUnderLoad(*[math.nan] * 4)
     measured = surface.measured
     if measured is not None and measured.map is None:
-        pressed = {"pressure": load.pressure, "speed": load.speed}
+        pressed = {"largest_wavelength": longest, "pressure": load.pressure, "speed": load.speed}
         lines = [
-            line_under_load(
-                profile,
-                contact.body.rubber,
-                largest_wavelength=longest,
-                by_scale=contact.by_scale,
-                **pressed,
-            )
-            for profile, contact in zip(measured.cleaned, contacts, strict=True)
+            line_under_load(profile, each.rubber, contact=each, **pressed)
+            for profile, each in zip(measured.cleaned, contacts, strict=True)
         ]
         line = LineUnderLoad(*np.average(np.array(lines), axis=0, weights=lengths))
     strains = [pressure_over_modulus(each.body, load.pressure, longest) for each in contacts]
@@ -209,7 +204,7 @@ class DirectContact(Checked, model.Model):
 
     smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
     tolerance: float | None = checked(relative_tolerance, default=0.02)
-    most_points: int = checked(checks.whole, least=1, most=2**40, default=2**22)
+    most_points: int = checked(checks.whole, least=1, most=2**40, default=MOST_POINTS)
     periodic: bool = checked(checks.flag, default=False)
     time_limit: float | None = checked(checks.positive, unit="s", default=None)
     conditions: Conditions | None = None

@@ -20,7 +20,7 @@ from gripscale.conditions.conditions import Conditions, RubberByScale, water_fil
 from gripscale.core import ConvergenceError, InputError, Quantity, Status, checks, worker_count
 from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE, OnIteration
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
-from gripscale.half_space.grid import PeriodicHeights, nearest, periodic_heights
+from gripscale.half_space.grid import MOST_POINTS, PeriodicHeights, nearest, periodic_heights
 from gripscale.half_space.grid_sequence import (
     ERROR_GRIDS,
     GridRecord,
@@ -72,7 +72,7 @@ def solve_rough_contact(
     water: bool | float | str = False,
     tolerance: float | None = 0.02,
     workers: int | None = None,
-    most_points: int = 2**22,
+    most_points: int = MOST_POINTS,
     most_iterations: int = 60,
     time_limit: float | None = None,
     on_grid: Callable[[GridRecord], None] | None = None,
@@ -187,7 +187,7 @@ def solve_rough_contact(
         raise InputError(
             f"most_points must be at least {points}, four points in each wave of "
             f"{heights.smallest_wavelength:.4g} m; got {most}: raise it, take a larger "
-            "smallest_wavelength or a part of the surface"
+            "smallest_wavelength (of a case: cut_off) or a part of the surface"
         )
     film = _checked_water(effects.water or water, heights, effects, start)
     threads = worker_count(workers) if len(heights.grid.shape) > 1 else 1

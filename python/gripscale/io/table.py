@@ -210,6 +210,9 @@ class Table(Described):
 
     # Terminal.
 
+    def __str__(self) -> str:
+        return as_text(self)
+
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> Iterator[Text]:
         from rich.text import Text
 

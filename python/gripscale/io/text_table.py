@@ -121,6 +121,7 @@ _BINARY = {
 }
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
+_ENOUGH_CELLS = 2000  # numbers of a column that show the decimals of all
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
 _NAME_AND_UNIT = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
@@ -265,6 +266,8 @@ class TextTable:
         """Return the last decimal place of any printed number of a column, such as 0.001."""
         if isinstance(self.rows, PlainRows):  # an axis of a map has few numbers, printed alike
             once = np.unique(self.rows.values[:, column], return_index=True)[1]
+            some = np.linspace(0, once.size - 1, _ENOUGH_CELLS).astype(int)
+            once = np.concatenate([once[:_ENOUGH_CELLS], once[some]])  # decimals come again
             cells = [self.rows[at][column] for at in once.tolist()]
         else:
             cells = self._cells(column)

@@ -29,7 +29,6 @@ from .design.compound_limits import PointLimit as PointLimit
 from .design.design_text import designed_rubber as designed_rubber
 from .design.goal_friction import CompoundGoal as CompoundGoal
 from .design.question import CompoundDesign as CompoundDesign
-from .inputs.charts_of_rubber import finite_strain_figure as finite_strain_figure
 from .inputs.charts_of_rubber import master_curve_figure as master_curve_figure
 from .inputs.charts_of_rubber import measured_moduli_figure as measured_moduli_figure
 from .inputs.charts_of_rubber import shift_figure as shift_figure

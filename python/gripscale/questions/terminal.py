@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 # Exit codes: an input that cannot be used, a wave without solution, stopped from outside.
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
+READING = "reading and fitting the measurements ..."
 PLAIN_WIDTH = 100  # characters per line where there is no terminal to ask
 P = ParamSpec("P")
 
@@ -392,7 +393,7 @@ class CaseCommand:
         """The case, read when it is first needed."""
         from gripscale.case_file import read_case
 
-        show_step(self.console, "reading and fitting the measurements ...")
+        show_step(self.console, READING)
         return read_case(self.file)
 
     def open_results(self, output: Path | None, name: str, opening: str = "") -> None:

@@ -63,30 +63,30 @@ def numeric(data: xr.Dataset) -> list[str]:
     return sorted(dims, key=lambda dim: -data.sizes[dim])
 
 
-def shown(coordinate: xr.DataArray) -> DisplayUnit:
+def shown_unit(coordinate: xr.DataArray) -> DisplayUnit:
     """Return how the values of a coordinate are shown: in the unit they were given in."""
-    unit, given = (str(coordinate.attrs.get(name, "")) for name in ("units", GIVEN))
+    unit, word = (str(coordinate.attrs.get(name, "")) for name in ("units", GIVEN))
     if unit == "K":
         return DisplayUnit("°C", zero=ZERO_CELSIUS)
     if unit in _KINDS:
-        given = given or USUAL[_KINDS[unit]]
-        return DisplayUnit(given, UNITS[_KINDS[unit]][given])
-    return DisplayUnit(given or unit.removesuffix("1"))
+        word = word or USUAL[_KINDS[unit]]
+        return DisplayUnit(word, UNITS[_KINDS[unit]][word])
+    return DisplayUnit(word or unit.removesuffix("1"))
 
 
-def place(data: xr.Dataset, dim: str, i: int) -> str:
+def name_at(data: xr.Dataset, dim: str, i: int) -> str:
     """Return what value `i` of a dimension is called, with its unit; without values its number."""
     if dim not in data.coords:
         return f"{dim.replace('_', ' ')} {i + 1}"
     if is_numeric(data, dim):
-        return shown(data[dim]).text(float(data[dim].values[i]), digits=3).rstrip()
+        return shown_unit(data[dim]).text(float(data[dim].values[i]), digits=3).rstrip()
     text = str(data[dim].values[i])
     return EFFECTS.get(text, text) if dim == "effects" else text.replace("_", " ")
 
 
 def where(data: xr.Dataset, at: Mapping[str, int]) -> str:
     """Return what a place on several dimensions is called."""
-    return ", ".join(place(data, dim, i) for dim, i in at.items())
+    return ", ".join(name_at(data, dim, i) for dim, i in at.items())
 
 
 def points(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
@@ -109,7 +109,7 @@ def answers(data: xr.Dataset) -> list[str]:
     return [believed(data, name) for name in reversed(SYMBOLS)]
 
 
-def interval(data: xr.Dataset, name: str) -> list[xr.DataArray]:
+def interval_ends_of(data: xr.Dataset, name: str) -> list[xr.DataArray]:
     """Return both ends of the 90 % interval of a number; nothing where none is known."""
     ends = [data[end] for end in data[name].attrs.get("interval", "").split() if end in data]
     return ends if len(ends) == 2 and bool(ends[0].notnull().any()) else []
@@ -127,7 +127,7 @@ def course(data: xr.Dataset, name: str) -> str:
     values = np.where(values > 0.0, values, np.nan)  # none at rest
     if not np.isfinite(values).any():
         return ""
-    ends = [at_places(data, str(end.name)) for end in interval(data, name)]
+    ends = [at_places(data, str(end.name)) for end in interval_ends_of(data, name)]
     every = list(places(data))
 
     def number(i: int) -> str:
@@ -152,7 +152,7 @@ def number_columns(data: xr.Dataset, names: Iterable[str]) -> Iterator[Column]:
         if values.dtype.kind == "f":  # no friction at rest is none, not zero
             values = np.where(values == 0.0, math.nan, values)
         yield Column(name, values, about.get("symbol") or about.get("long_name", name))
-        if ends := interval(data, name):
+        if ends := interval_ends_of(data, name):
             both = np.stack([at_places(data, str(end.name)) for end in ends], axis=1)
             yield Column(f"{name}_interval", both, "90 %")
 
@@ -161,7 +161,7 @@ def table(data: xr.Dataset, columns: Iterable[Column], name: str, caption: str) 
     """Return a row for each prediction: its place, the columns and its status."""
     dims, every = dimensions(data), list(places(data))
     keys = [
-        Column(dim, [place(data, dim, at[dim]) for at in every], dim.replace("_", " "))
+        Column(dim, [name_at(data, dim, at[dim]) for at in every], dim.replace("_", " "))
         for dim in dims
     ]
     states = [str(text) for text in at_places(data, STATUS)]
@@ -190,12 +190,13 @@ MOST_NAMES = 12  # names in a legend of curves, evenly spaced among more
 INTERVAL = "90 % interval"
 _MOST_NUMBERS = 5  # along an axis of many decades
 STAR = " *"  # behind the name of a point that rests on the rubber beyond its measured band
+_MARKERS = "osD^vPX<d>"  # of curves that have names, beside their colours
 _LEAST_SHARE = 0.005  # of a sum: parts that never reach it are not drawn
 
 
-def axis_of(coordinate: xr.DataArray) -> tuple[PlotAxis, Array]:
+def plot_axis(coordinate: xr.DataArray) -> tuple[PlotAxis, Array]:
     """Return the axis of a coordinate of numbers and its values as they are drawn."""
-    unit = shown(coordinate)
+    unit = shown_unit(coordinate)
     x = unit.of(coordinate.values)
     if coordinate.name in ("wavelength", "octave"):
         return chart.wavelength_axis(x), x
@@ -221,7 +222,9 @@ def beyond(data: xr.Dataset, name: str) -> xr.DataArray:
 def curves(data: xr.Dataset, dims: Sequence[str]) -> Iterator[tuple[dict[str, int], str, str]]:
     """Yield the points of some dimensions with colour and name."""
     every = list(product(*(range(data.sizes[dim]) for dim in dims)))
-    colours = style.colours(len(every), ordered=len(dims) == 1 and is_numeric(data, dims[0]))
+    colours = [style.COLOURS[i % len(style.COLOURS)] for i in range(len(every))]
+    if all(is_numeric(data, dim) for dim in dims):
+        colours = style.colours(len(every), ordered=len(dims) == 1)
     if [*dims] == ["temperature"]:
         colours = style.shades(len(every), "Plasma")
     for point, colour in zip(every, colours, strict=True):
@@ -242,11 +245,11 @@ def panel(
     variable, flags = xr.broadcast(data[name], flags)
     others = [str(dim) for dim in variable.dims if dim != along]
     if numbers:
-        abscissa, values = axis_of(data[over or along])
+        abscissa, values = plot_axis(data[over or along])
         x = xr.broadcast(data[over or along].copy(data=values), variable)[0]
     else:
         stars = flags.any(others).values
-        names = [f"{place(data, along, i)}{STAR * bool(star)}" for i, star in enumerate(stars)]
+        names = [f"{name_at(data, along, i)}{STAR * bool(star)}" for i, star in enumerate(stars)]
         x = xr.broadcast(xr.DataArray(np.arange(float(len(names))), dims=along), variable)[0]
         label = data[along].attrs.get("long_name", along)
         abscissa = PlotAxis(f"{label} [-]", ticks=dict(enumerate(names)), margin=0.3)
@@ -254,14 +257,16 @@ def panel(
     if numbers:
         drawn = {"dash": "solid", "size": 3.0, "clip": False}
     every, marks = list(curves(data, others)), list[Mark]()
-    listed = -(-len(every) // MOST_NAMES)
-    ends = interval(data, name)
+    listed, ordered = -(-len(every) // MOST_NAMES), all(is_numeric(data, dim) for dim in others)
+    ends = interval_ends_of(data, name)
     for i, (at, colour, words) in enumerate(every):
-        only = colour if others else BLUE
+        only, marker = colour if others else BLUE, "o" if ordered else _MARKERS[i % len(_MARKERS)]
         places_x, y, dashed, *both = (
             part.isel({dim: at[dim] for dim in part.dims if dim in at}).values
             for part in (x, variable, flags, *ends)
         )
+        if not np.isfinite(y).any():
+            continue
         bars: dict[str, Any] = {}
         if both and not numbers:
             bars = {"low": both[0], "high": both[1]}
@@ -270,7 +275,7 @@ def panel(
                 ShadedBand(places_x, both[0], both[1], only, "" if others else INTERVAL, 0.15)
             )
         marks.append(
-            Series(places_x, y, only, words or "sliding", marker="o", beyond=numbers & dashed,
+            Series(places_x, y, only, words or "sliding", marker=marker, beyond=numbers & dashed,
                    listed=i % listed == 0, **drawn, **bars)
         )  # fmt: skip
     return Panel(abscissa, ordinate(data[name]), marks)
@@ -286,7 +291,7 @@ def stacked_panel(
     upper = np.where(np.isnan(rows).all(axis=0), np.nan, np.cumsum(there, axis=0))
     most = there.max(axis=1)
     seen = [i for i, part in enumerate(most) if part >= _LEAST_SHARE * there.sum(axis=0).max()]
-    abscissa, x = axis_of(data[along])
+    abscissa, x = plot_axis(data[along])
     colours = style.shades(max(len(seen), 2), "Viridis" if stacks == "octave" else "Cividis")
     bands: list[Mark] = [
         ShadedBand(x, upper[i] - there[i], upper[i], colour, words[i], 1.0, edged=True)

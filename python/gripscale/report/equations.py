@@ -1,28 +1,22 @@
 """The equations of the method, with pictures that matplotlib has set as SVG.
 
 MathML would need no pictures, but browsers set it badly where no mathematical font is installed.
-`python -m gripscale.report.equations` draws the pictures anew, for equations that have changed.
 """
 
 from __future__ import annotations
 
 import base64
-import io
 import re
 from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
-from pathlib import Path
-from typing import Any
 
 from gripscale.report.elements import Equation, Section, Text
 
 _LW = "Lind & Wangenheim 2014, ASME IMECE2014-37998"
 
-_POINTS = 14.0  # size of the letters [pt]
-
 # name, LaTeX, words, source
-_EQUATIONS = [
+EQUATIONS = [
     (
         "correlation",
         r"C_z(l) = \langle ( z(x+l) - z(x) )^2 \rangle",
@@ -137,7 +131,7 @@ _EQUATIONS = [
 def method_equations() -> list[Equation]:
     """Return every equation that a model may name, with pictures in base64."""
     equations = []
-    for name, latex, words, source in _EQUATIONS:
+    for name, latex, words, source in EQUATIONS:
         svg = picture(name)
         sizes = re.search(r'<svg[^>]* width="([\d.]+)pt" height="([\d.]+)pt"', svg)
         assert sizes is not None
@@ -153,22 +147,6 @@ def picture(name: str) -> str:
     return stored.read_text(encoding="utf-8")
 
 
-def draw_equations(latex: str) -> str:
-    """Return an equation as SVG; its LaTeX stands in it as a comment."""
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    rules: Any = {"mathtext.fontset": "stix", "svg.hashsalt": "gripscale", "svg.fonttype": "path"}
-    drawn = io.StringIO()
-    with mpl.rc_context(rules):
-        figure = Figure()
-        figure.text(0.0, 0.0, f"${latex}$", fontsize=_POINTS)
-        look: dict[str, Any] = {"bbox_inches": "tight", "pad_inches": 0.02, "transparent": True}
-        metadata = {"Date": None, "Creator": None}
-        figure.savefig(drawn, format="svg", metadata=metadata, **look)
-    return drawn.getvalue()
-
-
 def method_section(*methods: Sequence[str]) -> Section:
     """Return what the models that were run say of themselves (`gripscale.model.Model.method`).
 
@@ -177,10 +155,3 @@ def method_section(*methods: Sequence[str]) -> Section:
     by_name = {equation.name: equation for equation in method_equations()}
     items = dict.fromkeys(item for method in methods for item in method)
     return Section("method", "Method", [by_name.get(item) or Text(item) for item in items])
-
-
-if __name__ == "__main__":
-    folder = Path(__file__).parent / "templates" / "equations"
-    folder.mkdir(exist_ok=True)
-    for name, latex, *_ in _EQUATIONS:
-        (folder / f"{name}.svg").write_text(draw_equations(latex), encoding="utf-8")

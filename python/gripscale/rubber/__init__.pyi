@@ -42,7 +42,6 @@ from .strain_energy import StrainEnergy as StrainEnergy
 from .strain_energy import Yeoh as Yeoh
 from .strain_energy import strain_energy as strain_energy
 from .strain_sweeps import StrainSweep as StrainSweep
-from .strain_sweeps import read_strain_sweep as read_strain_sweep
 from .strain_sweeps import read_strain_sweeps as read_strain_sweeps
 from .superposition import Overlap as Overlap
 from .superposition import Superposition as Superposition

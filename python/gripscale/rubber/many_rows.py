@@ -12,7 +12,7 @@ import numpy as np
 from gripscale.core import Array
 
 MOST_ROWS = 5000  # rows up to which all are kept
-PER_DECADE = 100  # rows of a decade of frequency, at one temperature, that are kept of more
+ROWS_PER_DECADE = 100  # rows of a decade of frequency, at one temperature, that are kept of more
 _SAME_TEMPERATURE = 0.2  # width of a step of temperature [K]
 
 
@@ -25,11 +25,11 @@ def thinned(rows: Array) -> tuple[Array, tuple[str, ...]]:
     if count <= MOST_ROWS:
         return rows, ()
     temperature, frequency = np.round(rows[0] / _SAME_TEMPERATURE), np.log10(rows[1])
-    bins = 1e6 * temperature + np.round(PER_DECADE * frequency)
+    bins = 1e6 * temperature + np.round(ROWS_PER_DECADE * frequency)
     order = np.lexsort((frequency, bins))
     _, first, each = np.unique(bins[order], return_index=True, return_counts=True)
     kept = order[first + each // 2]
     return rows[:, kept], (
-        f"{kept.size} of {count} rows kept, at most {PER_DECADE} of a decade of frequency at one "
-        "temperature",
+        f"{kept.size} of {count} rows kept, at most {ROWS_PER_DECADE} of a decade of frequency at "
+        "one temperature",
     )

@@ -164,7 +164,6 @@ def fit_prony_report(
     outlier_threshold: float = 8.0,
     extrapolate_decades: float = DECADES_BEYOND,
     smoothing: float = _SMOOTHING,
-    loss_weight: float = 1.0,
 ) -> tuple[Rubber, PronyFit]:
     """Return the Prony series of a master curve and the report on it.
 
@@ -190,8 +189,6 @@ def fit_prony_report(
     smoothing : float
         Weight of the second differences of the spectrum; zero gives the bare non-negative fit. With
         16 relaxation times a decade, for few sharp relaxations, a hundredth of it counts.
-    loss_weight : float
-        Weight of the relative errors of E'' against those of E'.
 
     Returns
     -------
@@ -212,7 +209,6 @@ def fit_prony_report(
     checks.positive("outlier_threshold", outlier_threshold, infinite=True)
     beyond = _option("extrapolate_decades", extrapolate_decades, _MOST_DECADES)
     smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
-    loss_weight = checks.positive("loss_weight", _option("loss_weight", loss_weight, _MOST_WEIGHT))
     bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
     swapped = report.swapped_moduli(master)
     if swapped.certain and not likely_reading(master, swapped):
@@ -225,7 +221,7 @@ def fit_prony_report(
     screening = maxwell_fit.screen_outliers(curve, times, plain, outlier_threshold)
     rows = curve.rows(screening.kept)
     limit = largest_modulus(float(rows.storage.max()), bulk)
-    prior = Prior(smoothing, _SHRINKAGE * smoothing, limit, loss_weight=loss_weight)
+    prior = Prior(smoothing, _SHRINKAGE * smoothing, limit)
 
     def fit(part: Curve, terms: int) -> Spectrum:
         times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from gripscale.core import Array, Checked, Quantity, Vector, checked, checks
 from gripscale.core.errors import FileError, GripscaleError, unstated
 from gripscale.core.units import ZERO_CELSIUS
-from gripscale.io.text_table import TextTable, file_path, file_paths
+from gripscale.io.text_table import TextTable, file_paths
 from gripscale.rubber.blocks import Block, read_blocks, with_named_temperature
 from gripscale.rubber.columns import (
     APART,
@@ -95,15 +95,6 @@ class StrainSweep(Checked, eq=False):
         kelvin = "" if self.temperature is None else f"{self.temperature - ZERO_CELSIUS:.1f} °C"
         hertz = "" if self.frequency is None else f"{self.frequency:g} Hz"
         return ", ".join(filter(None, [kelvin, hertz])) or "no temperature"
-
-
-def read_strain_sweep(path: str | Path, **options: Any) -> StrainSweep:
-    """Read one strain sweep as `read_strain_sweeps`; raises `FileError` if there are several."""
-    sweeps = read_strain_sweeps(file_path(path), **options)
-    if len(sweeps) > 1:
-        conditions = "; ".join(sweep.condition for sweep in sweeps)
-        raise FileError(f"{path}: expected one strain sweep; got {len(sweeps)}: {conditions}")
-    return sweeps[0]
 
 
 def read_strain_sweeps(

@@ -202,7 +202,7 @@ def _runs(z: Array, points: int, rise: float) -> NDArray[np.intp]:
     # a run begins after a steep step, or a line
     starts = np.searchsorted(at, np.arange(0, z.size, points))
     begin = np.union1d(np.flatnonzero(steep) + 1, starts[starts < at.size])
-    found = []
+    spikes = []
     for width in range(1, _LONGEST_SPIKE + 1):
         first = begin[begin + width <= at.size]
         last = first + width - 1
@@ -221,8 +221,8 @@ def _runs(z: Array, points: int, rise: float) -> NDArray[np.intp]:
             below = below & (~inside | (heights[near] - highest >= off))
             bounded |= inside
         chosen = first[(above | below) & bounded]
-        found.append(at[chosen[:, None] + np.arange(width)].ravel())
-    return np.concatenate(found)
+        spikes.append(at[chosen[:, None] + np.arange(width)].ravel())
+    return np.concatenate(spikes)
 
 
 def mark_steep_steps(

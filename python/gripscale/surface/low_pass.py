@@ -110,7 +110,9 @@ def followed(surface: _Heights, steepest: float = STEEPEST, *, periodic: bool = 
     missing = np.isnan(surface.z)
     whole = np.where(missing, np.nanmin(surface.z), surface.z)
     envelope = upper_envelope(whole, steps, slope, periodic=periodic)
-    return surface if envelope is whole else replace(surface, z=np.where(missing, np.nan, envelope))
+    if envelope is whole or np.array_equal(envelope[~missing], surface.z[~missing]):
+        return surface
+    return replace(surface, z=np.where(missing, np.nan, envelope))
 
 
 def followed_lines(

@@ -257,8 +257,12 @@ def read_profile(
         field = HeightField(surface.z, surface.x, surface.y)
     elif as_text:
         spacing = None if steps is None else steps[0]
-        units = {"x_unit": x_unit, "z_unit": z_unit}
-        profile = read_text_profile(file, **units, sheet=sheet, step=spacing, channel=channel)
+        options: dict[str, Any] = {"x_unit": x_unit, "z_unit": z_unit}
+        options |= {"sheet": sheet, "channel": channel}
+        profile = read_once(
+            ("profile", file, repr((spacing, options))),
+            lambda: read_text_profile(file, **options, step=spacing),
+        )
         checks.whole(f"line of {file}", line or 0, least=0, most=0)
         return upwards(profile, z_axis)
     else:
@@ -371,7 +375,7 @@ def read_map(
     """
     file = _checked_path(path, x_unit, z_unit, reader)
     options = {"x_unit": x_unit, "z_unit": z_unit, "step": _steps(step, x_unit)}
-    key = "map", file, reader, channel, *options.values()
+    key = "map", file, repr((reader, channel, options))
     return upwards(read_once(key, lambda: _map_of(file, reader, channel, options)), z_axis)
 
 

@@ -129,7 +129,7 @@ _WAVENUMBER = re.compile(
     r"^\W*(q|k|wave ?(number|vector|length)|wellen(zahl|länge)|spatial freq\w*|ortsfrequenz)\b",
     re.IGNORECASE,
 )
-_SPECTRUM = re.compile(r"^\W*(c\b|c_|c\(|psd|power|spectr|leistungsdichte)", re.IGNORECASE)
+_SPECTRUM = re.compile(r"^\W*(c\b|c_|c\(|.*(psd|power|spectr|leistungsdichte))", re.IGNORECASE)
 
 # Most points of a grid, in points of the file: with fewer on it, the file is not on a grid.
 _MOST_TIMES = 100

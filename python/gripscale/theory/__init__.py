@@ -1,8 +1,9 @@
 """Closed forms and the small-strain model, to check the solver against and to learn from.
 
-Modules: `elastic` and `thin_film` (closed forms), `half_plane` (small-strain model of one sliding
-wave), `persson` and `klueppel_heinrich` (theories of rough surfaces). The material point under any
-history, `uniaxial_stress` and `simple_shear_stress`, is in `gripscale.rubber.finite_strain`.
+Modules: `elastic` (full contact of a sine), `half_plane` (small-strain model of one sliding wave),
+`layers` (rubber of finite thickness), `brush` (a tread that sticks and slides), `persson` and
+`klueppel_heinrich` (rough surfaces). The material point under any history, `uniaxial_stress` and
+`simple_shear_stress`, is in `gripscale.rubber.finite_strain`.
 """
 
 import lazy_loader

@@ -1,16 +1,9 @@
 from .brush import Brush as Brush
 from .brush import BrushForce as BrushForce
 from .brush import brush_force as brush_force
-from .elastic import contact_fraction as contact_fraction
-from .elastic import contact_half_width as contact_half_width
-from .elastic import contact_pressure as contact_pressure
-from .elastic import crest_radius as crest_radius
 from .elastic import full_contact_friction as full_contact_friction
 from .elastic import full_contact_pressure as full_contact_pressure
-from .elastic import largest_pressure as largest_pressure
 from .elastic import plane_strain_modulus as plane_strain_modulus
-from .elastic import slab_compliance as slab_compliance
-from .elastic import step_relaxation_stress as step_relaxation_stress
 from .half_plane import HalfPlane as HalfPlane
 from .half_plane import solve_half_plane as solve_half_plane
 from .klueppel_heinrich import KlueppelHeinrich as KlueppelHeinrich
@@ -19,7 +12,3 @@ from .klueppel_heinrich import klueppel_heinrich as klueppel_heinrich
 from .persson import Persson as Persson
 from .persson import PerssonResult as PerssonResult
 from .persson import persson as persson
-from .thin_film import flow_factor_across as flow_factor_across
-from .thin_film import flow_factor_along as flow_factor_along
-from .thin_film import patir_cheng_flow_factor as patir_cheng_flow_factor
-from .thin_film import stefan_time as stefan_time

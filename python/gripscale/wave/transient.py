@@ -66,7 +66,8 @@ class TransientResult(Described):
 
     def cycle(self, wavelengths: float = 1.0) -> dict[str, tuple[float, float, float]]:
         """Return mean, least and largest friction and contact over the last `wavelengths`."""
-        last = self._distance_to_end() <= wavelengths
+        path = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(self.distance)))))
+        last = path[-1] - path <= wavelengths * self.wavelength
         return {
             name: (float(values[last].mean()), float(values[last].min()), float(values[last].max()))
             for name, values in (
@@ -74,29 +75,6 @@ class TransientResult(Described):
                 ("contact_fraction", self.contact_fraction),
             )
         }
-
-    def _distance_to_end(self) -> Array:
-        """Return the sliding distance from every moment to the end, in wavelengths."""
-        path = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(self.distance)))))
-        return np.asarray((path[-1] - path) / self.wavelength)
-
-    def verdict(self, tolerance: float = 0.01) -> str:
-        """Return whether friction is `steady`, `settling` or a `limit cycle` at the end.
-
-        The criterion is its range over the last wavelength: steady below `tolerance` of the mean,
-        settling if it still shrinks by a tenth per wavelength, else a limit cycle, whose mean and
-        range `cycle` returns. `too short` with less than two wavelengths at the last speed.
-        """
-        back = self._distance_to_end()
-        changed = np.flatnonzero(self.speed != self.speed[-1])
-        since = changed[-1] if len(changed) else 0
-        if self.speed[-1] == 0.0 or back[since] < 2.0 - 1e-9:
-            return "too short"
-        last, before = (back <= 1.0), (back > 1.0) & (back <= 2.0)
-        ranges = [float(np.ptp(self.friction[part])) for part in (before, last)]
-        if ranges[1] <= tolerance * abs(float(self.friction[last].mean())):
-            return "steady"
-        return "settling" if ranges[1] < 0.9 * ranges[0] else "limit cycle"
 
 
 def solve_transient(

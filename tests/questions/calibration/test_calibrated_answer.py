@@ -136,8 +136,8 @@ def test_answer_variation_and_comparison_have_one_total(tmp_path: Path) -> None:
     varied = gs.vary(case, speed=[0.1, 0.3])
     columns = {column.name: column.values for column in varied.table().columns}
     assert columns["answer_friction"][0] == pytest.approx(answer.friction)
-    assert columns["area_term"][0] == pytest.approx(answer.interface_friction)
-    least = significant(columns["area_term"].min())
+    assert columns["answer_interface_friction"][0] == pytest.approx(answer.interface_friction)
+    least = significant(columns["answer_interface_friction"].min())
     assert f"{least} to" in " ".join(varied.lines)
 
     measured = MeasuredFriction([0.1], [0.5], temperature=[293.15])

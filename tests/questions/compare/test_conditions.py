@@ -126,3 +126,6 @@ def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: SolvedLa
         assert float(warm.total_friction.sel(model=member)) == pytest.approx(own, rel=1e-12)
         cold = float(data.total_friction.sel(temperature=293.15, model=member))
         assert abs(cold / own - 1.0) > 0.01
+    assert over.ladder is not None
+    kelvins = [setup.continuation.conditions.temperature for setup in over.ladder.setups]
+    assert kelvins == [293.15, 308.15], "roughness below the measurement, too"

@@ -129,7 +129,7 @@ def test_options_of_the_command_go_before_the_case(case, tmp_path) -> None:
         ('without = ["weather"]', "profile"),
         ('ranges = { cut_off = ["2 mm", "1 mm"] }', "rising"),
         ('ranges = { cut_off = "2 mm" }', "a list of two ends or of equally likely values"),
-        ("ranges = { load_time = [0, 1] }", "greater than zero"),
+        ("ranges = { load_time = [0, 1] }", "expected a number, above 0"),
         ("ranges = { profile = [1, 2] }", "profile"),
         ('block_length = "0 mm"', "block_length"),
         ('ranges = { temperature = "0 K" }', "greater than zero"),

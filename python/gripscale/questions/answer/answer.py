@@ -23,7 +23,7 @@ from gripscale.charts.draw import Sheet
 from gripscale.core.finding import Finding, to_json
 from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.experiment.solve import Bench
-from gripscale.experiment.task import PREDICTIONS, Store, Task
+from gripscale.experiment.task import PREDICTIONS, Store
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
 from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
@@ -230,8 +230,7 @@ def solved_chain(case: Case, bench: Bench) -> xr.Dataset:
 
     A wave that does not converge ends it: `prediction_status` says so.
     """
-    task = Task(case.rubber, case.surface, case.load, case.chain)
-    (predicted,) = bench.solve({OF_THE_PAPER: task}).values()
+    (predicted,) = bench.solve({OF_THE_PAPER: case.task()}).values()
     sources = {"surface_source": case.surface.source, "rubber_source": case.measured_rubber.source}
     return predicted.assign_attrs(case.attributes | sources)
 

@@ -133,8 +133,8 @@ def described(data: xr.Dataset) -> xr.Dataset:
     data = data.copy()
     for name, about in (ANSWER_NUMBERS | _OF_MODELS).items():
         if name in data:
-            known = {"units": "1", "long_name": model.TOTALS.get(name, name)}
-            data[name].attrs = known | data[name].attrs | about
+            defaults = {"units": "1", "long_name": model.TOTALS.get(name, name)}
+            data[name].attrs = defaults | data[name].attrs | about
     for quantity in SYMBOLS:
         if is_estimated(data, quantity) and f"total_{quantity}" in data:
             data[f"total_{quantity}"].attrs["role"] = "number"

@@ -12,7 +12,6 @@ import xarray as xr
 from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.experiment.task import Task
 from gripscale.model import Load
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.estimate import ESTIMATED, with_interface, with_interval
@@ -67,5 +66,4 @@ def answer_of_waves(
 
 def waves_answer(case: Case, predicted: xr.Dataset) -> xr.Dataset:
     """Return the answer of a case of waves from the prediction of its chain."""
-    task = Task(case.rubber, case.surface, case.load, case.chain)
-    return answer_of_waves(reduce.sample_numbers(predicted, task), case, case.load)
+    return answer_of_waves(reduce.sample_numbers(predicted, case.task()), case, case.load)

@@ -188,10 +188,10 @@ def chain_section(chain: xr.Dataset, answer: xr.Dataset) -> Section:
     waves, *heat = chain_tables(chain)
     elements += [replace(waves, name="chain"), *heat]
     if view.waves:
-        shown = {view.name: chain, **({} if judge is None else {JUDGE: judge})}
+        models = {view.name: chain, **({} if judge is None else {JUDGE: judge})}
         picture = Picture(
             "contact_and_friction",
-            contact_sheet(shown).on_paper(),
+            contact_sheet(models).on_paper(),
             "Area and friction: running total down to each wave (filled), and of each wave (open); "
             "dashed beyond the measured band.",
             "Two panels of points against wavelength, which falls to the right.",

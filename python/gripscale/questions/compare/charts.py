@@ -9,26 +9,24 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.charts import chart, style
-from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.chart import Mark, Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
-from gripscale.core.arrays import Array
-from gripscale.core.units import MILLI, DisplayUnit, display_unit_of
+from gripscale.core.units import DisplayUnit, display_unit_of
 from gripscale.experiment.measured_friction import MeasuredSeries, measured_series
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
+from gripscale.questions import view
 from gripscale.questions.answer.variables import AXIS_TITLES, believed
 from gripscale.questions.compare import charts_of_ladder as ladder
-from gripscale.questions.compare.charts_of_ladder import BEST, STAR, Look, Row
-from gripscale.questions.view import axis_of, shown
+from gripscale.questions.compare.charts_of_ladder import BEST, Row
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,7 +45,7 @@ def comparison_figure(comparison: xr.Dataset) -> Figure:
     """
     panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
     labels = list((panels[0].y.ticks or {}).values())
-    star = any(label.endswith(STAR) for label in labels)
+    star = any(label.endswith(view.STAR) for label in labels)
     return Sheet(
         panels,
         height=0.95 + 0.33 * len(labels),
@@ -81,7 +79,7 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     marks += [mark for at, row in enumerate(rows) for mark in _row_marks(at, row)]
     labels = zip(comparison.model.values, comparison.label.values, strict=True)
     strong = {BEST} | {f"{label}{end}" for member, label in labels if member == DirectContact.name
-                       for end in ("", STAR)}  # fmt: skip
+                       for end in ("", view.STAR)}  # fmt: skip
     return Panel(
         PlotAxis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3),
         PlotAxis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
@@ -113,42 +111,25 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     yield chart.Note(max(row.numbers), at, text, offset=(5.0, 0.0))
 
 
+def _by_label(comparison: xr.Dataset) -> xr.Dataset:
+    """Return the models on the surface, called by what figures call them."""
+    data = ladder.on_the_surface(comparison)
+    return data.assign_coords(model=("model", data["label"].values))
+
+
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     """Describe area or friction of each model down to each wavelength.
 
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
-    data = ladder.on_the_surface(comparison)
+    data = _by_label(comparison)
     data = data.isel(wavelength=ladder.worth_drawing(data))
-    length = data.wavelength.values / MILLI
-    beyond = style.down_to(data[FLAG] == 1) if FLAG in data else np.zeros(length.size, dtype=bool)
-    marks: list[Mark] = []
-    for member, look in _compared_models(data):
-        values = member[f"running_{name}"].values
-        solved = np.isfinite(values)
-        if solved.any():
-            marks.append(_curve(length[solved], values[solved], member, look, beyond[solved]))
-    area = name == "contact_fraction"
-    return Panel(
-        chart.wavelength_axis(length),
-        PlotAxis(f"{AXIS_TITLES[name]},\nlonger waves [-]", log=area, low=None if area else 0.0),
-        marks,
-    )
-
-
-def _compared_models(data: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
-    names = [str(name) for name in data["model"].values]
-    for at, look in enumerate(ladder.looks(names)):
-        yield data.isel(model=at), look
-
-
-def _curve(x: Array, y: Array, member: xr.Dataset, look: Look, beyond: NDArray[np.bool_]) -> Series:
-    """Return the curve of a model; the one the others are judged by is drawn stronger."""
-    strong = str(member.model.item()) == DirectContact.name
-    width, size, order = (2.0, 4.0, 3.0) if strong else (1.2, 3.2, 2.0)
-    return Series(x, y, look.colour, str(member.label.item()), look.dash, width, look.marker, size,
-                  beyond=beyond, order=order, clip=False)  # fmt: skip
+    flags = xr.DataArray(False)
+    if FLAG in data:
+        flags = data[FLAG].copy(data=style.down_to(data[FLAG] == 1))
+    panel = view.panel(data, f"running_{name}", "wavelength", flags=flags)
+    return replace(panel, y=replace(panel.y, label=f"{AXIS_TITLES[name]},\nlonger waves [-]"))
 
 
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
@@ -160,34 +141,35 @@ _MARGIN = 0.03  # room beside the values of an axis, over its extent
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
-    comparison, axis = ladder.on_the_surface(comparison), ladder.varied(comparison)
-    abscissa, x = axis_of(comparison[axis])
-    area = name == "contact_fraction"
-    marks: list[Mark] = []
-    for member, look in _compared_models(comparison):
-        values, spread = member[f"total_{name}"].values, member[f"{name}_spread"].values
-        if not np.isfinite(values).any():
-            continue
-        curve = _curve(x, values, member, look, style.predictions_beyond(member))
-        marks.append(replace(curve, filled=(member.converged_samples == member.samples).values))
-        if np.isfinite(spread).any():
-            # A spread above the number itself has no end on a logarithmic axis.
-            low = np.maximum(values - spread, 1e-3 * values)
-            high = np.minimum(values + spread, 1.0 if area else np.inf)
-            marks.append(ShadedBand(x, low, high, look.colour, curve.label, alpha=0.18))
+    total, axis, area = f"total_{name}", ladder.varied(comparison), name == "contact_fraction"
+    data = _by_label(comparison)
+    spread = data[f"{name}_spread"]
+    # a spread above the number itself has no end on a logarithmic axis
+    low = np.maximum(data[total] - spread, 1e-3 * data[total])
+    high = np.minimum(data[total] + spread, 1.0 if area else np.inf)
+    data = data.assign(spread_low=low, spread_high=high)
+    data[total].attrs["interval"] = "spread_low spread_high"
+    panel = view.panel(data, total, axis)
+    whole = data["converged_samples"] == data["samples"]
+    marks = [
+        replace(mark, filled=whole.sel(model=mark.label).values)
+        if isinstance(mark, Series)
+        else mark
+        for mark in panel.marks
+    ]
+    x = view.plot_axis(comparison[axis])[1]
     if np.isfinite(comparison[f"answer_{name}_factor"]).any():
         answer = believed(comparison, name)
         values, *ends = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))
         marks.append(Series(x, values, INK, BEST, "", marker="*", size=8.0, order=4.0,
                             low=ends[0], high=ends[1]))  # fmt: skip
-    if name == "friction" and (adhesive := with_adhesive(comparison)) is not None:
-        for (_, look), values in zip(_compared_models(comparison), adhesive.values, strict=True):
-            if np.isfinite(values).any():
-                term = Series(x, values, look.colour, "with the area term", "dashdot", width=0.9)
-                marks.append(term)
+    if name == "friction" and (adhesive := with_adhesive(data)) is not None:
+        curves = view.panel(data.assign(adhesive=adhesive), "adhesive", axis).marks
+        look: dict[str, Any] = {"label": "with the area term", "dash": "dashdot", "marker": ""}
+        marks += [replace(mark, width=0.9, **look) for mark in curves if isinstance(mark, Series)]
     low, high = float(x.min()), float(x.max())
     if axis == "speed" and name == "friction":
-        points = list(ladder.measured_points(comparison, shown(comparison[axis])))
+        points = list(ladder.measured_points(comparison, view.shown_unit(comparison[axis])))
         marks += points
         speeds = [speed for series in points for speed in np.asarray(series.x)]
         low, high = min([low, *speeds]), max([high, *speeds])
@@ -197,7 +179,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     low, high = (low / extent, high * extent) if log else (low - extent, high + extent)
     least = min(0.0, float(comparison.total_friction.min()))
     return Panel(
-        replace(abscissa, log=log, low=low, high=high),
+        replace(panel.x, log=log, low=low, high=high),
         PlotAxis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
         marks,
     )
@@ -211,13 +193,15 @@ LEAST_WIDTH = 4.5  # width below which the legend has no room [inch]
 def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
     """Draw measured friction with its spread, and the total of every model at the same points."""
     names = [str(name) for name in data.model.values]
+    colours = style.colours(len(names), ordered=False)
 
     def models(series: MeasuredSeries, speed_unit: DisplayUnit) -> Iterator[Mark]:
-        for name, look in zip(names, ladder.looks(names), strict=True):
+        for name, colour in zip(names, colours, strict=True):
             values = data.friction.sel(model=name).values[series.rows]
             if np.isfinite(values).any():
-                yield Series(speed_unit.of(series.speed), values, look.colour,
-                             labels.get(name, name), look.dash, 1.2, look.marker, 3.5)  # fmt: skip
+                label = labels.get(name, name)
+                yield Series(speed_unit.of(series.speed), values, colour, label, width=1.2,
+                             marker="o", size=3.5)  # fmt: skip
 
     return measured_sheet(data, models, head=1.2).on_paper()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,55 +13,17 @@ from numpy.typing import NDArray
 
 from gripscale.charts import style
 from gripscale.charts.chart import Series
-from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
+from gripscale.charts.style import GREY, INK, ORANGE
 from gripscale.core.units import DisplayUnit
 from gripscale.experiment.measured_friction import measured_series
 from gripscale.half_space.model import DirectContact
 from gripscale.questions.answer.intervals import UPPER_LIMITS
 from gripscale.questions.answer.variables import answer_number
+from gripscale.questions.view import STAR
 
 ASIDE = ("windows",)  # groups of other surfaces, which only give factors of the answer
 # Share of friction or area from which on a wavelength is drawn: longer waves do nothing.
 SEEN = 0.01
-
-
-class Look(NamedTuple):
-    """Colour, dash and marker of a model.
-
-    A model differs from the others by marker as well as by colour. Its line is solid or dotted:
-    dashed is what rests on the rubber beyond its measured band.
-    """
-
-    colour: str
-    dash: str
-    marker: str
-
-
-LOOKS = {
-    "chain": Look(BLUE, "solid", "o"),
-    "chain_half_plane": Look(SKY, "solid", "s"),
-    "chain_upper": Look(SKY, "dotted", "<"),
-    "sines": Look(GREEN, "solid", "^"),
-    "random_phases": Look(PURPLE, "solid", "v"),
-    DirectContact.name: Look(ORANGE, "solid", "D"),
-    "persson": Look(GREY, "dotted", "P"),
-    "klueppel_heinrich": Look(YELLOW, "dotted", "X"),
-}
-# For models that have no look of their own, in turn.
-OTHER_LOOKS = (
-    Look(YELLOW, "solid", "d"),
-    Look(YELLOW, "dotted", ">"),
-    Look(INK, "solid", "h"),
-    Look(GREY, "dotted", "p"),
-)
-
-
-def looks(names: list[str]) -> list[Look]:
-    """Return the look of each named model, in order."""
-    strangers = [name for name in names if name not in LOOKS]
-    return [
-        LOOKS.get(name) or OTHER_LOOKS[strangers.index(name) % len(OTHER_LOOKS)] for name in names
-    ]
 
 
 def flawed(comparison: xr.Dataset) -> NDArray[np.bool_]:
@@ -103,8 +65,6 @@ def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Serie
 
 
 BEST = "answer"
-# Behind the label of a model whose friction rests partly on rubber beyond its measured band.
-STAR = " *"
 
 
 @dataclass(frozen=True)

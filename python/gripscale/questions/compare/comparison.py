@@ -140,7 +140,7 @@ def comparison_setups(
 
     Arguments and errors are those of `compare`.
     """
-    tasks = {"": Task(case.rubber, case.surface, case.load, case.chain)}
+    tasks = {"": case.task()}
     rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
     axis: Axis | None = None
     if vary is not None:
@@ -164,7 +164,7 @@ def comparison_setups(
             checks.positive("tolerance", tolerance),
             case.klueppel_heinrich,
             chain.pressure_classes,
-            continuation=case.continuation(),
+            continuation=replace(case.continuation(), conditions=conditions),
             conditions=conditions,
         )
         if case.chain.extrapolate == "refuse":

@@ -34,7 +34,7 @@ from gripscale.questions.compare.charts import comparison_pictures
 from gripscale.questions.compare.charts_of_ladder import flawed, varied
 from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.stored import predicted_tree
-from gripscale.questions.view import shown
+from gripscale.questions.view import shown_unit
 from gripscale.report import elements
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
@@ -130,7 +130,7 @@ def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
     data = comparison.transpose(axis, ...)
     failed = flawed(data)
     beyond = data[model.FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
-    words, unit = axis.replace("_", " "), shown(comparison[axis])
+    words, unit = axis.replace("_", " "), shown_unit(comparison[axis])
     look = unit.unit, unit.divisor, unit.zero, "{:.3g}".format
     columns = [Column(axis, data[axis].values, words, *look)]
     for at, member in enumerate(data.model.values):
@@ -231,7 +231,7 @@ def comparison_failures(comparison: xr.Dataset) -> Iterator[tuple[str, Failure]]
     for point in points:
         data, where = comparison.isel(point), ""
         if axis:
-            value = shown(comparison[axis]).text(float(data[axis]), 4)
+            value = shown_unit(comparison[axis]).text(float(data[axis]), 4)
             where = f"{axis.replace('_', ' ')} {value}, "
         words = model.status_words(data, "status").values
         for label, text, word in zip(data.label.values, data.status.values, words, strict=True):

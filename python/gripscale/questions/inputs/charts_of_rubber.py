@@ -1,4 +1,4 @@
-"""Charts of rubber: moduli and Prony series, superposed sweeps, shift factors, finite strain.
+"""Charts of rubber: moduli and Prony series, superposed sweeps, shift factors, softening.
 
 The master curve with its Prony series and the frequencies that the waves excite is figure 2 of LW.
 """
@@ -19,7 +19,6 @@ from gripscale.charts.chart import (
     ColourBar,
     CrossLine,
     Mark,
-    Note,
     Panel,
     PlotAxis,
     Series,
@@ -32,7 +31,6 @@ from gripscale.core import Array, InputError
 from gripscale.core.units import MEGA, ZERO_CELSIUS
 from gripscale.questions.inputs.record import band, rubber_variables
 from gripscale.rubber import (
-    FiniteStrainFit,
     MasterCurve,
     PronyFit,
     Rubber,
@@ -41,7 +39,6 @@ from gripscale.rubber import (
     Superposition,
     Sweep,
     Sweeps,
-    uniaxial_stress,
 )
 from gripscale.rubber.softening import SofteningTable
 from gripscale.rubber.superposition import temperatures_in
@@ -56,7 +53,6 @@ OMEGA = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)
 MODULUS = PlotAxis("modulus $E'$, $E''$ [MPa]", log=True)
 LOSS_FACTOR = PlotAxis("loss factor $E''/E'$ [-]", low=0.0)
 CELSIUS = PlotAxis("temperature [°C]")
-KILO = 1e3
 _TWO_TO_ONE: dict[str, Any] = {"sharex": True, "height_ratios": [2.0, 1.0]}
 _MODULI = (("storage", "$E'$", BLUE), ("loss", "$E''$", ORANGE))
 
@@ -366,39 +362,6 @@ def softening_sheet(law: SofteningTable) -> Sheet:
         marks.append(CrossLine(1.0, GREY))
         panels.append(Panel(strain, PlotAxis(f"{name} over that at {ends} % [-]", low=0.0), marks))
     return Sheet(panels, legend_columns=min(count, 6))
-
-
-def finite_strain_figure(fits: Mapping[str, FiniteStrainFit]) -> Figure:
-    """Draw nominal stress [kPa] against stretch, one panel for each test, with labelled fits.
-
-    The errors of the fits stand in their colours. Raises `InputError` if there is no fit, or the
-    fits are of different tests.
-    """
-    first = next(iter(fits.values()), None)
-    if first is None or any(fit.tests != first.tests for fit in fits.values()):
-        raise InputError("fits must hold at least one fit, all of the same tests")
-    dashes = ("solid", "solid", "dashed", "dotted", "dashdot", "solid")
-    panels = []
-    for number, test in enumerate(first.tests):
-        measured = test.stress / KILO
-        marks: list[Mark] = [
-            Series(test.stretch, measured, GREY, "measured", "", marker="o", size=3.0,
-                   filled=False),
-            Note(0.03, 0.97, "error: rms, work lost", frame="xy", top=True),
-        ]  # fmt: skip
-        looks = zip(fits.items(), COLOURS, dashes, strict=False)
-        for row, ((label, fit), colour, dash) in enumerate(looks, 1):
-            stress = uniaxial_stress(fit.rubber, test.time, test.stretch) / KILO
-            marks.append(Series(test.stretch, stress, colour, label, dash, width=1.1))
-            rms, work = 100.0 * fit.rms_errors[number], 100.0 * fit.work_errors[number]
-            text = f"{rms:.1f} %, {work:+.0f} %"
-            marks.append(Note(0.03, 0.97 - 0.075 * row, text, colour, frame="xy", top=True))
-        top = float(np.max(measured))
-        ends = min(0.0, float(np.min(measured))) - 0.04 * top, 1.25 * top
-        stress_axis = PlotAxis("nominal stress $P$ [kPa]", False, *ends)
-        panels.append(Panel(PlotAxis("stretch $s$ [-]"), stress_axis, marks, test.name))
-    height = 2.6 * -(-len(panels) // 2) + 0.3
-    return Sheet(panels, height=height, legend_columns=1 + len(fits), gap=0.02).on_paper()
 
 
 def rubber_figures(prepared: MeasuredRubber, omega: ArrayLike, figures: FigureFolder) -> None:

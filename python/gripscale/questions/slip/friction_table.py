@@ -14,12 +14,11 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from gripscale.case import Case, fitted_for_load
+from gripscale.case import Case
 from gripscale.conditions.conditions import Conditions
 from gripscale.core import ZERO_CELSIUS, Array, InputError
 from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
 from gripscale.experiment.solve import Bench
-from gripscale.experiment.task import Task
 from gripscale.questions.answer.variables import of_hysteresis
 from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.questions.vary.study import study_numbers
@@ -68,12 +67,11 @@ def friction_table(
         )
         shifted = math.isfinite(kelvin)
         there = replace(conditions, temperature=kelvin) if shifted else conditions
-        load = replace(case.load, speed=speed, pressure=pressure)
+        point = case.replace(speed=speed, pressure=pressure, conditions=there)
         model = AnswerModel(None, there, case.below_measurement)
         label = f"{speed:.3g} m/s, {pressure:.3g} Pa"
         label += f", {kelvin - ZERO_CELSIUS:.3g} C" if shifted else ""
-        fitted = fitted_for_load(case.measured_rubber, case.surface, load, there).rubber
-        points.append(Point(index, label, Task(fitted, case.surface, load, model)))
+        points.append(Point(index, label, point.task(model)))
     design = Design({name: axis.size for name, axis in values.items()}, points)
     data = solve_design(design, bench, study_numbers).assign_coords(values)
     failed = [str(word) for word in data.prediction_status.values.flat if word != "converged"]

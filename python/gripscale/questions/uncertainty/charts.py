@@ -20,8 +20,7 @@ from gripscale.questions.answer.variables import (
     of_hysteresis,
 )
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
-from gripscale.questions.view import axis_of as axis_and_values
-from gripscale.questions.view import dimensions, interval, ordinate
+from gripscale.questions.view import dimensions, interval_ends_of, ordinate, plot_axis
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -146,7 +145,7 @@ def _distribution(
 
 def band_figure(data: xr.Dataset, axis: str) -> Figure:
     """Draw the answer over what is varied, and medians with bands of 50 and 90 % of samples."""
-    abscissa, x = axis_and_values(data[axis])
+    abscissa, x = plot_axis(data[axis])
     panels = []
     for name in _TOTALS:
         marks: list[Mark] = []
@@ -161,7 +160,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
                        filled=False, clip=False),
             ]  # fmt: skip
         answer = data[believed(data, name)]
-        if ends := interval(data, str(answer.name)):
+        if ends := interval_ends_of(data, str(answer.name)):
             marks.append(ShadedBand(x, ends[0].values, ends[1].values, INK, alpha=0.12))
         marks.append(Series(x, answer.values, INK, ANSWER))
         panels.append(Panel(abscissa, ordinate(answer), marks))

@@ -64,7 +64,7 @@ def map_figure(result: xr.Dataset) -> Figure:
     """
     result = result.sortby(["temperature", "speed"]).transpose("temperature", "speed", ...)
     (abscissa, speeds), (ordinate, celsius) = (
-        view.axis_of(result[name]) for name in ("speed", "temperature")
+        view.plot_axis(result[name]) for name in ("speed", "temperature")
     )
     beyond = style.predictions_beyond(result).astype(bool)
     shifted = result[BEYOND_SHIFT].values.astype(bool)

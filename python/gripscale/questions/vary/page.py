@@ -45,7 +45,7 @@ def study_lines(data: xr.Dataset) -> Iterator[str]:
     if not texts:
         yield "Answer: none; no prediction has a result."
         return
-    level = " (90 % intervals)" if view.interval(data, view.answers(data)[-1]) else ""
+    level = " (90 % intervals)" if view.interval_ends_of(data, view.answers(data)[-1]) else ""
     estimated = is_estimated(data, "contact_fraction")
     by = "" if estimated else f" by the {_model(data)}, without an interval"
     yield f"Answer{by}: {'; '.join(texts)}{level}."
@@ -95,7 +95,7 @@ def study_cards(data: xr.Dataset) -> Iterator[Card]:
         if not values.size:
             continue
         detail = "answer" if name.startswith("answer") else _model(data)
-        if view.interval(data, name):
+        if view.interval_ends_of(data, name):
             width = float(data[f"{name}_half_width"].max())
             detail = f"answer; ± {percent_text(width)} (90 %)"
         title = spelled_out(view.title(data[name]))
@@ -146,15 +146,15 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
 
 def study_table(data: xr.Dataset) -> Table:
     """Return area, friction and status of each prediction of a study, over what was varied."""
-    estimated, shown = is_estimated(data, "friction"), view.answers(data)
-    shown += [] if estimated else ["total_friction_from_dissipation"]
-    shown += [name for name in (HYSTERESIS, INTERFACE) if name in data]
+    estimated, names = is_estimated(data, "friction"), view.answers(data)
+    names += [] if estimated else ["total_friction_from_dissipation"]
+    names += [name for name in (HYSTERESIS, INTERFACE) if name in data]
     both = with_adhesive(data)
     if not estimated and both is not None:
         about = {"symbol": "μ with it", "long_name": "friction of hysteresis and area term"}
         data = data.assign(friction_with_area_term=both.assign_attrs(about))
-        shown += [ADHESIVE_FRICTION, "friction_with_area_term"]
-    columns = list(view.number_columns(data, [name for name in shown if name in data]))
+        names += [ADHESIVE_FRICTION, "friction_with_area_term"]
+    columns = list(view.number_columns(data, [name for name in names if name in data]))
     if study_sentence(data):
         share = view.at_places(data, FRICTION_OUTSIDE_BAND)
         columns.append(Column("outside_band", share, "μ", "beyond band", format=percent))

@@ -161,8 +161,8 @@ class SideBySide(Variation):
             ranked[f"{name}_over_next"] = (self.dim, values, about)
         interval = {"interval": "friction_ratio_low_over_next friction_ratio_high_over_next"}
         ranked["friction_ratio_over_next"].attrs |= interval
-        shown = [*view.answers(ranked), "friction_ratio_over_next"]
-        columns = list(view.number_columns(ranked, shown))
+        names = [*view.answers(ranked), "friction_ratio_over_next"]
+        columns = list(view.number_columns(ranked, names))
         sure = ranked["confidence_over_next"].values
         if np.isfinite(sure).any():
             columns.append(Column("confidence", sure, "confidence", format=percent_sure))

@@ -26,7 +26,7 @@ from gripscale.report.failures import failures_in, first_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MOST_ROWS = 200  # predictions in the terminal; a page has all of them
+MOST_PRINTED = 200  # predictions in the terminal; a page has all of them
 
 
 class Variation(Result):
@@ -53,7 +53,7 @@ class Variation(Result):
         return first_of(failed, self.data[STATUS].size, f"{self.noun}s")
 
     def parts(self) -> Iterator[str | Table]:
-        yield view.first_rows(page.study_table(self.data), MOST_ROWS)
+        yield view.first_rows(page.study_table(self.data), MOST_PRINTED)
 
     def table(self) -> Table:
         return page.study_table(self.data)

@@ -10,7 +10,7 @@ where it was when it is run again, and ends in the same Dataset to the last bit.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -85,8 +85,8 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
         values = np.array(axis.values) if numeric else np.array(axis.labels, dtype=object)
         attrs = variable_attributes(kind.long_name, kind.unit if numeric else "1")
         display = axis.display_unit(units)
-        given = kind.noun if display is None else display.unit
-        attrs |= {name: text for name, text in ((GIVEN, given), ("symbol", kind.symbol)) if text}
+        unit = kind.noun if display is None else display.unit
+        attrs |= {name: text for name, text in ((GIVEN, unit), ("symbol", kind.symbol)) if text}
         coords[axis.name] = xr.Variable(axis.name, values, attrs)
         if axis.name == "factors":
             for at, name in enumerate(("s_wavelength", "s_amplitude")):
@@ -97,6 +97,7 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
 
 
 OF_THE_LOAD = ("pressure", "speed", "thickness")  # inputs that vary the load
+_STEEPEST = 3.0  # slope of a wave beyond which its block hardly converges
 # Inputs that vary the waves of a surface.
 OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
 STUDY_FILE = "study.nc"  # the Dataset, in the folder of the study
@@ -180,7 +181,23 @@ class Study:
             f"  varied: {names}; {count} different predictions",
             *(f"  surface: {s.source}, {len(s.sines)} sine waves" for s in self.surfaces),
             *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in self.rubbers),
+            *self._steep_waves(),
         ]
+
+    def _steep_waves(self) -> Iterator[str]:
+        """Yield which varied factors make waves that take minutes, or have no solution."""
+        for (number, *changes), surface in self._varied.items():
+            factors, sines = dict(changes).get("factors"), self.surfaces[number].sines
+            steepest = float(surface.sines.slope.max()) if factors else 0.0
+            if factors and steepest > _STEEPEST:
+                fitted = ""
+                if sines.s_wavelength is not None and sines.s_amplitude is not None:
+                    fitted = f"; fitted are {sines.s_wavelength:.3g} and {sines.s_amplitude:.3g}"
+                yield (
+                    f"  factors {factors[0]:.3g} and {factors[1]:.3g} make waves of slope "
+                    f"{steepest:.2g}: steeper than {_STEEPEST:g} they take minutes or have no "
+                    f"solution{fitted}"
+                )
 
     @cached_property
     def design(self) -> Design:
