@@ -87,10 +87,11 @@ class CompoundDesign(Result):
             wet = data.attrs.get("wet_condition", "10 Hz and 0 °C")
             notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
 
+        def of_all(share: float) -> str:
+            return f"{100.0 * share:.0f} %"
+
         columns += [
-            Column(
-                "limited_share", data.limited_share.values, "at a limit", format="{:.0%}".format
-            ),
+            Column("limited_share", data.limited_share.values, "at a limit", format=of_all),
             Column("gap", data.gap.values, "left to gain", format=change),
         ]
         title = "Trade-off: each row is the admissible compound of most friction"
