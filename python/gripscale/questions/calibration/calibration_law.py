@@ -19,6 +19,7 @@ from gripscale.core import ZERO_CELSIUS, Array, InputError, Mask, checks
 from gripscale.core.units import MEGA, DisplayUnit, parse_quantity
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.questions.calibration.measured_comparison import Predicted
+from gripscale.questions.vary.axis import values_by_name
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,12 +156,7 @@ def parse_fixed(texts: Iterable[str]) -> dict[str, float]:
     Raises `InputError` if one cannot be understood.
     """
     parameters: dict[str, float] = {}
-    for text in texts:
-        name, sign, value = (part.strip() for part in text.partition("="))
-        if not sign or not name or name in parameters:
-            raise InputError(
-                f"fixed must be name=value, each name once; got {checks.short_repr(text)}"
-            )
+    for name, value in values_by_name(texts, "fixed", "width=0.1").items():
         kind = PARAMETERS[name].kind if name in PARAMETERS else ""
         try:
             parameters[name] = parse_quantity(value, kind) if kind else float(value)

@@ -35,7 +35,7 @@ from gripscale.experiment.measured_friction import (
 )
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Table
-from gripscale.model import INPUT_DOUBTS
+from gripscale.model import INPUT_DOUBTS, STATUS
 from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.calibration import calibration_law as laws
@@ -55,7 +55,7 @@ from gripscale.questions.result import Result
 from gripscale.questions.vary.inputs import default_model
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Page, Section, Text, as_elements
-from gripscale.report.failures import Failure, explained, failures_in
+from gripscale.report.failures import failures_in, first_of
 from gripscale.rubber.extrapolation import require_measured
 
 if TYPE_CHECKING:
@@ -98,16 +98,7 @@ class Calibration(Result):
 
     @property
     def failure(self) -> str:
-        """How many measured points have no prediction and why the first; empty if none."""
-        return str(self._failure or "")
-
-    @property
-    def _failure(self) -> Failure | None:
-        failed = failures_in(self.data)
-        if not failed:
-            return None
-        count = f"{len(failed)} of {self.data.sizes['measurement']} measured points"
-        return Failure(f"{count} have no prediction; the first: {failed[0]}", failed[0].word)
+        return first_of(failures_in(self.data), self.data[STATUS].size, "measured points")
 
     def parts(self) -> Iterator[str | Table]:
         yield page.misfit_table(self.data)
@@ -125,8 +116,8 @@ class Calibration(Result):
             yield picture.name, picture.figure
 
     def page_content(self) -> Page:
-        attrs, case, failed = self.data.attrs, case_title(self.data.attrs), self._failure
-        errors = [] if failed is None else [Finding(Severity.ERROR, f"{explained(failed)}.")]
+        attrs, case = self.data.attrs, case_title(self.data.attrs)
+        errors = [Finding(Severity.ERROR, self.failure)] if self.failure else []
         points, *tables = as_elements(self.parts())
         fit, residuals, profiles = map(image, calibration_pictures(self.data))
         law = [fit, page.law_facts(self.data), Text(_CALIBRATION), *tables]

@@ -23,7 +23,7 @@ from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, change, on_page, significant
 from gripscale.model import STATUS, OnProgress
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.answer.variables import HEADINGS, SYMBOLS
+from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, AnswerNumber
 from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.cut_off.curve import (
     AREA,
@@ -38,7 +38,7 @@ from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Page, Section, Text
-from gripscale.report.failures import Failure, explained
+from gripscale.report.failures import explained, failures_in
 
 _LEVEL = f"{100.0 * LEVEL:.0f} %"
 
@@ -53,12 +53,8 @@ class CutOff(Result):
         data = self.data
         if self.failure:
             return [f"Answer: none. {self.failure}"]
-        below = not bool(data.curve_measured[-1])
-        numbers = []
-        for name, curve in self._curves:
-            band = f" ({self._range(curve)})" if below else ""
-            numbers.append(f"{SYMBOLS[name]} = {significant(float(data[curve][-1]))}{band}")
-        level = f" ({_LEVEL} bands)" if below else ""
+        numbers = [f"{SYMBOLS[name]} = {self._last(curve)}" for name, curve in self._curves]
+        level = "" if bool(data.curve_measured[-1]) else f" ({_LEVEL} bands)"
         if any(refusals(data)):
             level = ", where the measurement ends: it foretells no octave"
         lead = f"Answer: {', '.join(numbers)} with {self._down_to}{level}"
@@ -147,13 +143,12 @@ class CutOff(Result):
         errors: list[Finding] = []
         cards: list[Card] = []
         if self.failure:
-            failure = Failure(self.failure, str(self.data[f"{STATUS}_word"].item()))
-            errors = [Finding(Severity.ERROR, explained(failure))]
+            errors = [Finding(Severity.ERROR, explained(failures_in(self.data)[0]))]
         else:
             for name, curve in self._curves:
-                value = on_page(significant(float(self.data[curve][-1])))
-                label, ends = HEADINGS[name].capitalize(), self._range(curve)
-                cards.append(Card(label, value, self._down_to, interval=ends))
+                number = self._last(curve)
+                value, label = on_page(significant(number.value)), HEADINGS[name].capitalize()
+                cards.append(Card(label, value, self._down_to, interval=number.interval))
         title = f"Contact and friction of {case} against the cut-off"
         curves = Section("cut-off", "Against the cut-off", self.elements())
         sections = [curves, rerun_section(self.data.attrs)]
@@ -170,9 +165,12 @@ class CutOff(Result):
         area = ("contact_fraction", AREA)
         return [("friction", FRICTION), area] if float(self.data.nominal_speed) > 0.0 else [area]
 
-    def _range(self, curve: str) -> str:
-        low, high = (float(self.data[f"{curve}_{end}"][-1]) for end in ("lower", "upper"))
-        return f"{significant(low)} to {significant(high)}"
+    def _last(self, curve: str) -> AnswerNumber:
+        """Return a number at the last cut-off, with its band where this is continued."""
+        last = self.data[[curve, f"{curve}_lower", f"{curve}_upper"]].isel(cut_off=-1)
+        value, *ends = (float(number) for number in last.values())
+        known = not bool(self.data.curve_measured[-1])
+        return AnswerNumber(value, *(ends if known else (math.nan, math.nan)))
 
 
 def _source(data: xr.Dataset) -> str:

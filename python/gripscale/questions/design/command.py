@@ -89,7 +89,7 @@ def design_command(
     folder.save_case(work.file, work.target)
 
     def print_point(point: xr.Dataset) -> None:
-        rolling, gain = round(float(point.rolling_ratio) - 1.0, 4) + 0.0, float(point.gain)
+        rolling, gain = float(point.rolling_ratio) - 1.0, float(point.gain)
         friction = ", ".join(f"{mu:.3f}" for mu in point.answer_friction.values)
         line = f"rolling resistance {rolling:+z.1%}: friction {friction} ({gain:+.1%})"
         print_wrapped(work.console, line)

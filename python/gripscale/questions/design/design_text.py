@@ -14,6 +14,7 @@ from gripscale.io.folders import make_folder, write_text
 from gripscale.io.table import Column, Table, write_csv
 from gripscale.questions.design.compound_limits import LIMITED_QUANTITIES, PointLimit, changed
 from gripscale.questions.design.goal_friction import CompoundGoal
+from gripscale.questions.vary.axis import values_by_name
 from gripscale.rubber import MasterCurve, Rubber, write_master_curve
 
 # What a goal may state beside `weight` and `road`.
@@ -26,13 +27,9 @@ def parse_goal(text: str, default: CompoundGoal) -> CompoundGoal:
     What it does not state is that of `default`. Raises `InputError` if it cannot be understood.
     """
     values: dict[str, Any] = {name: getattr(default, name) for name in GOAL_QUANTITIES}
-    for part in text.split(","):
-        name, sign, value = (word.strip() for word in part.partition("="))
-        if not sign or name not in (*GOAL_QUANTITIES, "weight", "road"):
-            raise InputError(
-                'goal must be such as "speed=3 m/s, temperature=20 C, pressure=2 bar, weight=1, '
-                f'road=case"; got {checks.short_repr(part.strip())}'
-            )
+    example = "speed=3 m/s, temperature=20 C, pressure=2 bar, weight=1, road=case"
+    for name, value in values_by_name(text.split(","), "goal", example).items():
+        checks.one_of("goal", name, (*GOAL_QUANTITIES, "weight", "road"))
         if name == "road":
             values[name] = value
             continue

@@ -119,13 +119,10 @@ class CompoundDesign(Result):
 
 
 def _gain_columns(data: xr.Dataset, of: str, heading: str) -> list[Column]:
-    def unsigned_zero(value: float) -> str:
-        return change(round(value, 4) + 0.0)
-
     rolling = data[f"{of}rolling_ratio"].values - 1.0
     ends = np.column_stack([data[f"{of}gain_{end}"].values for end in ("low", "high")])
     return [
-        Column("rolling_change", rolling, heading, format=unsigned_zero),
+        Column("rolling_change", rolling, heading, format=change),
         Column("gain", data[f"{of}gain"].values, "friction gained", format=change),
         Column("gain_interval", ends, "90 % interval", format=change),
     ]

@@ -165,19 +165,15 @@ class Sensitivity(Result):
         decade = np.floor(np.log10(self.data.frequency.values) + 1e-9).astype(int)
         rows = np.arange(decade.min(), decade.max() + 1)
         listed = list(points(self.data))
-        count = min(_MOST_POINTS, len(listed))
-        chosen = np.unique(np.linspace(0, len(listed) - 1, count).astype(int))
         columns = [Column("decade", [f"1e{row} to 1e{row + 1}" for row in rows], "rad/s")]
-        for i in chosen:
-            text, point = listed[i]
+        for i, (text, point) in enumerate(listed[:_MOST_POINTS]):
             unit = text if len(listed) > 1 else ""
             for _, name, symbol in _MODULI:
                 values = [float(point[name].values[decade == row].sum()) for row in rows]
                 columns.append(Column(f"{name}_{i}", values, symbol, unit, format=signed))
         notes = []
-        if chosen.size < len(listed):
-            rest = "the others are in the result file."
-            notes.append(f"{chosen.size} of {len(listed)} points; {rest}")
+        if (rest := len(listed) - _MOST_POINTS) > 0:
+            notes.append(f"{rest} more points are in the result file.")
         title = "What each decade of the master curve is worth"
         return Table("decades", columns, title, notes, keys=1)
 

@@ -20,7 +20,7 @@ from gripscale.questions.answer.variables import (
     of_hysteresis,
 )
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, TOGETHER
-from gripscale.questions.view import plot_axis
+from gripscale.questions.view import dimensions, interval_ends_of, ordinate, plot_axis
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -35,7 +35,7 @@ _FEWEST_SAMPLES = 2  # samples there must be for a distribution
 
 def axis_of(data: xr.Dataset) -> str:
     """Return what is varied beside the samples, or nothing."""
-    return next((str(name) for name in data.failed.dims if name != "model"), "")
+    return next(iter(dimensions(data)), "")
 
 
 def uncertainty_pictures(data: xr.Dataset) -> Iterator[Picture]:
@@ -147,7 +147,7 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
     """Draw the answer over what is varied, and medians with bands of 50 and 90 % of samples."""
     abscissa, x = plot_axis(data[axis])
     panels = []
-    for name, label in _TOTALS.items():
+    for name in _TOTALS:
         marks: list[Mark] = []
         for model, colour in zip(data.model.values, COLOURS, strict=False):
             samples = data.sel(model=model).transpose(axis, ...)
@@ -159,10 +159,10 @@ def band_figure(data: xr.Dataset, axis: str) -> Figure:
                 Series(x, samples[f"{name}_case"].values, colour, dash="", marker="o", size=3.5,
                        filled=False, clip=False),
             ]  # fmt: skip
-        answer, low, high = (
-            data[f"{believed(data, name)}{end}"].values for end in ("", "_low", "_high")
-        )
-        marks += [ShadedBand(x, low, high, INK, alpha=0.12), Series(x, answer, INK, ANSWER)]
-        panels.append(Panel(abscissa, PlotAxis(label, low=0.0), marks))
+        answer = data[believed(data, name)]
+        if ends := interval_ends_of(data, str(answer.name)):
+            marks.append(ShadedBand(x, ends[0].values, ends[1].values, INK, alpha=0.12))
+        marks.append(Series(x, answer.values, INK, ANSWER))
+        panels.append(Panel(abscissa, ordinate(answer), marks))
     case = Series([], [], INK, AS_STATED, dash="", marker="o", size=3.5, filled=False)
     return Sheet(panels, keys=[case]).on_paper()

@@ -13,14 +13,14 @@ import xarray as xr
 from gripscale.charts.draw import image
 from gripscale.core.finding import Finding, Topic
 from gripscale.io.table import Column, Table, percent
+from gripscale.questions import view
 from gripscale.questions.answer import page as answer
 from gripscale.questions.answer.estimate import DIRECT
-from gripscale.questions.answer.intervals import LEVEL, UPPER_LIMITS, interval_ends
+from gripscale.questions.answer.intervals import UPPER_LIMITS, interval_ends
 from gripscale.questions.answer.reliance import is_measured, is_moving
 from gripscale.questions.answer.variables import (
     SYMBOLS,
     AnswerNumber,
-    believed,
     has_answer,
     of_hysteresis,
 )
@@ -30,7 +30,6 @@ from gripscale.questions.uncertainty.next_measurement import next_measurements
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, OF_RUN
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
-from gripscale.questions.view import name_at
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Element, Page, Section, Text, as_elements
 from gripscale.report.failures import Failure, explained, failures_in
@@ -48,30 +47,14 @@ MOST_FAILED = 0.25
 def model_places(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield what each model and load is called, with its part."""
     for name in data.model.values:
-        for label, part in loads_of(data.sel(model=name)):
+        for label, part in view.points(data.sel(model=name)):
             yield f"{name}{f', {label}' if label else ''}", part
 
 
-def loads_of(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield what each load is called, with its part; without a name if there is one load."""
-    axis = axis_of(data)
-    if not axis:
-        yield "", data
-        return
-    for at in range(data.sizes[axis]):
-        yield f"{axis} {name_at(data, axis, at)}", data.isel({axis: at})
-
-
-def answer_table(data: xr.Dataset, axis: str) -> Table:
+def answer_table(data: xr.Dataset) -> Table:
     """Return the answer at each load."""
-    labels = [name_at(data, axis, at) for at in range(data.sizes[axis])]
-    columns = [Column(axis, labels)]
-    for name, symbol in HEADS.items():
-        best = believed(data, name)
-        columns.append(Column(best, data[best].values, symbol))
-        ends = np.transpose([data[f"{best}_{end}"].values for end in ("low", "high")])
-        columns.append(Column(f"{name}_interval", ends, f"{100.0 * LEVEL:.0f} % interval"))
-    return Table("answers", columns, f"Answer by {axis}", keys=1)
+    columns = view.number_columns(data, view.answers(data))
+    return view.table(data, columns, "answers", f"Answer by {axis_of(data)}")
 
 
 def interval_sentence(data: xr.Dataset) -> str:
@@ -88,7 +71,8 @@ def interval_sentence(data: xr.Dataset) -> str:
             "was not sampled (model: direct or both)"
         )
     text = f"interval: with the errors of the inputs, from {count} samples"
-    if missing := not_stated(data):
+    # what only a case can state
+    if missing := [SOURCES[name].label for name in STATED if name not in data.source]:
         text += f", but for {', '.join(missing)}"
     ranges = []
     for name, symbol in HEADS.items() if not axis_of(data) else ():
@@ -101,17 +85,12 @@ def interval_sentence(data: xr.Dataset) -> str:
     return f"{text}; `gripscale run`, without them: {', '.join(ranges)}"
 
 
-def not_stated(data: xr.Dataset) -> list[str]:
-    """Return labels of the sources that only a case can state and that are not in a result."""
-    return [SOURCES[name].label for name in STATED if name not in data.source]
-
-
 def part_tables(data: xr.Dataset) -> Iterator[Table]:
     """Yield what the interval of the answer is made of, at each load, most first.
 
     At a single load what to measure next stands below.
     """
-    for label, part in loads_of(data):
+    for label, part in view.points(data):
         if has_answer(part) and part.sizes["part"]:
             yield part_table(
                 part, f"What matters most to the answer{f' ({label})' if label else ''}"
@@ -245,7 +224,7 @@ def uncertainty_page(data: xr.Dataset) -> Page:
     case, models = case_title(data.attrs), ", ".join(map(str, data.model.values))
     first, *others = map(image, uncertainty_pictures(data))
     axis, parts = axis_of(data), list(part_tables(data))
-    head: list[Element] = [answer_table(data, axis), first] if axis else [first, *parts]
+    head: list[Element] = [answer_table(data), first] if axis else [first, *parts]
     held, title = interval_sentence(data), "What matters most"
     samples: list[str | Table] = [UNCERTAINTY, quantile_table(data), *left_out_sentences(data)]
     answered = not axis and has_answer(data)

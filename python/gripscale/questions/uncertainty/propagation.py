@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -80,7 +80,8 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     data: dict[str, xr.DataArray] = {}
 
     def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
-        data[name] = values.drop_attrs().assign_attrs(units=unit, long_name=long_name)
+        # the coordinates keep theirs, by which places are called
+        data[name] = values.drop_attrs(deep=False).assign_attrs(units=unit, long_name=long_name)
 
     def known_shares(values: Array) -> Shares:
         """Return shares and their errors, NaN where the samples cannot tell."""
@@ -152,19 +153,11 @@ class Plan(Checked):
     tolerance: float | None = checked(checks.positive, default=None)
 
     @classmethod
-    def of(
-        cls,
-        case: Case,
-        choice: Uncertainty,
-        *,
-        samples: int | None = None,
-        seed: int | None = None,
-        models: Sequence[str] | None = None,
-        vary: Mapping[str, Any] | None = None,
-        tolerance: float | None = None,
-    ) -> Plan:
+    def of(cls, case: Case, choice: Uncertainty, **asked: Any) -> Plan:
         """Return what a case states where an argument is None; arguments as `uncertainty`."""
-        defaults = sampling.stated_options(case)
+        asked = {name: value for name, value in asked.items() if value is not None}
+        options = {"samples": SAMPLES, "seed": 0, **sampling.stated_options(case), **asked}
+        models = asked.get("models")
         named = stated_models(case, choice) if models is None else models
         named = [named] if isinstance(named, str) else list(named)
         for name in named:
@@ -172,18 +165,18 @@ class Plan(Checked):
         if not named or len(set(named)) < len(named):
             short = checks.short_repr(models)
             raise InputError(f"models must be one or both of chain, direct; got {short}")
-        axes = axes_of(vary) if vary else ()
+        axes = axes_of(asked["vary"]) if asked.get("vary") else ()
         if len(axes) > 1 or any(axis.name not in SAMPLED_OVER for axis in axes):
             names = ", ".join(axis.name for axis in axes)
             raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
         return cls(
             case,
             choice,
-            defaults.get("samples", SAMPLES) if samples is None else samples,
-            defaults.get("seed", 0) if seed is None else seed,
+            options["samples"],
+            options["seed"],
             tuple(name for name in BOTH["both"] if name in named),
             axes,
-            defaults.get("tolerance") if tolerance is None else tolerance,
+            options.get("tolerance"),
         )
 
     @property

@@ -48,8 +48,8 @@ class SampledAnswer(NumbersWithIntervals):
         return str(page.sampling_failure(self.data)) if page.too_many_failed(self.data) else ""
 
     def parts(self) -> Iterator[str | Table]:
-        if axis := axis_of(self.data):
-            yield page.answer_table(self.data, axis)
+        if axis_of(self.data):
+            yield page.answer_table(self.data)
         yield from page.part_tables(self.data)
         yield page.quantile_table(self.data)
         yield from page.share_parts(self.data)

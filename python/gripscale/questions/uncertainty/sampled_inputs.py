@@ -142,14 +142,11 @@ class Inputs:
         """Return what has to be solved under each load; a refusal of the model is an answer."""
         surface, changed = self.for_model(model)
         relevant, solved = surface.only(changed.needs), FailSafeModel(changed)
-        loads = [self.under(load) for load in loads]
+        factor = math.exp(self.log_pressure)
+        loads = [replace(load, pressure=load.pressure * factor) for load in loads]
         if isinstance(model, Chain) and self.load_time_factor != 1.0:
             loads = [LongerLoad(**vars(load), factor=self.load_time_factor) for load in loads]
         return [Task(self.rubber, relevant, load, solved) for load in loads]
-
-    def under(self, load: Load) -> Load:
-        """Return a load with the pressure of this sample."""
-        return replace(load, pressure=load.pressure * math.exp(self.log_pressure))
 
 
 class Range(Checked):
