@@ -96,7 +96,8 @@ def solved(name: str) -> Points:
         filled=True,
     )
     data = gs.vary(case, speed=speed.tolist()).to_dataset()
-    area, friction = (data[f"answer_{n}"].values for n in ("contact_fraction", "friction"))
+    names = "answer_contact_fraction", "answer_hysteresis_friction"
+    area, friction = (data[name].values for name in names)
     return Points(speed, measured, area, friction)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.flow import GapCurve, gap_curve, inclined_block, squeeze_out, wet_friction
+from gripscale.flow import GapCurve, gap_curve, squeeze_out, wet_friction
 from tests.closed_forms import stefan_time
 from tests.half_space.rough_cases import isotropic_map
 from tests.samples import ZENER
@@ -58,34 +58,6 @@ def test_a_gap_that_does_not_percolate_keeps_its_water() -> None:
     water = squeeze_out(closed, film=2e-4, length=LENGTH, pressure=LOAD)
     expected = float(closed.contact_pressure(np.array(2e-4))) / LOAD
     assert water.until(1.0, water.asperity_share) == pytest.approx(expected, rel=1e-6)
-
-
-def slider_load(trailing: float, slope: float, speed: float) -> float:
-    """Return the mean pressure under a flat inclined slider, wide across [Pa].
-
-    O. Reynolds (1886); B. J. Hamrock et al., Fundamentals of Fluid Film Lubrication, eq. 8.30.
-    """
-    k = slope * LENGTH / trailing
-    shape = (math.log(1.0 + k) - 2.0 * k / (2.0 + k)) / k**2
-    return 6.0 * VISCOSITY * speed * LENGTH / trailing**2 * shape
-
-
-@pytest.mark.parametrize("speed", [1.0, 20.0])
-def test_an_inclined_block_on_a_full_film_is_reynolds_slider(speed: float) -> None:
-    trailing, share = inclined_block(PLATES, slope=1e-3, length=LENGTH, pressure=LOAD, speed=speed)
-    assert share < 1e-2
-    assert slider_load(trailing, 1e-3, speed) == pytest.approx(LOAD, rel=1e-2)
-
-
-def test_an_inclined_block_at_rest_is_dry() -> None:
-    trailing, share = inclined_block(ROUGH, slope=1e-6, length=LENGTH, pressure=LOAD, speed=1e-6)
-    assert share == pytest.approx(1.0, abs=1e-2)
-    assert trailing == pytest.approx(ROUGH.mean_gap[-1], rel=1e-2)
-    shares = [
-        inclined_block(ROUGH, slope=1e-3, length=LENGTH, pressure=LOAD, speed=v)[1]
-        for v in (0.1, 10.0, 100.0)
-    ]
-    assert shares[0] > shares[1] > shares[2]
 
 
 def test_wet_friction_of_a_map_falls_with_speed() -> None:

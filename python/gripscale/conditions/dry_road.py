@@ -19,7 +19,7 @@ from gripscale.core import Array, Checked, InputError, checked, checks
 
 # tau_0 [Pa], c, v_0 [m/s] of the compounds S100, S120 and S140, and s of a further one: its 90 %
 # interval by Student's t, as three are few.
-DRY_STRESS_0, DRY_WIDTH, DRY_SPEED_0, STRESS_SCATTER = 2.39e6, 0.096, 0.139, 0.27
+DRY_STRESS_0, DRY_WIDTH, DRY_SPEED_0, STRESS_SCATTER = 1.86e6, 0.098, 0.140, 0.24
 DRY_SPEEDS = (1e-4, 1.0)
 """Range of the measured speeds [m/s]; the stress is held beyond."""
 DRY_ASSUMPTIONS = (

@@ -6,6 +6,5 @@ from .gap_flow import gap_flow as gap_flow
 from .lubrication import GapCurve as GapCurve
 from .lubrication import SqueezeOut as SqueezeOut
 from .lubrication import gap_curve as gap_curve
-from .lubrication import inclined_block as inclined_block
 from .lubrication import squeeze_out as squeeze_out
 from .lubrication import wet_friction as wet_friction

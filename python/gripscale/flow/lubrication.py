@@ -207,39 +207,3 @@ def wet_friction(
         )
     data["speed"] = labelled("speed", sliding, "m/s", "sliding speed", "input")
     return xr.Dataset(data, attrs={"notes": " ".join(notes)})
-
-
-def inclined_block(
-    curve: GapCurve,
-    *,
-    slope: float,
-    length: float,
-    pressure: float,
-    speed: float,
-    viscosity: float = WATER,
-) -> tuple[float, float]:
-    """Return the mean gap at the trailing edge [m] and the asperity share [-] of a sliding block.
-
-    `curve` is the contact at its `speed` [m/s], `slope` its rise towards the leading edge [-]; the
-    others are those of `squeeze_out`.
-    """
-    rise = checks.positive("slope", slope) * checks.positive("length", length, unit="m")
-    load = checks.positive("pressure", pressure, unit="Pa")
-    drag = 12.0 * checks.positive("viscosity", viscosity, unit="Pa s") * length
-    drag *= checks.not_negative("speed", speed, unit="m/s")
-    position = np.linspace(0.0, 1.0, INSTANTS)
-
-    def carried(trailing: float) -> tuple[float, float]:
-        """Return the mean pressures of water and contact [Pa]."""
-        gap = trailing + rise * (1.0 - position)
-        resistance = 1.0 / np.maximum(curve.flow_factors(gap) * gap**3, 1e-300)
-        flow = np.trapezoid(0.5 * gap * resistance, position) / np.trapezoid(resistance, position)
-        gradient = drag * (0.5 * gap - flow) * resistance
-        water = scipy.integrate.cumulative_trapezoid(gradient, position, initial=0)
-        contact = np.trapezoid(curve.contact_pressure(gap), position)
-        return float(np.trapezoid(water, position)), float(contact)
-
-    near, far = np.log(curve.final_gap(load)) + np.array([-7.0, 14.0])
-    logarithm = scipy.optimize.brentq(lambda h: sum(carried(math.exp(h))) - load, near, far)
-    trailing = math.exp(logarithm)
-    return trailing, carried(trailing)[1] / load

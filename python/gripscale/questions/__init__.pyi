@@ -12,8 +12,6 @@ from .calibration.measured_comparison import residuals as residuals
 from .calibration.profile_likelihood import HeldOut as HeldOut
 from .calibration.question import Calibration as Calibration
 from .chain.charts import contact_figure as contact_figure
-from .chain.charts import direct_heat_figure as direct_heat_figure
-from .chain.charts import heat_figure as heat_figure
 from .chain.charts_of_blocks import block_figure as block_figure
 from .chain.charts_of_blocks import blocks_figure as blocks_figure
 from .compare.comparison import SolvedLadder as SolvedLadder

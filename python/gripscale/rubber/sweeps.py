@@ -8,7 +8,7 @@ multiples of a step.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -116,6 +116,20 @@ class Sweeps(Checked, eq=False):
         for rows in self._rows():
             kelvin, *columns = (getattr(self, name)[rows] for name in _ROW)
             yield Sweep(float(kelvin.mean()), *columns)
+
+    def between(self, lowest: float, highest: float) -> Sweeps:
+        """Return the rows from a lowest to a highest frequency [Hz].
+
+        For instruments whose own resonance is in the last rows of every sweep. Raises `InputError`
+        if there is none.
+        """
+        low, high = checks.not_negative("lowest", lowest), checks.positive("highest", highest)
+        kept = (self.frequency >= low) & (self.frequency <= high)
+        if kept.any():
+            return replace(self, **{name: getattr(self, name)[kept] for name in _ROW})
+        raise InputError(
+            f"lowest and highest [Hz] must enclose a measured frequency; got {low:g} and {high:g}"
+        )
 
     @property
     def is_ramp(self) -> bool:
