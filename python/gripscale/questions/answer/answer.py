@@ -30,7 +30,7 @@ from gripscale.questions.answer.charts import named_traces, summary_sheet, trace
 from gripscale.questions.answer.filler import with_filled
 from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
 from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
-from gripscale.questions.answer.reliance import is_measured, is_moving, no_answer
+from gripscale.questions.answer.reliance import is_measured, no_answer
 from gripscale.questions.answer.variables import (
     JUDGE,
     OF_THE_PAPER,
@@ -39,7 +39,7 @@ from gripscale.questions.answer.variables import (
     of_hysteresis,
 )
 from gripscale.questions.answer.waves import waves_answer
-from gripscale.questions.chain.charts import contact_sheet, heat_sheet
+from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.inputs import record
@@ -171,8 +171,6 @@ class Answer(NumbersWithIntervals):
             if is_measured(self.data):
                 title, judge = f"{OF_THE_PAPER}, {title}", {JUDGE: self.data}
             yield "contact_and_friction", contact_sheet({title: self.chain} | judge)
-            if "contact_temperature" in self.chain and is_moving(self.chain):
-                yield "heat", heat_sheet(self.chain)
         if self.curve is not None:
             yield "cut_off", cut_off_sheet(self.curve)
 
