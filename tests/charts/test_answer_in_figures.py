@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from gripscale.questions import contact_figure
 from gripscale.questions.answer.variables import ANSWER, JUDGE
-from gripscale.questions.calibration.charts import profiles_figure, residual_figure
+from gripscale.questions.calibration.charts import profiles_figure
 from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.cut_off.curve import AREA, FRICTION, SLOPE_IN_CONTACT
 from gripscale.questions.uncertainty.charts import distribution_figure
@@ -103,17 +103,6 @@ def calibration(series: int, parameters: int) -> xr.Dataset:
     names = ["stress_0", "width", "speed_0", "activation_energy"]
     data["parameter"] = ("parameter", names[:parameters])
     return data.assign_attrs(scatter=0.03, threshold=0.1, level=0.9)
-
-
-@pytest.mark.parametrize("series", [1, 3])
-def test_residuals_name_their_band_and_only_several_series(series: int) -> None:
-    figure = residual_figure(calibration(series, 1))
-    names = ["27 °C", "47 °C", "67 °C"] if series == 3 else []
-    assert sorted(legend(figure)) == sorted(["± scatter of the residuals", *names])
-    (axes,) = figure.axes
-    assert axes.get_ylabel().startswith("fit minus measurement")
-    figure.draw_without_rendering()
-    assert axes.get_position().width > 0.85  # the legend takes nothing of it
 
 
 @pytest.mark.parametrize("parameters", [1, 2, 3, 4])

@@ -18,7 +18,7 @@ from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.io import netcdf
 from gripscale.questions.calibration.calibration_law import parse_fixed
-from gripscale.questions.calibration.charts import fitted_figure, profiles_figure, residual_figure
+from gripscale.questions.calibration.charts import fitted_figure, profiles_figure
 from gripscale.questions.calibration.page import calibration_lines
 from gripscale.questions.vary.inputs import default_model
 from tests.report.reading import Page
@@ -26,7 +26,7 @@ from tests.samples import EXAMPLES, Shell
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 FOLDER = EXAMPLES / "measured_friction"
-FIGURES = {"measured_and_fitted", "residuals", "profiles"}
+FIGURES = {"measured_and_fitted", "profiles"}
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +58,7 @@ def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
         assert word in said
         assert word in (target / "calibration.txt").read_text()
     data = netcdf.load_dataset(target / "calibration.nc")
-    for figure in (fitted_figure(data), residual_figure(data), profiles_figure(data)):
+    for figure in (fitted_figure(data), profiles_figure(data)):
         assert all(axes.lines or axes.collections for axes in figure.axes)
     panels = fitted_figure(data).axes
     assert [axes.get_title() for axes in panels] == ["5 °C", "20 °C", "40 °C"]

@@ -178,7 +178,6 @@ READERS = {
     "io.cells": "measured files",
     "io.table": "marks of code",
     "io.text_table": "measured files",
-    "io.workbook": "names of sheets",
     "questions.answer.charts": "names of files",
     "questions.inputs.page": "paths",
     "questions.vary.axis": "ranges as typed",

@@ -130,8 +130,6 @@ def test_tables_of_a_result(result, tmp_path):
         rows = list(csv.DictReader(file))
     data = netcdf.load_dataset(result)
     assert [float(row["friction [-]"]) for row in rows] == data.friction.values.tolist()
-    assert run("tables", result, "--output", tmp_path / "out", "--format", "xlsx").exit_code == 0
-    assert (tmp_path / "out" / "tables.xlsx").is_file()
     done = run("tables", tmp_path / "none.nc", "--output", tmp_path / "other")
     assert done.exit_code == 2
     assert "does not exist" in done.stderr

@@ -89,12 +89,11 @@ def rubber(
 def tables(
     result: _Result,
     output: Annotated[Path, option("Folder for the tables.", metavar="DIR")],
-    format: Annotated[str, typer.Option(help="csv, or xlsx for one workbook.")] = "csv",
 ) -> None:
-    """Write a result as tables, one for each set of dimensions, with units in the headings."""
+    """Write a result as csv tables, one for each set of dimensions, with units in the headings."""
     from gripscale.export import write_tables
 
-    written = write_tables(result, output, format=format)
+    written = write_tables(result, output)
     print_wrapped(screen(), f"{', '.join(path.name for path in written)}: in {output}")
 
 

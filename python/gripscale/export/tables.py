@@ -21,9 +21,7 @@ from gripscale.io.folders import make_folder
 from gripscale.io.table import Column as Column
 from gripscale.io.table import Table as Table
 from gripscale.io.table import write_csv
-from gripscale.io.workbook import write_workbook
 
-WORKBOOK = "tables.xlsx"
 SINGLE, ATTRIBUTES = "single_values", "attributes"
 
 
@@ -53,23 +51,16 @@ def tables_of(result: xr.Dataset | xr.DataTree) -> list[Table]:
     return [*tables, Table(ATTRIBUTES, tuple(columns))]
 
 
-def write_tables(
-    result: xr.Dataset | xr.DataTree | str | Path, folder: str | Path, *, format: str = "csv"
-) -> list[Path]:
-    """Write a result, or that of a .nc file, as tables into a folder; return the files.
+def write_tables(result: xr.Dataset | xr.DataTree | str | Path, folder: str | Path) -> list[Path]:
+    """Write a result, or that of a .nc file, as csv tables into a folder; return the files.
 
-    The folder is made if it does not exist; files of the same names are replaced. `format` is csv,
-    a file for each table, or xlsx, one workbook `tables.xlsx` with a sheet for each. Raises
-    `InputError` if the result or the format cannot be used, or a table has more rows than a sheet,
-    `FileError` if a file cannot be read or written.
+    The folder is made if it does not exist; files of the same names are replaced. Raises
+    `InputError` if the result cannot be used, `FileError` if a file cannot be read or written.
     """
-    checks.one_of("format", format, ["csv", "xlsx"])
     read = netcdf.load_tree(result) if isinstance(result, str | Path) else result
     tables = tables_of(read)
     target = Path(folder)
     make_folder(target)
-    if format == "xlsx":
-        return [write_workbook(tables, target / WORKBOOK)]
     return [write_csv(table, target / f"{table.name}.csv") for table in tables]
 
 

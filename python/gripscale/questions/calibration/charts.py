@@ -1,4 +1,4 @@
-"""Charts of an area term: fit and measurement, residuals, profiles of the parameters."""
+"""Charts of an area term: fit and measurement, profiles of the parameters."""
 
 from __future__ import annotations
 
@@ -11,12 +11,11 @@ import xarray as xr
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
-from gripscale.charts.style import BLUE, COLOURS, FAINT, GREY, ORANGE, WIDE
-from gripscale.core.units import DisplayUnit, display_unit_of
-from gripscale.experiment.measured_friction import MeasuredSeries, measured_series
+from gripscale.charts.style import BLUE, FAINT, GREY, ORANGE, WIDE
+from gripscale.core.units import DisplayUnit
+from gripscale.experiment.measured_friction import MeasuredSeries
 from gripscale.questions.calibration.calibration_law import PARAMETERS, WRITTEN
 from gripscale.questions.compare.charts import measured_sheet
-from gripscale.questions.compare.charts_of_ladder import MARKERS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,12 +32,6 @@ def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:
         "Measured friction with its spread, the hysteresis alone, and the fit with its band, at "
         "each temperature.",
         "A panel for each temperature with points and two curves over the speed.",
-    )
-    yield Picture(
-        "residuals",
-        residual_figure(data),
-        "Fit minus measured friction over the speed.",
-        "Points around zero over the speed, a marker for each temperature.",
     )
     yield Picture(
         "profiles",
@@ -65,28 +58,6 @@ def fitted_figure(data: xr.Dataset) -> Figure:
         ]
 
     return measured_sheet(data, fit, head=0.5).on_paper()
-
-
-def residual_figure(data: xr.Dataset) -> Figure:
-    """Draw fitted minus measured friction over speed, over the spread where it is known."""
-    spread = bool(np.isfinite(data.difference_in_spread).any())
-    values = data["difference_in_spread" if spread else "difference"].values
-    scale = 1.0 if spread else float(data.attrs["scatter"])
-    speed_unit = display_unit_of(data.attrs, "speed")
-    width = "spread of the measurement" if spread else "scatter of the residuals"
-    marks: list[Mark] = [CrossLine(-scale, FAINT, f"± {width}", to=scale), CrossLine(0.0)]
-    for number, series in enumerate(measured_series(data)):
-        marks.append(Series(
-            speed_unit.of(series.speed), values[series.rows], COLOURS[number % len(COLOURS)],
-            series.state, "",
-            marker=MARKERS[number % len(MARKERS)],
-        ))  # fmt: skip
-    label = f"fit minus measurement\n$\\mu$ [{'spread' if spread else '-'}]"
-    panel = Panel(
-        PlotAxis(f"sliding speed $v$ [{speed_unit.unit}]", log=True), PlotAxis(label), marks
-    )
-    height = 2.6 + 0.2 * -(-len(marks) // 4)
-    return Sheet([panel], 1, height=height, legend_columns=4, gap=0.02).on_paper()
 
 
 def profiles_figure(data: xr.Dataset) -> Figure:
