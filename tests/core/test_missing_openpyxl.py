@@ -1,4 +1,4 @@
-"""Without openpyxl a workbook is written, and reading one names an extra that has it."""
+"""Without openpyxl, reading a workbook names an extra that has it."""
 
 from __future__ import annotations
 
@@ -7,10 +7,8 @@ import tomllib
 from pathlib import Path
 
 import pytest
-import xarray as xr
 
 from gripscale.core.errors import FileError
-from gripscale.export import write_tables
 from gripscale.rubber import read_master_curve
 from tests.samples import ROOT
 
@@ -28,11 +26,6 @@ def test_reading_gives_the_hint(tmp_path: Path) -> None:
     with pytest.raises(FileError) as reading:
         read_master_curve(tmp_path / "curve.xlsx")
     assert HINT in str(reading.value)
-
-
-def test_writing_does_without(tmp_path: Path) -> None:
-    (path,) = write_tables(xr.Dataset({"friction": 0.5}), tmp_path, format="xlsx")
-    assert path.read_bytes().startswith(b"PK")
 
 
 def test_the_extra_has_it() -> None:

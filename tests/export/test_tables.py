@@ -148,7 +148,7 @@ def test_what_is_no_number_is_a_word_or_an_empty_cell(tmp_path):
     assert cells == ["inf", "-inf", ""]
 
 
-def test_what_cannot_be_written_is_refused(tmp_path):
+def test_what_cannot_be_written_is_refused(prediction, tmp_path):
     with pytest.raises(InputError, match="result must be a Dataset; got int"):
         tables_of(3)
     with pytest.raises(FileError, match="does not exist"):

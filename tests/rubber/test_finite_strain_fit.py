@@ -197,4 +197,4 @@ def test_bad_files_are_named(tmp_path):
     with pytest.raises(FileError, match="at least 2; got 0"):
         read_uniaxial_test(write(tmp_path / "empty.xlsx", []))
     with pytest.raises(InputError, match="stress_unit must be one of"):
-        read_uniaxial_test(text, stress_unit="atm")
+        read_uniaxial_test(text, stress_unit="torr")

@@ -24,7 +24,7 @@ DRY_SPEEDS = (1e-4, 1.0)
 """Range of the measured speeds [m/s]; the stress is held beyond."""
 DRY_ASSUMPTIONS = (
     "Dry road: shear stress of three treads of one maker without resin on one road, 0.1 mm/s to "
-    "1 m/s, 3 bar and 20 C assumed; resin raised it by 8 to 23 %."
+    "1 m/s, 3 bar and 20 C assumed; resin raised it by 9 to 24 %."
 )
 
 

@@ -19,7 +19,7 @@ from gripscale.questions.vary.axis import axes_of, parse_axes
         ("speed", "1 mm/s:10 m/s:log5", (0.001, 0.01, 0.1, 1.0, 10.0)),
         ("speed", "0:2:lin3", (0.0, 1.0, 2.0)),
         ("speed", "0, 36 km/h", (0.0, 10.0)),
-        ("speed", [0.3, "300 cm/s"], None),
+        ("speed", [0.3, "300 furlong/s"], None),
         ("pressure", "1 bar,3 bar", (1e5, 3e5)),
         ("pressure", 2e5, (2e5,)),
         ("pressure", "3 bar", (3e5,)),
@@ -43,7 +43,7 @@ from gripscale.questions.vary.axis import axes_of, parse_axes
 )
 def test_values_are_read(name: str, given: Any, values: tuple[Any, ...] | None) -> None:
     if values is None:
-        with pytest.raises(InputError, match="unknown unit 'cm/s'"):
+        with pytest.raises(InputError, match="unknown unit 'furlong/s'"):
             axes_of({name: given})
         return
     axis = axes_of({name: given})[0]

@@ -18,7 +18,7 @@ from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.named_inputs import read_named_inputs
 from gripscale.chain import Chain
 from gripscale.core.errors import FileError, InputError
-from gripscale.core.provenance import FACES, fingerprint
+from gripscale.core.provenance import SHOWING, fingerprint
 from gripscale.core.status import Status
 from gripscale.core.units import display_unit_of
 from gripscale.experiment import Progress, Task, task
@@ -237,12 +237,12 @@ def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_p
     (home / module).parent.mkdir(parents=True)
     (home / module).write_text("number = 1\n")
     kernel.write_bytes(b"compiled")
-    before, whole = fingerprint(home, kernel, FACES), fingerprint(home, kernel)
+    before, whole = fingerprint(home, kernel, SHOWING), fingerprint(home, kernel)
     (home / module).write_text("number = 2\n")
-    assert (fingerprint(home, kernel, FACES) != before) == counts
+    assert (fingerprint(home, kernel, SHOWING) != before) == counts
     assert fingerprint(home, kernel) != whole
     kernel.write_bytes(b"compiled anew")
-    assert fingerprint(home, kernel, FACES) != before
+    assert fingerprint(home, kernel, SHOWING) != before
 
 
 def test_changed_material_is_never_served_old_results(

@@ -186,7 +186,7 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     below the measurement has no result.
 
         >>> f"{gs.answer(case).friction:.3f}"
-        '0.035'
+        '0.036'
 
     Parameters
     ----------

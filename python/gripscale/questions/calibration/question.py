@@ -119,7 +119,7 @@ class Calibration(Result):
         attrs, case = self.data.attrs, case_title(self.data.attrs)
         errors = [Finding(Severity.ERROR, self.failure)] if self.failure else []
         points, *tables = as_elements(self.parts())
-        fit, residuals, profiles = map(image, calibration_pictures(self.data))
+        fit, profiles = map(image, calibration_pictures(self.data))
         law = [fit, page.law_facts(self.data), Text(_CALIBRATION), *tables]
         return Page.of(
             f"{attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
@@ -131,7 +131,7 @@ class Calibration(Result):
             ],
             [
                 Section("law", "The law", law),
-                Section("points", "Point by point", [residuals, points]),
+                Section("points", "Point by point", [points]),
                 Section("profiles", "How well the data determine the law", [profiles]),
                 rerun_section(attrs),
             ],

@@ -169,8 +169,8 @@ class CutOff(Result):
         """Return a number at the last cut-off, with its band where this is continued."""
         last = self.data[[curve, f"{curve}_lower", f"{curve}_upper"]].isel(cut_off=-1)
         value, *ends = (float(number) for number in last.values())
-        known = not bool(self.data.curve_measured[-1])
-        return AnswerNumber(value, *(ends if known else (math.nan, math.nan)))
+        measured = bool(self.data.curve_measured[-1])
+        return AnswerNumber(value, *((math.nan, math.nan) if measured else ends))
 
 
 def _source(data: xr.Dataset) -> str:

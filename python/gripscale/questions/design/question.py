@@ -153,7 +153,7 @@ def design(
     has no friction.
 
         >>> gs.design(case, levels=[1.0]).lines[0]
-        'Answer: friction 0.035 now → 0.056 with the design at the same rolling resistance: +57 %.'
+        'Answer: friction 0.036 now → 0.056 with the design at the same rolling resistance: +57 %.'
 
     Parameters
     ----------

@@ -45,10 +45,10 @@ def sensitivity_panels(data: xr.Dataset) -> list[Panel]:
     ]
     rules: list[Mark] = []
     if "rule" in data.dims:
-        found = zip(data.rule.values, data.rule_frequency.values, (GREEN, PURPLE), strict=False)
+        colours = zip(data.rule.values, data.rule_frequency.values, (GREEN, PURPLE), strict=False)
         rules = [
             CrossLine(float(at), colour, f"tan δ, {name}", "dotted", 0.9, upright=True)
-            for name, at, colour in found
+            for name, at, colour in colours
             if omega[0] <= at <= omega[-1]
         ]
     panels = [

@@ -186,7 +186,7 @@ def slip_curve(
 
         >>> curve = gs.slip_curve(case, speed="50 km/h").data
         >>> f"{curve.peak.sel(bound='value').item():.4f}"
-        '0.0382'
+        '0.0384'
 
     Parameters
     ----------
