@@ -57,13 +57,13 @@ def test_result_being_written_is_whole_and_the_next_one_does_not_wait(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     data = xr.Dataset({"x": ("t", np.arange(3.0))})
-    write = xr.Dataset.to_netcdf
+    write = xr.Dataset.dump_to_store
 
     def interrupted(self: xr.Dataset, *args: object, **options: object) -> object:
         interrupt()
         return write(self, *args, **options)
 
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", interrupted)
+    monkeypatch.setattr(xr.Dataset, "dump_to_store", interrupted)
     with pytest.raises(KeyboardInterrupt):
         netcdf.save(data, tmp_path / "a.nc")
     monkeypatch.undo()

@@ -85,10 +85,11 @@ def test_the_variables_of_a_study_are_listed_with_their_units(folder):
     study = {name: unit for data in both for name, unit in written(data).items()}
     known = units("Totals") | units("Waves")
     own = {name: unit for name, unit in study.items() if name not in {"speed", *known}}
-    of_an_interface = dict.fromkeys(
-        ("answer_hysteresis_friction", "answer_interface_friction"), "1"
-    )
-    assert units("The file of a study") == own | of_an_interface
+    parts = (
+        "answer_hysteresis_friction",
+        "answer_interface_friction",
+    )  # where there is an interface
+    assert units("The file of a study") == own | dict.fromkeys(parts, "1")
     assert {name: known[name] for name in study if name in known}.items() <= study.items()
 
 

@@ -52,7 +52,7 @@ _NAMES = {
     r"|counts? ?size|scal(?:e|ing) factor",
 }
 _DENSITY = re.compile(
-    rf"(?:(?P<number>{_NUMBER})\s*)?(?:points?|pts|samples?|punkte)\s*(?:/|per|pro|je)\s*"
+    rf"(?:(?<!\d)(?P<number>{_NUMBER})\s*)?(?:points?|pts|samples?|punkte)\s*(?:/|per|pro|je)\s*"
     rf"(?P<unit>[a-zµμ]+)\W*(?P<after>{_NUMBER})?",
     re.IGNORECASE,
 )
