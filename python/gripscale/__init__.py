@@ -4,6 +4,7 @@ From a surface profile and a DMA master curve, through superposed sine waves, to
 viscoelastic contact solution of every wave (Lind & Wangenheim, ASME IMECE2014-37998).
 """
 
+from functools import cache
 from types import FunctionType
 from typing import Any
 
@@ -21,16 +22,19 @@ def __getattr__(name: str) -> Any:
     item = _lazy(name)
     for function in (item, getattr(item, "__init__", None)):
         if isinstance(function, FunctionType):
-            texts = function.__annotations__.items()
-            texts = {key: _Plain(text) for key, text in texts if isinstance(text, str)}
-            function.__annotations__ |= texts
+            _annotate_plainly(function)
     return item
+
+
+@cache  # a name is looked up at every use
+def _annotate_plainly(function: FunctionType) -> None:
+    """Let `help` show the annotations of a function without quotation marks."""
+    texts = function.__annotations__.items()
+    function.__annotations__ |= {k: _Plain(text) for k, text in texts if isinstance(text, str)}
 
 
 class _Plain(str):
     """The text of an annotation, which `help` shows without quotation marks."""
-
-    __slots__ = ()
 
     def __repr__(self) -> str:
         return str(self)

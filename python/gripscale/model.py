@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 # Attribute of an answer: findings that it may be of another road, rubber or load.
 INPUT_DOUBTS = "input_doubts"
-# Loads of rubber on rough surfaces, with room: [Pa], [m/s], [m]. Others suggest a wrong unit.
 FOOTPRINT = 0.1  # length of the nominal contact where none is stated [m]
+# Loads of rubber on rough surfaces, with room: [Pa], [m/s], [m]. Others suggest a wrong unit.
 PLAUSIBLE = {"pressure": (100.0, 1e8), "speed": (1e-9, 100.0), "footprint": (1e-5, 10.0)}
 
 

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from gripscale.app.elements import Cards, Folded, html, notice_elements
-from gripscale.app.run_tabs import ComparedRun, answer_elements, runs_table
+from gripscale.app.run_tabs import ComparedRun, answer_elements, numbers_of, runs_table
 from gripscale.core.finding import Finding, Severity
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import Answer
@@ -60,7 +60,9 @@ def test_runs_are_compared_by_their_answers(ran: Path) -> None:
     longer = Answer(stored.data.assign(answer_friction_low=0.1, answer_friction_high=0.2))
     run = SimpleNamespace(name="run-1", text=(ran / "case.toml").read_text())
     compared = [ComparedRun(run, longer), ComparedRun(run, stored)]
-    columns = {column.name: column.values for column in runs_table(compared).columns}
+    columns = {
+        column.name: column.values for column in runs_table(compared, numbers_of(compared)).columns
+    }
     assert columns["answer_friction"][0] == stored.friction
     assert columns["answer_friction_interval"][0].tolist() == [0.1, 0.2]
     assert "answer_contact_fraction_interval" not in columns

@@ -241,7 +241,8 @@ def compared_elements(runs: Runs) -> elements.PageElements:
     if not compared:
         return [Text(NONE_TO_COMPARE)]
     answered = any(has_answer(each.answer.data) for each in compared)
-    return [runs_table(compared), *([image(answers_picture(compared))] if answered else [])]
+    data = numbers_of(compared)
+    return [runs_table(compared, data), *([image(answers_picture(data))] if answered else [])]
 
 
 def numbers_of(compared: Sequence[ComparedRun]) -> xr.Dataset:
@@ -254,16 +255,15 @@ def numbers_of(compared: Sequence[ComparedRun]) -> xr.Dataset:
     return described(data)
 
 
-def answers_picture(compared: Sequence[ComparedRun]) -> Picture:
-    """Return friction and contact area of the runs with their intervals."""
-    data = numbers_of(compared)
+def answers_picture(data: xr.Dataset) -> Picture:
+    """Return friction and contact area of the runs with their intervals, from `numbers_of` them."""
     panels = [view.panel(data, name, "run") for name in view.answers(data)]
     words = "Friction and contact area of each run, with their 90 % intervals."
     return Picture("answers", Sheet(panels).on_paper(), words, words)
 
 
-def runs_table(compared: Sequence[ComparedRun]) -> Table:
-    """Return the answer of each run, and the keys in which cases differ."""
+def runs_table(compared: Sequence[ComparedRun], data: xr.Dataset) -> Table:
+    """Return the answer of each run, from `numbers_of` them, and the keys in which cases differ."""
     first = compared[0].run.text
     answers = [answer.data for _, answer in compared]
     speeds = [display_unit_of(data.attrs, "speed").text(float(data.nominal_speed), 3)
@@ -272,7 +272,6 @@ def runs_table(compared: Sequence[ComparedRun]) -> Table:
         Column("run", [run.name for run, _ in compared]),
         Column("speed", speeds, words=False),
     ]
-    data = numbers_of(compared)
     columns += view.number_columns(data, view.answers(data))
     states = [_state(answer) for _, answer in compared]
     changes = [", ".join(changed_keys(first, run.text)) for run, _ in compared]

@@ -61,7 +61,7 @@ def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
 def _total_panel(views: Views, name: str) -> Panel:
     """Return the panel of the contact fraction or the friction, of and down to each wave."""
     if name == "contact_fraction":
-        axis = PlotAxis(f"{HEADINGS[name]} $A_r/A_0$ [-]", log=True, high=1.15)
+        axis = PlotAxis(f"{AXIS_TITLES[name]} [-]", log=True, high=1.15)
     else:
         least = [float(np.nanmin(view.usable(name), initial=0.0)) for view in views if view.waves]
         axis = PlotAxis(f"{HEADINGS[name]} [-]", low=min(0.0, *least, 0.0))
