@@ -143,15 +143,16 @@ class ColumnTitle:
 
 
 class PlainRows(Sequence[list[str]]):
-    """Rows that hold nothing but numbers with a decimal point; cells are cut when asked for."""
+    """Rows of numbers with a decimal point, or `nan`; cells are cut when asked for."""
 
     def __init__(self, lines: Sequence[str], separator: str | None) -> None:
         """Parse all numbers; raise `ValueError` if a cell is something else."""
         self.lines, self.separator = lines, separator
         self.values = np.loadtxt(lines, delimiter=separator, comments=None, ndmin=2)
         """The numbers, shape (rows, columns)."""
-        if not (np.abs(self.values) <= MOST).all():
-            raise ValueError("a number is missing or too large")
+        missing = np.isnan(self.values)
+        if missing[-1].all() or not (missing | (np.abs(self.values) <= MOST)).all():
+            raise ValueError("a remark below the table, or a number that is too large")
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -238,7 +239,9 @@ class TextTable:
         if (noted := _noted.get()) is not None:
             noted[self.empty + column + 1] = self.columns[column]
         if isinstance(self.rows, PlainRows):
-            return self.rows.values[:, column].copy()
+            values = self.rows.values[:, column].copy()
+            if missing or not np.isnan(values).any():
+                return values
         cells = self._cells(column)
         if missing:
             cells = ["nan" if cell.lower() in MISSING else cell for cell in cells]
