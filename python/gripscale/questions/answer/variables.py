@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import xarray as xr
 
@@ -200,6 +200,6 @@ def answer_number(data: xr.Dataset, name: str) -> AnswerNumber:
     """Return a number of the answer of one load, such as `friction`; NaN without one."""
     if not has_answer(data):
         return AnswerNumber(math.nan, math.nan, math.nan)
-    start = f"answer_{name}"
-    values: list[Any] = [data.get(f"{start}{end}", math.nan) for end in ("", "_low", "_high")]
-    return AnswerNumber(*map(float, values))
+    names = [f"answer_{name}{end}" for end in ("", "_low", "_high")]
+    # `get` would look for names that are spelled like a missing one
+    return AnswerNumber(*(float(data[n]) if n in data else math.nan for n in names))
