@@ -14,16 +14,15 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.draw import Sheet, image
 from gripscale.charts.page_elements import Picture
-from gripscale.core import Finding, Severity
+from gripscale.core import Finding
 from gripscale.core.units import MILLI, display_unit_of, in_mm, si_value
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.io.table import Column, Table, change, on_page, significant
+from gripscale.io.table import Column, Table, change, significant
 from gripscale.model import STATUS, OnProgress
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, AnswerNumber
+from gripscale.questions.answer.variables import SYMBOLS, AnswerNumber
 from gripscale.questions.cut_off.charts import cut_off_sheet
 from gripscale.questions.cut_off.curve import (
     AREA,
@@ -36,9 +35,6 @@ from gripscale.questions.cut_off.curve import (
 )
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
-from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Element, Page, Section, Text
-from gripscale.report.failures import explained, failures_in
 
 _LEVEL = f"{100.0 * LEVEL:.0f} %"
 
@@ -57,26 +53,22 @@ class CutOff(Result):
         level = "" if bool(data.curve_measured[-1]) else f" ({_LEVEL} bands)"
         if any(refusals(data)):
             level = ", where the measurement ends: it foretells no octave"
-        lead = f"Answer: {', '.join(numbers)} with {self._down_to}{level}"
-        return [lead, *(f"  {line}" for line in self.basis)]
-
-    @property
-    def basis(self) -> Sequence[str]:
-        """The load, the numbers of the measured roughness, and how it is continued."""
-        data, resolved = self.data, float(self.data.resolved)
         load = " and ".join(
             display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
             for name in ("pressure", "speed")
         )
-        lead = f"for {load}; direct contact of the measured surface, without factors"
-        if bool(data.curve_measured[-1]):
-            return [lead]
-        measured = ", ".join(
-            f"{SYMBOLS[name]} = {significant(at_cut_off(data, curve, resolved))}"
-            for name, curve in self._curves
-        )
-        source = f"below it continued {_source(data)}"
-        return [lead, f"measured down to {in_mm(resolved, 3)}: {measured}", source]
+        lines = [
+            f"Answer: {', '.join(numbers)} with {self._down_to}{level}",
+            f"  for {load}; direct contact of the measured surface, without factors",
+        ]
+        if not bool(data.curve_measured[-1]):
+            resolved = float(data.resolved)
+            measured = ", ".join(
+                f"{SYMBOLS[name]} = {significant(at_cut_off(data, curve, resolved))}"
+                for name, curve in self._curves
+            )
+            lines.append(f"  measured down to {in_mm(resolved, 3)}: {measured}")
+        return lines
 
     @property
     def failure(self) -> str:
@@ -118,41 +110,19 @@ class CutOff(Result):
             ends[measured] = np.nan
             columns.append(Column(f"{name}_band", ends, f"{_LEVEL} band"))
         columns.append(Column("slope", data[SLOPE_IN_CONTACT].values, "slope in contact"))
-        return Table("curve", columns, "By octave of the cut-off", keys=1)
+        notes = [] if measured[-1] else [f"Continued {_source(data)}."]
+        return Table("curve", columns, "By octave of the cut-off", notes, keys=1)
 
-    def figures(self) -> Iterator[tuple[str, Sheet]]:
+    def pictures(self) -> Iterator[Picture]:
         if not self.failure:
-            yield "cut_off", cut_off_sheet(self.data)
-
-    def elements(self) -> list[Element]:
-        """Return curves, rules and tables for a page; nothing without a curve."""
-        if self.failure:
-            return []
-        curves = Picture(
-            "cut_off",
-            cut_off_sheet(self.data).on_paper(),
-            "Friction, area and the rms slope where the surface touches against the cut-off: "
-            "measured roughness solid, continued dotted, with its 90 % band. Upright lines are "
-            "rules of cut-off; small strain ends near a slope of 1.",
-            "Three panels of curves against the shortest wavelength of the surface.",
-        )
-        return [*map(Text, self.basis), image(curves), self.rules_table(), self.table()]
-
-    def page_content(self) -> Page:
-        case = case_title(self.data.attrs)
-        errors: list[Finding] = []
-        cards: list[Card] = []
-        if self.failure:
-            errors = [Finding(Severity.ERROR, explained(failures_in(self.data)[0]))]
-        else:
-            for name, curve in self._curves:
-                number = self._last(curve)
-                value, label = on_page(significant(number.value)), HEADINGS[name].capitalize()
-                cards.append(Card(label, value, self._down_to, interval=number.interval))
-        title = f"Contact and friction of {case} against the cut-off"
-        curves = Section("cut-off", "Against the cut-off", self.elements())
-        sections = [curves, rerun_section(self.data.attrs)]
-        return Page.of(title, self.lines[0], [*errors, *self.findings], cards, sections)
+            yield Picture(
+                "cut_off",
+                cut_off_sheet(self.data).on_paper(),
+                "Friction, area and the rms slope where the surface touches against the cut-off: "
+                "measured roughness solid, continued dotted, with its 90 % band. Upright lines are "
+                "rules of cut-off; small strain ends near a slope of 1.",
+                "Three panels of curves against the shortest wavelength of the surface.",
+            )
 
     @property
     def _down_to(self) -> str:

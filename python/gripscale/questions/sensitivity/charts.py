@@ -12,37 +12,18 @@ from gripscale.charts.draw import Sheet
 from gripscale.charts.style import BLUE, GREEN, NARROW, ORANGE, PURPLE
 from gripscale.core.units import MEGA
 from gripscale.questions import view
-from gripscale.questions.answer.charts import NamedTrace, named_traces
 from gripscale.questions.sensitivity.friction_sensitivity import LOSS, STORAGE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_EFFECTS = {
-    LOSS: ("loss", "E''", "more loss, more friction"),
-    STORAGE: ("storage", "E'", "stiffer, less contact and less friction"),
-}
-
-
-def height_traces(data: xr.Dataset, inputs: xr.Dataset) -> list[NamedTrace]:
-    """Return the traces at the first point, which show what heights of the surface are worth."""
-    return named_traces(data.isel(dict.fromkeys(view.dimensions(data), 0)), inputs)
+_EFFECTS = {LOSS: "E''", STORAGE: "E'"}
 
 
 def sensitivity_figure(data: xr.Dataset) -> Figure:
-    """Draw master curve and derivatives of the friction over the same frequencies."""
-    layout = {"sharex": True, "height_ratios": [1.0, 0.9, 0.9]}
-    return Sheet(sensitivity_panels(data), 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
-
-
-def sensitivity_panels(data: xr.Dataset) -> list[Panel]:
-    """Return the master curve, and an effect by decade of frequency below it for E'' and E'."""
+    """Draw the master curve, and an effect by decade of frequency below it for E'' and E'."""
     omega = data.modulus_frequency.values
     axis = PlotAxis("angular frequency $\\omega$ [rad/s]", True, float(omega[0]), float(omega[-1]))
-    moduli: list[Mark] = [
-        Series(omega, data.storage_modulus.values / MEGA, BLUE, "$E'$"),
-        Series(omega, data.loss_modulus.values / MEGA, ORANGE, "$E''$"),
-    ]
     rules: list[Mark] = []
     if "rule" in data.dims:
         colours = zip(data.rule.values, data.rule_frequency.values, (GREEN, PURPLE), strict=False)
@@ -51,29 +32,18 @@ def sensitivity_panels(data: xr.Dataset) -> list[Panel]:
             for name, at, colour in colours
             if omega[0] <= at <= omega[-1]
         ]
-    panels = [
-        Panel(
-            axis,
-            PlotAxis("modulus [MPa]", log=True, low=float(data.loss_modulus.min()) / MEGA / 2.0),
-            [*moduli, *rules],
-            name="sensitivity-master-curve",
-            caption="The master curve of the rubber.",
-            alt="Storage and loss modulus against angular frequency.",
-        )
+    moduli: list[Mark] = [
+        Series(omega, data.storage_modulus.values / MEGA, BLUE, "$E'$"),
+        Series(omega, data.loss_modulus.values / MEGA, ORANGE, "$E''$"),
     ]
-    for name, (word, letter, meaning) in _EFFECTS.items():
+    low = float(data.loss_modulus.min()) / MEGA / 2.0
+    panels = [Panel(axis, PlotAxis("modulus [MPa]", log=True, low=low), [*moduli, *rules])]
+    for name, letter in _EFFECTS.items():
         # bands that are not excited at a point have no derivative
         by_decade = data[name].where(data[name] != 0.0) * int(data.attrs["bands_per_decade"])
         flags = xr.DataArray(False)
         panel = view.panel(data.assign({name: by_decade}), name, "frequency", flags=flags)
-        panels.append(
-            replace(
-                panel.with_marks([*rules, CrossLine(0.0)]),
-                x=axis,
-                y=PlotAxis(f"friction by ${letter}$ [% for 1 %,\nper decade]"),
-                name=f"sensitivity-{word}",
-                caption=f"Per cent of friction for a per cent of {letter} in a decade: {meaning}.",
-                alt=f"Derivative of friction by {letter} against angular frequency.",
-            )
-        )
-    return panels
+        y = PlotAxis(f"friction by ${letter}$ [% for 1 %,\nper decade]")
+        panels.append(replace(panel.with_marks([*rules, CrossLine(0.0)]), x=axis, y=y))
+    layout = {"sharex": True, "height_ratios": [1.0, 0.9, 0.9]}
+    return Sheet(panels, 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
