@@ -1,7 +1,4 @@
-"""Charts of a comparison: from model to model, down to each wavelength, over a varied input.
-
-Surfaces and compounds side by side are in `gripscale.questions.vary.charts_side_by_side`.
-"""
+"""Charts of a comparison: from model to model, down to each wavelength, over a varied input."""
 
 from __future__ import annotations
 

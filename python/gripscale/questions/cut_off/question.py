@@ -16,7 +16,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.charts.page_elements import Picture
 from gripscale.core import Finding
-from gripscale.core.units import MILLI, display_unit_of, in_mm, si_value
+from gripscale.core.units import MILLI, in_mm, si_value
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, change, significant
@@ -35,6 +35,7 @@ from gripscale.questions.cut_off.curve import (
 )
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
+from gripscale.questions.view import load_in_words
 
 _LEVEL = f"{100.0 * LEVEL:.0f} %"
 
@@ -53,10 +54,7 @@ class CutOff(Result):
         level = "" if bool(data.curve_measured[-1]) else f" ({_LEVEL} bands)"
         if any(refusals(data)):
             level = ", where the measurement ends: it foretells no octave"
-        load = " and ".join(
-            display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
-            for name in ("pressure", "speed")
-        )
+        load = " and ".join(load_in_words(data))
         lines = [
             f"Answer: {', '.join(numbers)} with {self._down_to}{level}",
             f"  for {load}; direct contact of the measured surface, without factors",

@@ -18,7 +18,6 @@ from gripscale.charts import draw
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
 from gripscale.core import Array, InputError, Quantity, Topic, checks, doubt
-from gripscale.core.units import display_unit_of
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.result import RoughContact
@@ -46,7 +45,7 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
 from gripscale.questions.vary.axis import axes_of
 from gripscale.questions.vary.inputs import reading_notes
 from gripscale.questions.vary.study import Study, coordinates
-from gripscale.questions.view import dimensions, points
+from gripscale.questions.view import dimensions, load_in_words, points
 from gripscale.report.elements import Section
 from gripscale.report.failures import failures_in, first_of
 
@@ -97,12 +96,8 @@ class Sensitivity(Result):
         if STORAGE not in data:
             reasons = sorted({failure.sentence for failure in failures_in(self.data)})
             return [f"Answer: none. No contact was solved: {'; '.join(reasons)}"]
-        load = [
-            display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"].values.flat[0]))
-            for name in ("pressure", "speed")
-            if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
-        ]
-        where = f", at {' and '.join(load)}" if load else ""
+        load = " and ".join(load_in_words(data))
+        where = f", at {load}" if load else ""
         lines = [f"Answer: {effect_sentence(data)}{where}."]
         for text, point in points(data):
             if np.isfinite(point[LOSS].values).all():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -12,12 +11,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from gripscale.charts.draw import image
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import power_of_ten
 from gripscale.core.arrays import Array
 from gripscale.core.finding import sentences
-from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
+from gripscale.core.units import MILLI, ZERO_CELSIUS
 from gripscale.io.table import Column, Table, significant
 from gripscale.model import input_doubts_of
 from gripscale.questions import view
@@ -26,12 +24,10 @@ from gripscale.questions.inputs.page import rubbers_of, texture_table
 from gripscale.questions.vary.friction_ratio import RANKED
 from gripscale.questions.vary.inputs import READING_NOTES, TEMPERATURE
 from gripscale.questions.vary.question import Variation
-from gripscale.report.elements import Card, Page, Section, as_elements
+from gripscale.report.elements import Card
 from gripscale.surface.surface import SURFACE_KIND
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from gripscale.rubber import Rubber
 
 # Confidence from which one lies over another, as outside of a two-sided 90 % interval.
@@ -107,13 +103,10 @@ class SideBySide(Variation):
             )
         if doubts := input_doubts_of(data):
             lines.append(f"  not to be relied on: {sentences(doubts)}")
-        pressure, speed = (
-            display_unit_of(data.attrs, name).text(float(data.attrs[f"nominal_{name}"]))
-            for name in ("pressure", "speed")
-        )
+        load = " and ".join(view.load_in_words(data))
         kelvin = data.attrs.get(TEMPERATURE)
         at = "" if kelvin is None else f", all at {kelvin - ZERO_CELSIUS:.4g} °C"
-        return (*lines, f"  for {pressure} and {speed}{at}; {self._basis()}")
+        return (*lines, f"  for {load}{at}; {self._basis()}")
 
     def _causes(self, high: int, low: int) -> str:
         """Return at which wavelengths and relaxation times most of a difference arises."""
@@ -182,37 +175,16 @@ class SideBySide(Variation):
             yield texture_table(self.data, self.dim, self.noun)
         yield from (f"note: {note}" for note in self.notes)
 
-    @abstractmethod
-    def pictures(self) -> Iterator[Picture]:
-        """Yield friction by wavelength, and statistics of surfaces or moduli of compounds."""
+    @property
+    def title(self) -> str:
+        """What stands side by side."""
+        return f"{self.noun.capitalize()}s side by side: {', '.join(self.names)}"
 
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield the pictures, with their names."""
-        yield from ((picture.name, picture.figure) for picture in self.pictures())
-
-    def page_content(self) -> Page:
-        """Return the friction of each by rank, tables and pictures, then the inputs."""
-        data = self.data
-        cards = [
-            Card(
-                f"μ of {self.names[high]}",
-                significant(self.friction[high]),
-                "" if low is None else f"over {self.names[low]}{self._confidence(high, low)}",
-            )
-            for high, low in zip(self.order, [*self.order[1:], None], strict=True)
-        ]
-        ranking = [*as_elements(self.parts()), *map(image, self.pictures())]
-        return view.page(
-            data,
-            (
-                f"{self.noun.capitalize()}s side by side: {', '.join(self.names)}",
-                str(data.attrs.get("title", "")),
-            ),
-            self.findings,
-            cards,
-            [Section(f"{self.dim}s", "Ranking", ranking)],
-            self.lines,
-        )
+    def cards(self) -> Iterator[Card]:
+        """Yield the friction of each by rank."""
+        for high, low in zip(self.order, [*self.order[1:], None], strict=True):
+            detail = "" if low is None else f"over {self.names[low]}{self._confidence(high, low)}"
+            yield Card(f"μ of {self.names[high]}", significant(self.friction[high]), detail)
 
 
 class Surfaces(SideBySide):
@@ -223,7 +195,7 @@ class Surfaces(SideBySide):
 
     def pictures(self) -> Iterator[Picture]:
         """Yield friction by wavelength, and correlation and spectrum."""
-        from gripscale.questions.vary.charts_side_by_side import road_pictures
+        from gripscale.questions.vary.charts import road_pictures
 
         yield from road_pictures(self.data)
 
@@ -243,6 +215,6 @@ class Compounds(SideBySide):
 
     def pictures(self) -> Iterator[Picture]:
         """Yield friction by wavelength and relaxation time, and the moduli."""
-        from gripscale.questions.vary.charts_side_by_side import compound_pictures
+        from gripscale.questions.vary.charts import compound_pictures
 
         yield from compound_pictures(self.data, self.rubbers)
