@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +9,6 @@ import xarray as xr
 
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import BLUE, FAINT, GREY, ORANGE, WIDE
 from gripscale.core.units import DisplayUnit
 from gripscale.experiment.measured_friction import MeasuredSeries
@@ -22,23 +20,6 @@ if TYPE_CHECKING:
 
 
 CEILING = 2.5  # highest excess that is drawn, over the threshold
-
-
-def calibration_pictures(data: xr.Dataset) -> Iterator[Picture]:
-    """Yield the figures of a calibration."""
-    yield Picture(
-        "measured_and_fitted",
-        fitted_figure(data),
-        "Measured friction with its spread, the hysteresis alone, and the fit with its band, at "
-        "each temperature.",
-        "A panel for each temperature with points and two curves over the speed.",
-    )
-    yield Picture(
-        "profiles",
-        profiles_figure(data),
-        "Rise of the sum of squares if a parameter is held at another value.",
-        "A panel for each parameter with a valley around its best value.",
-    )
 
 
 def fitted_figure(data: xr.Dataset) -> Figure:

@@ -108,19 +108,13 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     yield chart.Note(max(row.numbers), at, text, offset=(5.0, 0.0))
 
 
-def _by_label(comparison: xr.Dataset) -> xr.Dataset:
-    """Return the models on the surface, called by what figures call them."""
-    data = ladder.on_the_surface(comparison)
-    return data.assign_coords(model=("model", data["label"].values))
-
-
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     """Describe area or friction of each model down to each wavelength.
 
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
-    data = _by_label(comparison)
+    data = ladder.by_label(ladder.on_the_surface(comparison))
     data = data.isel(wavelength=ladder.worth_drawing(data))
     flags = xr.DataArray(False)
     if FLAG in data:
@@ -139,7 +133,7 @@ _MARGIN = 0.03  # room beside the values of an axis, over its extent
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     total, axis, area = f"total_{name}", ladder.varied(comparison), name == "contact_fraction"
-    data = _by_label(comparison)
+    data = ladder.by_label(ladder.on_the_surface(comparison))
     spread = data[f"{name}_spread"]
     # a spread above the number itself has no end on a logarithmic axis
     low = np.maximum(data[total] - spread, 1e-3 * data[total])

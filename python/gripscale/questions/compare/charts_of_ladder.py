@@ -51,6 +51,11 @@ def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
     return comparison.isel(model=chosen) if any(chosen) else comparison
 
 
+def by_label(comparison: xr.Dataset) -> xr.Dataset:
+    """Return the models called by what figures and texts call them."""
+    return comparison.assign_coords(model=("model", comparison["label"].values))
+
+
 MARKERS = "osD^v"  # of measurements at several temperatures or pressures
 
 
