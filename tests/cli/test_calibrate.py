@@ -18,8 +18,7 @@ from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.io import netcdf
 from gripscale.questions.calibration.calibration_law import parse_fixed
-from gripscale.questions.calibration.charts import fitted_figure, profiles_figure
-from gripscale.questions.calibration.question import Calibration
+from gripscale.questions.calibration.question import Calibration, fitted_figure, profiles_figure
 from gripscale.questions.vary.inputs import default_model
 from tests.report.reading import Page
 from tests.samples import EXAMPLES, Shell

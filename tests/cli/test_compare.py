@@ -32,8 +32,8 @@ from gripscale.questions.compare.charts import (
     comparison_axis_figure,
     comparison_figure,
     comparison_pictures,
+    rows_of,
 )
-from gripscale.questions.compare.charts_of_ladder import rows_of
 from gripscale.questions.compare.comparison import COMPARED_OVER
 from gripscale.questions.compare.page import comparison_table
 from gripscale.questions.compare.question import Comparison

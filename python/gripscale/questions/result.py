@@ -25,8 +25,7 @@ from gripscale.core.finding import Finding, Severity
 from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
 from gripscale.questions.answer.variables import described
-from gripscale.questions.inputs.findings import input_findings
-from gripscale.questions.inputs.record import InputRecord
+from gripscale.questions.inputs.record import InputRecord, input_findings
 from gripscale.report.again import case_title, rerun_section
 
 if TYPE_CHECKING:

@@ -31,9 +31,14 @@ from gripscale.questions.design.charts import design_figure
 from gripscale.questions.design.compound_gain import Gain, gain
 from gripscale.questions.design.compound_limits import CompoundLimits, PointLimit, changed
 from gripscale.questions.design.compound_search import design_problem
-from gripscale.questions.design.design_text import parse_goal, parse_levels, parse_limit
 from gripscale.questions.design.goal_friction import CompoundGoal
-from gripscale.questions.design.question import CompoundDesign, rolling_at_todays_friction
+from gripscale.questions.design.question import (
+    CompoundDesign,
+    parse_goal,
+    parse_levels,
+    parse_limit,
+    rolling_at_todays_friction,
+)
 from gripscale.questions.page_of_folder import write_report
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile

@@ -21,8 +21,8 @@ from gripscale.questions.answer.variables import (
     has_answer,
     is_estimated,
 )
-from gripscale.questions.compare.charts_of_ladder import flawed
-from gripscale.questions.inputs.findings import signed_percent
+from gripscale.questions.compare.charts import flawed
+from gripscale.questions.inputs.record import signed_percent
 from gripscale.questions.view import shown_unit
 from gripscale.rubber.extrapolation import WORTH_SAYING
 

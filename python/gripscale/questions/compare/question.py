@@ -34,8 +34,7 @@ from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.answer.variables import SYMBOLS, believed, is_estimated
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
-from gripscale.questions.compare.charts import comparison_pictures
-from gripscale.questions.compare.charts_of_ladder import by_label, varied
+from gripscale.questions.compare.charts import by_label, comparison_pictures, varied
 from gripscale.questions.compare.comparison import (
     OnStage,
     SolvedLadder,

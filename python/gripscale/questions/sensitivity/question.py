@@ -7,6 +7,7 @@ result.data.d_ln_friction_d_ln_loss.sum("frequency")
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
@@ -15,15 +16,19 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.charts import draw
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
+from gripscale.charts.style import BLUE, GREEN, NARROW, ORANGE, PURPLE
 from gripscale.core import Array, InputError, Quantity, Topic, checks, doubt
+from gripscale.core.units import MEGA
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import contact_sensitivity
 from gripscale.io.table import Column, Table, digits, fixed, least_to_most, percent
 from gripscale.model import STATUS
+from gripscale.questions import view
 from gripscale.questions.answer.charts import (
     NamedTrace,
     height_figure,
@@ -32,7 +37,6 @@ from gripscale.questions.answer.charts import (
 )
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
-from gripscale.questions.sensitivity import charts
 from gripscale.questions.sensitivity.friction_sensitivity import (
     FEEDBACK,
     LOSS,
@@ -51,6 +55,38 @@ from gripscale.report.failures import failures_in, first_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+_EFFECTS = {LOSS: "E''", STORAGE: "E'"}
+
+
+def sensitivity_figure(data: xr.Dataset) -> Figure:
+    """Draw the master curve, and an effect by decade of frequency below it for E'' and E'."""
+    omega = data.modulus_frequency.values
+    axis = PlotAxis("angular frequency $\\omega$ [rad/s]", True, float(omega[0]), float(omega[-1]))
+    rules: list[Mark] = []
+    if "rule" in data.dims:
+        colours = zip(data.rule.values, data.rule_frequency.values, (GREEN, PURPLE), strict=False)
+        rules = [
+            CrossLine(float(at), colour, f"tan δ, {name}", "dotted", 0.9, upright=True)
+            for name, at, colour in colours
+            if omega[0] <= at <= omega[-1]
+        ]
+    moduli: list[Mark] = [
+        Series(omega, data.storage_modulus.values / MEGA, BLUE, "$E'$"),
+        Series(omega, data.loss_modulus.values / MEGA, ORANGE, "$E''$"),
+    ]
+    low = float(data.loss_modulus.min()) / MEGA / 2.0
+    panels = [Panel(axis, PlotAxis("modulus [MPa]", log=True, low=low), [*moduli, *rules])]
+    for name, letter in _EFFECTS.items():
+        # bands that are not excited at a point have no derivative
+        by_decade = data[name].where(data[name] != 0.0) * int(data.attrs["bands_per_decade"])
+        flags = xr.DataArray(False)
+        panel = view.panel(data.assign({name: by_decade}), name, "frequency", flags=flags)
+        y = PlotAxis(f"friction by ${letter}$ [% for 1 %,\nper decade]")
+        panels.append(replace(panel.with_marks([*rules, CrossLine(0.0)]), x=axis, y=y))
+    layout = {"sharex": True, "height_ratios": [1.0, 0.9, 0.9]}
+    return Sheet(panels, 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
+
 
 # What may be varied: derivatives are taken at each value.
 DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
@@ -172,7 +208,7 @@ class Sensitivity(Result):
         if STORAGE in self.data:
             yield Picture(
                 "sensitivity",
-                charts.sensitivity_figure(self.data),
+                sensitivity_figure(self.data),
                 "The master curve, and below it the per cent of friction for a per cent of E'' and "
                 "E' in a decade of frequency. Factors on the friction, such as that from lines to "
                 "a surface, do not change them.",

@@ -33,8 +33,15 @@ from gripscale.io.table import Column, Table, significant
 from gripscale.questions.answer.variables import AnswerNumber
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
-from gripscale.questions.slip.friction_table import BOUNDS, TABLE, TableFriction, friction_table
-from gripscale.questions.slip.vehicle_formulas import FORMULAS, MISFIT, fitted_formulas
+from gripscale.questions.slip.friction_table import (
+    BOUNDS,
+    FORMULAS,
+    MISFIT,
+    TABLE,
+    TableFriction,
+    fitted_formulas,
+    friction_table,
+)
 from gripscale.questions.vary.axis import axes_of
 from gripscale.theory.brush import Brush, brush_force
 
