@@ -125,7 +125,7 @@ def _parts(result: Answer, case: Case) -> list[str | Table]:
     parts: list[str | Table] = list(slopes_table(result.data))
     if result.curve is not None:
         curve = CutOff(result.curve)
-        parts += ["", *curve.basis, curve.rules_table()]
+        parts += ["", *(line.strip() for line in curve.lines[1:]), curve.rules_table()]
     if case.surface.measured is not None and result.chain is not None:
         parts += ["", judgement(result.chain, result.data)]
     return parts

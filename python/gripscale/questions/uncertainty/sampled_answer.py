@@ -36,7 +36,7 @@ from gripscale.questions.answer.intervals import LogError, combined
 from gripscale.questions.answer.samples import SAMPLED_QUANTITIES, running, usable
 from gripscale.questions.answer.variables import HYSTERESIS, of_hysteresis
 from gripscale.questions.answer.waves import answer_of_waves
-from gripscale.questions.uncertainty.sampling import SampleSet
+from gripscale.questions.uncertainty.propagation import SampleSet
 from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES
 from gripscale.questions.uncertainty.variance_shares import shares
 
