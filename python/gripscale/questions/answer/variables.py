@@ -37,6 +37,8 @@ JUDGE = "direct contact of the profiles"  # what a figure of a chain calls the m
 OF_THE_PAPER = "the paper's chain of waves"
 ANSWER = "answer (90 %)"  # what figures call the answer with its interval
 
+# Name of the share of the friction in waves shorter than the `resolution_limit` [m].
+FRICTION_BELOW_MEASUREMENT = "friction_below_measurement"
 # Both parts of a friction with an interface.
 HYSTERESIS, INTERFACE = "answer_hysteresis_friction", "answer_interface_friction"
 # Lines of an answer relative to the end of what the step to their surface was fitted to.
