@@ -20,7 +20,7 @@ from gripscale.questions.inputs.charts_of_rubber import rubber_figures
 from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
 from gripscale.questions.inputs.record import excited
-from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE, write_report
+from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE
 from gripscale.questions.result import warning_lines
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.material import require_load_bearing
@@ -87,7 +87,6 @@ def _conclude(
         answer_printed=True,
         text=TEXT,
         closing="Results, report and figures are in",
-        page=lambda page: write_report(target, page),
         opening=opening,
         width=WIDTH,
         draw=draw,
