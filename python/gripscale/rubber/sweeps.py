@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-import gripscale
 from gripscale.core import Array, Checked, Quantity, Vector, checked, checks
 from gripscale.core.errors import FileError, GripscaleError, InputError, about_file
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si, si_value
@@ -99,10 +98,6 @@ class Sweeps(Checked, eq=False):
                     f" K; got {len(inside)} rows from {inside.min():.2f} to {inside.max():.2f} K "
                     "without a gap; a ramp needs nominal temperatures (temperature_step)"
                 )
-
-    def superpose(self, **options: Any) -> gripscale.MasterCurve:
-        """Return their master curve; arguments as in `gripscale.superpose`."""
-        return gripscale.superpose(self, **options)
 
     def _rows(self) -> list[slice]:
         group = neighbours_of(self.temperature, self.tolerance)
