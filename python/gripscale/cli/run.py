@@ -17,11 +17,8 @@ def run(
     output: Annotated[
         Path | None, option("Results folder, instead of the one in the case.", metavar="DIR")
     ] = None,
-    chain: Annotated[
-        bool,
-        typer.Option(
-            "--chain", help="Print the paper's chain of waves too, wave by wave, for comparison."
-        ),
+    verbose: Annotated[
+        bool, typer.Option("--verbose", help="Print all of report.txt: inputs and every table.")
     ] = False,
 ) -> None:
     """Answer with contact area and friction of a case; resumes where it was stopped."""
@@ -31,7 +28,7 @@ def run(
     work = terminal.CaseCommand(case)
     target = output or work.file.resolve(work.file.case.output.folder)
     require_writable(target)  # before the files of the case are read
-    solve_run(work, target, show_chain=chain)
+    solve_run(work, target, verbose=verbose)
 
 
 @command
