@@ -121,6 +121,7 @@ _BINARY = {
 }
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
+_MANY = 10**5  # rows from which on a table is known by its first and last ones
 _ENOUGH_CELLS = 2000  # numbers of a column that show the decimals of all
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
@@ -385,10 +386,10 @@ def table_in(
         raise FileError(f"{path}: expected {expected}; got 0 in an empty file")
     first, separator = _first_row(path, lines, expected)
     with suppress(ValueError):  # the rules below say what is wrong with a cell, or allow it
-        plain = read_once(
-            ("rows", path, first, len(lines)),
-            lambda: PlainRows([line for _, line in lines[first:]], separator),
-        )
+        texts = [line for _, line in lines[first:]]
+        # a file may hold many tables of as many rows, but only one of very many
+        table = tuple(texts) if len(texts) < _MANY else (len(texts), *texts[:2], texts[-1])
+        plain = read_once(("rows", path, table), lambda: PlainRows(texts, separator))
         numbers = [number for number, _ in lines[first:]]
         above, count = [line for _, line in lines[:first]], plain.values.shape[1]
         _check_faults(path, lines[:first], separator, range(count, count + 1))

@@ -93,9 +93,10 @@ def read_instrument_file(
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
     if raw.startswith(_ARRAY):
-        x, *crosswise, z = _array(path, raw, step)
+        axis, *others, z = _array(path, raw, step)
         z_unit = length_unit(path, "the file", None, "z_unit", z_unit)
-        return HeightField(quantity_in_si(z, z_unit, "length"), x, *(crosswise or [None]))
+        z = quantity_in_si(z, z_unit, "length")
+        return HeightField(z, axis, others[0] if others else None)
     stl, sdf, gsf = is_stl(path, raw), is_sdf_text(path, raw), simple_field_header(raw)
     if stl or sdf or gsf or is_esri_grid(raw):
         if step is not None:
