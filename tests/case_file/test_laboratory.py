@@ -310,7 +310,11 @@ def test_a_kind_goes_before_the_content(tmp_path: Path, shell: Shell) -> None:
 
 @pytest.mark.verification
 def test_three_commands_calibrate_a_folder(tmp_path: Path, shell: Shell) -> None:
-    folder = folder_of(tmp_path / "A", COMPOUND)
+    """Two temperatures tell the four constants of the area term from six points."""
+    measured = {20: {0.001: 1.0, 0.01: 1.3, 0.1: 1.5}, 40: {0.001: 0.7, 0.01: 1.0, 0.1: 1.3}}
+    rows = (f"{v},{mu},{t}" for t, by_speed in measured.items() for v, mu in by_speed.items())
+    friction = "\n".join(["speed [m/s],friction,temperature [C]", *rows])
+    folder = folder_of(tmp_path / "A", COMPOUND | {"A_friction.csv": friction})
     case = folder / "case.toml"
     for command in (("new", folder, "-o", case), ("run", case), ("calibrate", case)):
         outcome = shell(*command)

@@ -285,6 +285,16 @@ def test_a_map_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
     np.testing.assert_allclose(surface.z, MAP.T, atol=2e-12)
 
 
+def test_distances_at_the_edge_of_a_table_are_no_heights(tmp_path: Path) -> None:
+    path = tmp_path / "map.csv"
+    rows = (
+        f"{0.1 * j:.1f},{line}" for j, line in enumerate(table(1e-3, separator=",").split("\n"))
+    )
+    path.write_text("y/x," + ",".join(f"{0.1 * i:.1f}" for i in range(24)) + "\n" + "\n".join(rows))
+    with pytest.raises(FileError, match="column 1, which goes in equal steps"):
+        gs.read_map(path, step=1e-4, z_unit="mm")
+
+
 def test_a_simple_field_of_gwyddion(tmp_path: Path) -> None:
     path = tmp_path / "map.gsf"
     sizes = "XRes = 24\nYRes = 20\nXReal = 0.0024\nYReal = 0.002\nXYUnits = m\nZUnits = nm\n"
