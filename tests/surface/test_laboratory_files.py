@@ -264,6 +264,7 @@ MAPS = {
     "factor": "h=20 w=24\npixel size=1.0e-004 m\ndata unit=rad\n"
     "height conversion factor (-> m)=6.3e-008\n" + table(6.3e-8),
     "a title of all": "X resolution (mm),0.1\nZ (nm)\n" + table(1e-9, separator=","),
+    "pixels": "Pixel width: 100 um\nPixel height: 100 um\nz unit: nm\n" + table(1e-9),
     "two separators": "Pixel Size:,100,um\nZ Unit:,nm\n" + table(1e-9, separator=","),
     "German": '"XY-Kalibrierung";"100,0";"µm"\n"Einheit";"µm"\n\n"Höhe"\n'
     + table(1e-6, "{:.8f}", ";").replace(".", ","),
