@@ -79,6 +79,14 @@ PREDICTION = "\n".join(
 KINDS = {
     "a profile": (PROFILE, "profile"),
     "a map": (MAP, "map"),
+    "a profile with its speed": (
+        "\n".join(["x [mm],z [um],Speed [km/h]", *(f"{row},60" for row in HEIGHTS)]),
+        "profile",
+    ),
+    "a profile with temperatures": (
+        "\n".join(["x [mm],z [um],Temperature", *(f"{row},23" for row in HEIGHTS)]),
+        "profile",
+    ),
     "a master curve": (moduli("frequency [Hz],E' [MPa],E'' [MPa]"), "master-curve"),
     "a curve without titles": (moduli("# measured in May").partition("\n")[2], "master-curve"),
     "sweeps": (SWEEPS, "sweeps"),
