@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ from gripscale.case_file import folder
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.core.provenance import version_of
 from gripscale.io import netcdf
+from gripscale.io.folders import make_folder
 from gripscale.io.table import Table, as_text
 from gripscale.questions import terminal
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, bench_of, solved_chain
@@ -61,7 +63,7 @@ def _conclude(
     """Print what stands below the answer; write report, figures and page.
 
     The report begins with the answer and `opening`. The chain of a measured surface is printed
-    where it is asked for.
+    where it is asked for, and figures are drawn apart from the page where the case asks for files.
     """
     case, target = work.case, work.target
     assert result.chain is not None
@@ -74,8 +76,15 @@ def _conclude(
         if show_chain:
             terminal.print_parts(work.console, ["", *waves])
 
+    kinds = work.file.case.output.figures
+    if kinds is None and not all(map(find_spec, ("bokeh", "jinja2"))):
+        kinds = ["png"]  # without a page
+
     def draw() -> None:
-        figures = FigureFolder(target / "figures", work.file.case.output.figures)
+        if not kinds:
+            return
+        figures = FigureFolder(target / "figures", kinds)
+        make_folder(figures.path)
         surface_figures(case.surface, figures)
         rubber_figures(case.measured_rubber, excited(case), figures)
         for name, figure in result.figures():
@@ -86,7 +95,7 @@ def _conclude(
         parts,
         answer_printed=True,
         text=TEXT,
-        closing="Results, report and figures are in",
+        closing=f"Results{', report and figures' if kinds else ' and report'} are in",
         opening=opening,
         width=WIDTH,
         draw=draw,
