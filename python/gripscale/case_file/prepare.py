@@ -40,7 +40,7 @@ from gripscale.core import (
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.half_space.grid import MOST_POINTS
-from gripscale.io.text_table import lines_by_start, read_bytes
+from gripscale.io.text_table import lines_by_size, read_bytes
 from gripscale.model import FOOTPRINT
 from gripscale.rubber import (
     MasterCurve,
@@ -156,7 +156,7 @@ def _require_few_points(file: CaseFile) -> None:
     if any(end is not None for end in ends) or table.cut_off not in (None, "instrument"):
         return
     for path in map(file.resolve, table.measured_files):
-        points = lines_by_start(path) if path.is_file() else 0.0
+        points = lines_by_size(path) if path.is_file() else 0.0
         if points > MOST_POINTS:
             words = (
                 f" must be a length, at least {points / MOST_POINTS:.2g} times what the "
