@@ -32,10 +32,7 @@ TEXT, WIDTH = "report.txt", 110  # name of the report, and characters of its lin
 
 
 def solve_run(work: terminal.CaseCommand, target: Path, *, verbose: bool) -> None:
-    """Solve, print and write a case: its answer, and the chain of waves beside it.
-
-    Inputs and further tables are printed if `verbose`; the report has them.
-    """
+    """Solve, print and write a case: its answer, and the chain of waves beside it."""
     case, console = work.case, work.console
     rubber, load, measured = case.rubber_before, case.load, case.surface.measured is not None
     require_load_bearing(rubber, load.pressure, load.time_under(load.footprint))
@@ -48,9 +45,7 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, verbose: bool) -> Non
     result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
     findings = warning_lines(result.findings, TEXT, result.half_widths)
-    terminal.print_parts(
-        console, ["", *result.lines, *findings, *(["", *inputs] if verbose else [])]
-    )
+    terminal.print_parts(console, ["", *result.lines, *findings, *["", *inputs] * verbose])
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
@@ -72,8 +67,8 @@ def _conclude(
     assert result.chain is not None
     parts: list[str | Table] = [*chain_tables(result.chain), LEGEND, *_tables(result)]
     if case.surface.measured is not None:
-        shown = parts if verbose else [waves_in_brief(result.chain)]
-        terminal.print_parts(work.console, ["", *shown])
+        tables = parts if verbose else [waves_in_brief(result.chain)]
+        terminal.print_parts(work.console, ["", *tables])
         opening, parts = [*opening, "", *parts], [judgement(result.chain, result.data)]
 
     def draw() -> None:
