@@ -12,7 +12,7 @@ import xarray as xr
 
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, wavelength_axis
 from gripscale.charts.draw import Sheet
-from gripscale.charts.style import COLOURS, GREY, INK, NARROW, ORANGE, WIDE, colours
+from gripscale.charts.style import COLOURS, GREY, INK, ORANGE, WIDE, colours
 from gripscale.core import InputError
 from gripscale.core.units import MEGA, MILLI, SQUARE_MM
 from gripscale.experiment import Task
@@ -107,11 +107,11 @@ def draw(figure: str, inputs: PaperInputs, results: Results) -> Sheet:
     return Sheet(
         panels,
         columns,
-        (WIDE * (1.3 if columns == 3 else 1.0)) if several else NARROW,
+        WIDE * {1: 0.75, 2: 1.0, 3: 1.3}[columns],
         height=3.7 if rows == 1 else 2.8 * rows,
         legend="below" if alike else "",
         legend_columns=6 if several else 3,
-        title=textwrap.fill(title_of(figure, inputs), 100 if several else 64),
+        title=textwrap.fill(title_of(figure, inputs), 100 if several else 78),
         layout={"sharey": panels[0].y is _CORRELATION},
     )
 

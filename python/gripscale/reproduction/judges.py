@@ -317,7 +317,7 @@ def _rises(evidence: Evidence) -> Iterator[Verdict]:
 
 def _sooner(evidence: Evidence) -> Iterator[Verdict]:
     for rubber, predictions in evidence.solved.items():
-        peaks = {name: int(p.friction.argmax()) for name, p in predictions.items()}
+        peaks = {name: int(p.friction.values.argmax()) for name, p in predictions.items()}
         wavelengths = {name: float(p.wavelength[peaks[name]]) for name, p in predictions.items()}
         inside = {name for name, p in predictions.items() if peaks[name] < p.sizes["scale"] - 1}
         ordered = all(later >= earlier for earlier, later in pairwise(wavelengths.values()))
