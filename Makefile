@@ -17,7 +17,7 @@ quietly = $(1) > $(VENV)/setup.log 2>&1 || { cat $(VENV)/setup.log; exit 1; }
 .DEFAULT_GOAL := run
 
 run: build
-	@$(BIN)/gripscale run examples/road_and_tread/case.toml --output results/road_and_tread
+	@$(BIN)/gripscale run examples/road_and_tread/case.toml --output results/road_and_tread --figures
 
 build: $(BUILT)
 

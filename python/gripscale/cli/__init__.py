@@ -96,8 +96,10 @@ def main() -> None:
 
     Systems of equations in Python are small: the threads of BLAS would wait more than they compute,
     a sixth of the processor time of a run. To look for circles of garbage each 700 objects takes
-    another twentieth.
+    another twentieth. xarray imports Dask, where it is installed, to ask whether an array is one of
+    its own: 0.2 s, which only a cluster needs.
     """
+    sys.modules.setdefault("dask", None)  # type: ignore[arg-type]
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read as numpy is imported
     gc.set_threshold(50_000, *gc.get_threshold()[1:])
     try:
