@@ -54,9 +54,7 @@ def solve_run(
     result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
     findings = warning_lines(result.findings, TEXT, result.half_widths)
-    terminal.print_parts(
-        console, ["", *result.lines, *findings, *(["", *inputs] if verbose else [])]
-    )
+    terminal.print_parts(console, ["", *result.lines, *findings, *["", *inputs] * verbose])
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
@@ -86,8 +84,8 @@ def _conclude(
     assert result.chain is not None
     parts: list[str | Table] = [*chain_tables(result.chain), LEGEND, *_tables(result)]
     if case.surface.measured is not None:
-        shown = parts if verbose else [waves_in_brief(result.chain)]
-        terminal.print_parts(work.console, ["", *shown])
+        tables = parts if verbose else [waves_in_brief(result.chain)]
+        terminal.print_parts(work.console, ["", *tables])
         opening, parts = [*opening, "", *parts], [judgement(result.chain, result.data)]
 
     def draw() -> None:
