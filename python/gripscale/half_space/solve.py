@@ -205,7 +205,7 @@ def solve_rough_contact(
         deadline = time.monotonic() + checks.positive("time_limit", time_limit, unit="s")
 
     def solve(
-        scales: RubberByScale | None, earlier: KnownLevels, reach: float
+        scales: RubberByScale | None, earlier: KnownLevels, reach: float, *, loose: bool = False
     ) -> GridSequenceResult:
         sequence = GridSequence(
             replace(body, by_scale=scales),
@@ -218,7 +218,7 @@ def solve_rough_contact(
             on_iteration=on_iteration,
             deadline=deadline,
         )
-        return _solve_sequence(sequence, most, reach, on_grid, coarse=coarse)
+        return _solve_sequence(sequence, most, reach, on_grid, coarse=coarse, loose=loose)
 
     if not iterated:
         contact = solve(by_scale, {}, goal).contact
@@ -232,7 +232,7 @@ def solve_rough_contact(
                 "footprint must be the length of the nominal contact [m] with heat; got none"
             )
         heated = checks.positive("footprint", footprint, unit="m") / body.speed
-    quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
+    quick, whole = partial(solve, reach=math.inf, loose=True), partial(solve, reach=goal)
     assert isinstance(rubber, Rubber)  # iterated conditions refuse layers
     contact = solve_coupled_contact(whole, quick, heights, rubber, effects, heated, goal)
     return replace(contact, conditions=conditions, status=_judged(contact, goal))
@@ -324,6 +324,7 @@ def _solve_sequence(
     on_grid: Callable[[GridRecord], None] | None,
     *,
     coarse: bool,
+    loose: bool,
 ) -> GridSequenceResult:
     """Return the contact with one rubber, on grids refined until the errors meet `goal`."""
     body, heights, load = sequence.body, sequence.heights, sequence.pressure
@@ -332,8 +333,8 @@ def _solve_sequence(
     while plan:
         level = plan.pop(0)
         try:
-            loose = plan or coarse
-            solved = sequence.solve(level, START_TOLERANCE if loose else CONTACT_TOLERANCE)
+            starts = plan or coarse or loose
+            solved = sequence.solve(level, START_TOLERANCE if starts else CONTACT_TOLERANCE)
         except OutOfTime:
             if not grids:
                 raise ConvergenceError(
