@@ -20,8 +20,9 @@ from gripscale.cli.docs import docs
 from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
 from gripscale.cli.new import KindCommand, look_at, new
-from gripscale.cli.run import PASS_ON, report_command, reproduce, run
+from gripscale.cli.reproduce import reproduce
 from gripscale.cli.run import open_app as app_command
+from gripscale.cli.run import report_command, run
 from gripscale.core.provenance import COMMAND, version_of
 from gripscale.questions.registry import commands
 
@@ -66,7 +67,7 @@ _enter("run", run)
 for name, question in commands():
     _enter(name, question)
 _enter("report", report_command)
-_enter("reproduce", reproduce, context_settings=PASS_ON)
+_enter("reproduce", reproduce)
 _enter("fit-surface", fit_surface)
 _enter("fit-rubber", fit_rubber)
 _enter("keys", keys)

@@ -206,7 +206,6 @@ class DirectContact(Checked, model.Model):
     tolerance: float | None = checked(relative_tolerance, default=0.02)
     most_points: int = checked(checks.whole, least=1, most=2**40, default=MOST_POINTS)
     periodic: bool = checked(checks.flag, default=False)
-    time_limit: float | None = checked(checks.positive, unit="s", default=None)
     conditions: Conditions | None = None
     traces: bool = checked(checks.flag, default=False)
     """Whether the answer holds every contact as charts draw it (`with_traces`)."""
@@ -263,7 +262,6 @@ class DirectContact(Checked, model.Model):
             most_points=self.most_points,
             periodic=self.periodic,
             thickness=load.thickness,
-            time_limit=self.time_limit,
             conditions=self.conditions,
             footprint=load.footprint,
             start=start,
