@@ -14,7 +14,15 @@ from gripscale.io import netcdf
 from gripscale.io.folders import make_folder
 from gripscale.io.table import Table, as_text
 from gripscale.questions import terminal
-from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, bench_of, solved_chain
+from gripscale.questions.answer.answer import (
+    ANSWER_FILE,
+    CHAIN_FILE,
+    CURVE_FILE,
+    Answer,
+    answer,
+    bench_of,
+    solved_chain,
+)
 from gripscale.questions.answer.page import slopes_table
 from gripscale.questions.answer.variables import OF_THE_PAPER
 from gripscale.questions.chain.page import LEGEND, chain_tables, judgement, waves_in_brief
@@ -23,7 +31,6 @@ from gripscale.questions.inputs.charts_of_rubber import rubber_figures
 from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
 from gripscale.questions.inputs.record import excited
-from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE
 from gripscale.questions.result import warning_lines
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.material import require_load_bearing

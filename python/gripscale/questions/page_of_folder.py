@@ -8,13 +8,11 @@ import xarray as xr
 
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
-from gripscale.questions.answer.answer import ANSWER_FILE, Answer
+from gripscale.questions.answer.answer import ANSWER_FILE, CHAIN_FILE, CURVE_FILE, Answer
 from gripscale.questions.compare.question import Comparison
 from gripscale.questions.result import Result
 from gripscale.questions.stored import KINDS_OF_REPORTS, load, predicted_tree, result_of
 from gripscale.report import write_page
-
-CHAIN_FILE, CURVE_FILE = "chain.nc", "cut_off.nc"  # beside the answer of a run
 
 
 def read_run(folder: Path) -> Answer:
