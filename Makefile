@@ -14,7 +14,7 @@ SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find rust -name '*.rs')
 .DEFAULT_GOAL := run
 
 run: build
-	$(BIN)/gripscale run examples/road_and_tread/case.toml --output results/road_and_tread
+	$(BIN)/gripscale run examples/road_and_tread/case.toml --output results/road_and_tread --figures
 
 build: $(BUILT)
 

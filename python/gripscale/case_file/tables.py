@@ -423,8 +423,8 @@ class OutputTable(CaseTable):
 
     folder: str = "results"
     """Folder of the results, from the case file."""
-    figures: list[FigureKind] = Field(default=["png"], min_length=1)
-    """What each figure is written as."""
+    figures: list[FigureKind] | None = Field(default=None, min_length=1)
+    """What each figure is written as: by default png, and no files of a run, whose page has all."""
 
 
 class MeasuredTable(CaseTable):

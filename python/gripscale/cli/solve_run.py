@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +11,7 @@ from gripscale.case_file import folder
 from gripscale.charts.figure_folder import FigureFolder
 from gripscale.core.provenance import version_of
 from gripscale.io import netcdf
+from gripscale.io.folders import make_folder
 from gripscale.io.table import Table, as_text
 from gripscale.questions import terminal
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, bench_of, solved_chain
@@ -31,10 +34,13 @@ if TYPE_CHECKING:
 TEXT, WIDTH = "report.txt", 110  # name of the report, and characters of its lines
 
 
-def solve_run(work: terminal.CaseCommand, target: Path, *, verbose: bool) -> None:
+def solve_run(
+    work: terminal.CaseCommand, target: Path, *, verbose: bool, figures: bool = False
+) -> None:
     """Solve, print and write a case: its answer, and the chain of waves beside it.
 
-    Inputs and further tables are printed if `verbose`; the report has them.
+    Inputs and further tables are printed if `verbose`; the report has them. Figures are on the
+    page, and also files if `figures`, if the case says so, or where no page can be written.
     """
     case, console = work.case, work.console
     rubber, load, measured = case.rubber_before, case.load, case.surface.measured is not None
@@ -57,16 +63,24 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, verbose: bool) -> Non
         result.chain = solved_chain(case, bench_of(target))
         terminal.end_steps()
     _save(result, case, target)
-    _conclude(work, result, [f"{header}: {case.title}", "", *inputs], verbose=verbose)
+    page = all(map(find_spec, ("bokeh", "jinja2")))
+    kinds = work.file.case.output.figures or (["png"] if figures or not page else [])
+    opening = [f"{header}: {case.title}", "", *inputs]
+    _conclude(work, result, opening, verbose=verbose, kinds=kinds)
 
 
 def _conclude(
-    work: terminal.CaseCommand, result: Answer, opening: list[str | Table], *, verbose: bool
+    work: terminal.CaseCommand,
+    result: Answer,
+    opening: list[str | Table],
+    *,
+    verbose: bool,
+    kinds: Sequence[str],
 ) -> None:
     """Print what stands below the answer; write report, figures and page.
 
     The report begins with the answer and `opening`. All but the chain of a measured surface, in
-    brief, and how it compares is printed where it is asked for.
+    brief, and how it compares is printed where it is asked for. Figures are files of all `kinds`.
     """
     case, target = work.case, work.target
     assert result.chain is not None
@@ -77,7 +91,10 @@ def _conclude(
         opening, parts = [*opening, "", *parts], [judgement(result.chain, result.data)]
 
     def draw() -> None:
-        figures = FigureFolder(target / "figures", work.file.case.output.figures)
+        if not kinds:
+            return
+        figures = FigureFolder(target / "figures", kinds)
+        make_folder(figures.path)
         surface_figures(case.surface, figures)
         rubber_figures(case.measured_rubber, excited(case), figures)
         for name, figure in result.figures():
@@ -88,7 +105,7 @@ def _conclude(
         parts,
         answer_printed=True,
         text=TEXT,
-        closing="Results, report and figures are in",
+        closing=f"Results{', report and figures' if kinds else ' and report'} are in",
         opening=opening,
         width=WIDTH,
         draw=draw,
