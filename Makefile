@@ -32,7 +32,7 @@ test: build
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest gripscale._kernel
-	$(BIN)/python -m pytest -q -n logical --maxprocesses 4 --dist worksteal
+	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n logical --maxprocesses 4 --dist worksteal
 
 # What a person runs while working, within a minute: style, types, and fast tests or those of PART.
 quick: build
