@@ -12,6 +12,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import xarray as xr
+
 from gripscale.case import Case
 from gripscale.charts.page_elements import Picture
 from gripscale.core import InputError
@@ -31,10 +33,16 @@ from gripscale.questions.answer.estimate import DIRECT, Factor
 from gripscale.questions.answer.findings import answer_notices, measured_at_load
 from gripscale.questions.answer.page import answer_cards, answer_lines
 from gripscale.questions.answer.samples import sample_numbers
-from gripscale.questions.answer.variables import SYMBOLS, believed, is_estimated
+from gripscale.questions.answer.variables import SYMBOLS, believed, has_answer, is_estimated
+from gripscale.questions.calibration.question import residual_table
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
-from gripscale.questions.compare.charts import by_label, comparison_pictures, varied
+from gripscale.questions.compare.charts import (
+    at_measured_figure,
+    by_label,
+    comparison_pictures,
+    varied,
+)
 from gripscale.questions.compare.comparison import (
     OnStage,
     SolvedLadder,
@@ -57,6 +65,8 @@ class Comparison(Result):
     kind = "comparison"
     ladder: SolvedLadder | None = None
     """The models with all samples; None of a result that was loaded from a file."""
+    at_measured: xr.Dataset | None = None
+    """What models say at measured speeds, temperatures and pressures, as `residuals`."""
     others: Sequence[Comparison] = ()
     """Comparisons of the same case over a varied input, which its page has, too."""
 
@@ -85,7 +95,8 @@ class Comparison(Result):
         doubts = from_json(str(self.data.attrs.get(FRICTION_DOUBTS, "")))
         if self.axis:
             return (*self._failed, *doubts, *comparison_notices(self.data))
-        return tuple(ranked([*self._failed, *doubts, *answer_notices(self.data)]))
+        of_others = [finding for other in self.others for finding in other.findings]
+        return tuple(ranked([*self._failed, *doubts, *answer_notices(self.data), *of_others]))
 
     @property
     def _failed(self) -> Iterator[Finding]:
@@ -117,6 +128,10 @@ class Comparison(Result):
         else:
             yield page.comparison_table(self.data)
         yield from page.temperature_only(self.data)
+        if self.at_measured is not None:
+            yield residual_table(self.at_measured)
+        if not self.axis and has_answer(self.data):
+            yield page.best_line(self.data)
 
     def table(self) -> Table:
         """Return the models, one a row; over a varied input the friction of each."""
@@ -126,6 +141,15 @@ class Comparison(Result):
 
     def pictures(self) -> Iterator[Picture]:
         yield from comparison_pictures(self.data)
+        if self.at_measured is not None:
+            data = self.data
+            labels = dict(zip(data.model.values.tolist(), data.label.values.tolist(), strict=True))
+            yield Picture(
+                "at_measured",
+                at_measured_figure(self.at_measured, labels),
+                "Measured friction with its spread, and what each model says at the same points.",
+                "A panel for each measured series with a curve for each model.",
+            )
 
     def chapters(self) -> Iterator[Section]:
         for other in self.others:

@@ -126,9 +126,7 @@ class CompoundDesign(Result):
             notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
 
         columns += [
-            Column(
-                "limited_share", data.limited_share.values, "at a limit", format="{:.0%}".format
-            ),
+            Column("limited_share", data.limited_share.values, "at a limit", format=percent),
             Column("gap", data.gap.values, "left to gain", format=change),
         ]
         title = "Trade-off: each row is the admissible compound of most friction"
