@@ -35,8 +35,7 @@ from gripscale.questions.compare.charts import (
     rows_of,
 )
 from gripscale.questions.compare.comparison import COMPARED_OVER
-from gripscale.questions.compare.page import comparison_table
-from gripscale.questions.compare.question import Comparison
+from gripscale.questions.compare.question import Comparison, comparison_table
 from gripscale.questions.terminal import PROGRESS_LINES
 from tests.samples import Shell
 
