@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from tests.samples import HALF_PLANE, case_text, three_waves, write_maxwell, write_road
 
 CASE = case_text(

@@ -9,8 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.charts.style import BLUE, FAINT, GREY, ORANGE, WIDE
 from gripscale.core.units import DisplayUnit
 from gripscale.experiment.measured_friction import MeasuredSeries

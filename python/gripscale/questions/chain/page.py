@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gripscale.charts.draw import image
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, image
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import (

@@ -51,7 +51,7 @@ def compare_command(
     cluster: terminal.Cluster = None,
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
-    from gripscale.charts.figure_folder import FigureFolder
+    from gripscale.charts.draw import FigureFolder
     from gripscale.experiment.measured_friction import read_measured_friction
     from gripscale.experiment.task import PREDICTIONS
     from gripscale.io import netcdf

@@ -14,8 +14,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.draw import Sheet, image
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet, image
 from gripscale.core import Finding, Severity
 from gripscale.core.units import MILLI, display_unit_of, in_mm, si_value
 from gripscale.experiment.design import CONVERGED

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import xarray as xr
 
 from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 from gripscale.core.units import MEGA
 from gripscale.questions.design.page import SAME, answering_point, changed_frequencies

@@ -20,8 +20,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from gripscale.case import Case
-from gripscale.charts.draw import Sheet, image
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet, image
 from gripscale.core import Array, Finding, InputError, Severity, Topic, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm, si_value
 from gripscale.experiment.solve import OnTask, bench_in

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from gripscale.charts.draw import image
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, image
 from gripscale.charts.style import power_of_ten
 from gripscale.core.arrays import Array
 from gripscale.core.finding import sentences
