@@ -144,6 +144,8 @@ def _seems(path: Path, keys: FileKeys) -> list[str]:
         return ["strain-sweep"]
     if titled & {"frequency", "storage", "loss"} or holds_moduli(path, layout):
         return ["moduli"]
+    if titled and {quantity(n) for n in blocks[0].table.names[:1]} & {"temperature", "strain"}:
+        return ["shift", "friction"]  # no distances
     return ["shift", "friction", "surface"]
 
 

@@ -246,6 +246,8 @@ class DirectContact(Checked, model.Model):
         load: Load,
         start: RoughContact | None = None,
         by_scale: RubberByScale | None = None,
+        *,
+        coarse: bool = False,
     ) -> RoughContact:
         """Return the contact of one profile of a surface, or of its map.
 
@@ -268,6 +270,7 @@ class DirectContact(Checked, model.Model):
             footprint=load.footprint,
             start=start,
             by_scale=by_scale,
+            coarse=coarse,
         )
 
     def _with_alternatives(
@@ -289,7 +292,7 @@ class DirectContact(Checked, model.Model):
         def solve(
             other: Rubber, by_scale: RubberByScale | None, under: Load = load
         ) -> RoughContact:
-            return dry.contact(other, surface, measured, under, start, by_scale)
+            return dry.contact(other, surface, measured, under, start, by_scale, coarse=True)
 
         changes = dict(condition_changes(contact, rubber, solve))
         numbers = np.array(list(changes.values())).reshape(-1, 2).T

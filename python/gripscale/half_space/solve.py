@@ -79,6 +79,7 @@ def solve_rough_contact(
     extrapolate: str = "warn",
     by_scale: RubberByScale | None = None,
     start: RoughContact | None = None,
+    coarse: bool = False,
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
@@ -151,6 +152,9 @@ def solve_rough_contact(
         pressure and speed. Only the last grids are solved: without a tolerance those with all waves
         that are not coarser than its own, and the result may have no cut-off exponents. Conditions
         that are iterated start anew.
+    coarse : bool
+        Solve the first grid with all waves only, two points in the smallest: the ratio to that grid
+        of `start` is what another rubber or thickness changes.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     effects = Conditions() if conditions is None else conditions
@@ -197,7 +201,7 @@ def solve_rough_contact(
             other=None if iterated else other,
             deadline=deadline,
         )
-        return _solve_sequence(sequence, most, reach)
+        return _solve_sequence(sequence, most, reach, coarse=coarse)
 
     if not iterated:
         contact = solve(by_scale, {}, goal).contact
@@ -278,7 +282,7 @@ def _known_contact(start: RoughContact, heights: PeriodicHeights) -> LevelContac
     return LevelContact(level, start.height, contact, start.grids[-1])
 
 
-def _planned(sequence: GridSequence, goal: float) -> list[Level]:
+def _planned(sequence: GridSequence, goal: float, *, coarse: bool) -> list[Level]:
     """Return the levels to solve: from a known contact those a goal is judged by, or fewest."""
     heights, other = sequence.heights, sequence.other
 
@@ -288,21 +292,26 @@ def _planned(sequence: GridSequence, goal: float) -> list[Level]:
     if resolved := with_all_waves(sequence.start):
         return resolved[-(1 if math.isinf(goal) else ERROR_GRIDS) :]
     every = levels(heights)
+    if coarse:
+        return with_all_waves(every)[:1]
     if other is None or not math.isinf(goal):
         return every if other is None else every[-ERROR_GRIDS:]
     fine = [level for level in with_all_waves(every) if level.grid.points >= other.height.size]
     return fine or every[-1:]
 
 
-def _solve_sequence(sequence: GridSequence, most: int, goal: float) -> GridSequenceResult:
+def _solve_sequence(
+    sequence: GridSequence, most: int, goal: float, *, coarse: bool
+) -> GridSequenceResult:
     """Return the contact with one rubber, on grids refined until the errors meet `goal`."""
     body, heights, load = sequence.body, sequence.heights, sequence.pressure
-    plan, in_time = _planned(sequence, goal), True
+    plan, in_time = _planned(sequence, goal, coarse=coarse), True
     grids: list[GridRecord] = []
     while plan:
         level = plan.pop(0)
         try:
-            solved = sequence.solve(level, START_TOLERANCE if plan else CONTACT_TOLERANCE)
+            loose = plan or coarse
+            solved = sequence.solve(level, START_TOLERANCE if loose else CONTACT_TOLERANCE)
         except OutOfTime:
             if not grids:
                 raise ConvergenceError(

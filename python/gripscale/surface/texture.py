@@ -279,10 +279,12 @@ def texture_levels(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Datas
     bands = np.arange(last, first - 1, -1)
     middle = 2.0 * np.pi / 10.0 ** (bands / 10.0)
     spectrum = profile_spectrum(surface, window=length, steepest=np.inf)
-    edges = spectrum.wavenumber[:, None] + 0.5 * spectrum.width[:, None] * np.array([-1.0, 1.0])
-    low = np.maximum(edges[:, 0], middle[:, None] / _HALF_BAND)
-    high = np.minimum(edges[:, 1], middle[:, None] * _HALF_BAND)
-    variance = np.maximum(high - low, 0.0) @ spectrum.density
+    edges = spectrum.wavenumber[:1] - 0.5 * spectrum.width[:1]
+    edges = np.concatenate([edges, spectrum.wavenumber + 0.5 * spectrum.width])
+    # variance of all shorter waves, of which the least are summed first
+    shorter = np.append(np.cumsum((spectrum.density * spectrum.width)[::-1])[::-1], 0.0)
+    ends = middle[:, None] * [1.0 / _HALF_BAND, _HALF_BAND]
+    variance = -np.diff(np.interp(ends, edges, shorter), axis=1)[:, 0]
     nominal = np.array([_PREFERRED[n % 10] * 10.0 ** (n // 10) for n in bands])
     with np.errstate(divide="ignore"):  # a flat line
         level = 10.0 * np.log10(variance / _REFERENCE**2)

@@ -25,8 +25,7 @@ def test_command_solves_prints_draws_and_resumes(
     }
     files = {"case.toml", "study.nc", "study.txt"}
     assert written == files | {".case", "report.html", "figures/totals.png"}
-    for words in ("speed (3) x pressure (2); 6 different predictions", "[6/6] speed"):
-        assert words in result.stdout
+    assert "[6/6] speed" in result.stdout
     data = netcdf.load_dataset(target / "study.nc")
     assert f"{float(data.total_friction[2, 1]):.3f}" in result.stdout
     assert result.stdout.count("converged") == 6
@@ -51,17 +50,6 @@ def test_over_one_axis_of_numbers_every_wave_is_drawn(
     assert shell("study", case, *vary, "--output", tmp_path).exit_code == 0
     names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
     assert names == {"totals", "wavelength", "stacked", "decades"}
-
-
-def test_table_keeps_its_status_beside_long_names(shell: Shell, case: Path, tmp_path: Path) -> None:
-    named = "surface=case,synthetic_dense_asphalt"
-    asked = ("study", case, "--vary", "rubber=styrene_butadiene", "--vary", named)
-    result = shell(*asked, "--output", tmp_path)
-    assert result.exit_code == 0, result.output
-    rows = [line for line in result.stdout.splitlines() if line.startswith("styrene butadiene")]
-    assert len(rows) == 2
-    assert all(row.rstrip().endswith("converged") for row in rows)
-    assert "…" not in result.stdout
 
 
 def test_failed_chain_ends_with_its_own_code(
