@@ -34,7 +34,7 @@ from gripscale.io.text_table import ColumnTitle, columns_noted
 from gripscale.rubber import MasterCurve, ShiftTable, Sweeps
 from gripscale.rubber.blocks import read_blocks, with_named_temperature
 from gripscale.rubber.columns import FileLayout, other_content, quantity
-from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
+from gripscale.rubber.prony import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_sweeps import holds_strain_sweeps
 from gripscale.surface import HeightMap, Profile
 
