@@ -42,10 +42,12 @@ from gripscale.model import FOOTPRINT, Load, LoadTime, Model, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import (
+    HeightDifference,
     HeightMap,
     Measured,
     Profile,
     SineStack,
+    Spectrum,
     Surface,
     clean,
     fit_self_affine,
@@ -54,12 +56,13 @@ from gripscale.surface import (
 )
 from gripscale.surface.cut_off import CutOffRule, find_cut_off
 from gripscale.surface.long_waves import longest_held
+from gripscale.surface.random_phases import PHASES_OF
 from gripscale.surface.surface import SURFACE_KIND, SURFACE_KINDS, SurfaceKind
 from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SHEAR_STRESS = "shear_stress"  # attribute of a result: kind of the law of its area term
-SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
+SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | Spectrum | SineStack
 # Arguments of `gripscale.clean` where a case states none.
 _CLEANED_AS_USUAL: dict[str, Any] = {
     name: parameter.default
@@ -123,8 +126,9 @@ class Case(Described):
 
     Parameters
     ----------
-    surface : Profile, sequence of Profile, HeightMap, SineStack or Surface
-        Measured heights, or sine waves. Heights are taken as they are, unless `cleaning` is given.
+    surface : Profile, sequence of Profile, HeightMap, Spectrum, SineStack or Surface
+        Measured heights, their spectrum, or sine waves. Heights are taken as they are, unless
+        `cleaning` is given.
     rubber : Rubber, MasterCurve or MeasuredRubber
         A master curve is fitted by a Prony series, each row with the weight it has for friction and
         contact area of this case. The series of a `Rubber` is taken as it is.
@@ -357,6 +361,8 @@ class Case(Described):
         command |= {TESTER: self.tester} if self.tester else {}
         law = None if self.conditions is None else self.conditions.shear_stress
         command |= {} if law is None else {SHEAR_STRESS: law.kind}
+        spectrum = self.surface.spectrum
+        command |= {} if spectrum is None else {PHASES_OF: spectrum.phases}
         command |= {SURFACE_KIND: self.kind} if self.kind != "surface" else {}
         text = {"case": self.origin.text, "case_file": self.origin.name, CASE_TITLE: self.title}
         units = {DISPLAY_UNITS: json.dumps(self.units)}
@@ -520,19 +526,20 @@ def described_surface(
     cut_off: CutOffRule | None,
     source: str,
     footprint: float | None = None,
+    correlation: HeightDifference | None = None,
 ) -> Surface:
     """Return a measured surface with its correlation and the sine waves that follow it.
 
     `counted` and `fit` are arguments of `height_difference` and `fit_sines`, `cut_off` says where
     the roughness ends; None: where `fit` does. Profiles lose waves that a `footprint` [m] does not
     hold, if these are most of their heights. Raises `InputError` if the heights have no
-    correlation, or no waves fit it.
+    correlation, or no waves fit it. A `correlation` that is known is not computed.
     """
     if footprint is not None and measured.map is None and measured.longest is None:
         longest = longest_held(measured.cleaned, footprint)
         measured = measured if longest is None else measured.without_long_waves(longest)
     try:
-        correlation = height_difference(measured.followed, **counted)
+        correlation = correlation or height_difference(measured.followed, **counted)
     except InputError as error:  # a wrong unit may leave no heights
         raise InputError(" ".join([*map(str, measured.doubts), str(error)])) from error
     try:
@@ -544,6 +551,22 @@ def described_surface(
         options["cut_off"] = find_cut_off(measured.slopes, cut_off).wavelength
     sines = fit_sines(correlation, **options)
     return Surface(sines, source, correlation, options, measured, counted, cut_off)
+
+
+def surface_of_spectrum(
+    spectrum: Spectrum, footprint: float, longest: float | None, **description: Any
+) -> Surface:
+    """Return a surface known by its spectrum: `measured` are lines of it with random phases.
+
+    It has no waves beyond `longest` [m], or those that a `footprint` [m] does not hold; the
+    `description` is `fit` and `cut_off` of `described_surface`.
+    """
+    stated = description["fit"].get("smallest_wavelength") or description["cut_off"]
+    end = stated if isinstance(stated, float) else None
+    lines, correlation = spectrum.held_by(footprint, longest).lines(footprint, end)
+    description |= {"counted": {}, "source": spectrum.source, "correlation": correlation}
+    surface = described_surface(replace(Measured.of(lines), longest=longest), **description)
+    return replace(surface, spectrum=spectrum)
 
 
 def _surface(
@@ -559,6 +582,12 @@ def _surface(
         return surface
     if isinstance(surface, SineStack):
         return Surface(surface, "sine waves")
+    rule: CutOffRule | None = "instrument" if end is None else None
+    fit = {"scales": waves, "smallest_wavelength": end}
+    if isinstance(surface, Spectrum):
+        if cleaning:
+            raise InputError("cleaning must be left out for a spectrum, which has no heights")
+        return surface_of_spectrum(surface, footprint, longest, fit=fit, cut_off=rule)
     if isinstance(surface, HeightMap):
         if cleaning or longest is not None:
             name = "cleaning" if cleaning else "longest_wavelength"
@@ -575,8 +604,6 @@ def _surface(
         if longest is not None:
             measured = measured.without_long_waves(longest)
         sources = [line.source for line in lines]
-    rule: CutOffRule | None = "instrument" if end is None else None
-    fit = {"scales": waves, "smallest_wavelength": end}
     source = ", ".join(filter(None, sources))
     return described_surface(
         measured, counted={}, fit=fit, cut_off=rule, source=source, footprint=footprint

@@ -14,7 +14,14 @@ from typing import Any
 import numpy as np
 
 from gripscale import surface as surfaces
-from gripscale.case import BelowMeasurement, Case, NamedFile, Origin, described_surface
+from gripscale.case import (
+    BelowMeasurement,
+    Case,
+    NamedFile,
+    Origin,
+    described_surface,
+    surface_of_spectrum,
+)
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.rubber_tables import (
     OF_ANY_RUBBER,
@@ -91,6 +98,14 @@ def prepare_surface(
     if surface.sines is not None:
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
+    if surface.spectrum is not None:
+        path, options = resolve(surface.spectrum), _options(surface, surfaces.read_spectrum)
+        spectrum, fit = (
+            surfaces.read_spectrum(path, **options),
+            _options(surface, surfaces.fit_sines),
+        )
+        held = footprint, surface.longest_wavelength
+        return surface_of_spectrum(spectrum, *held, fit=fit, cut_off=surface.cut_off)
     raw = raw_surface(surface, resolve) if raw is None else raw
     return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
 
@@ -120,8 +135,8 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     load = file.case.load
     if not isinstance(rule, surfaces.ContactSlope):
         return prepare_surface(table, file.resolve, footprint=load.footprint)
-    if table.map is not None:
-        raise InputError(f"cut_off = {rule} needs measured profiles; got a map")
+    if table.files is None:
+        raise InputError(f"cut_off = {rule} needs measured profiles; got a map or spectrum")
     measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
     lines = measured.cleaned
     curve = contact_by_cut_off(
@@ -152,7 +167,7 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
 def _require_few_points(file: CaseFile) -> None:
     """Raise `InputError` for a text of more points than a contact takes, before it is read."""
     table = file.case.surface
-    ends = (table.smallest_wavelength, table.crop, table.map)
+    ends = (table.smallest_wavelength, table.crop, table.map, table.spectrum)
     if any(end is not None for end in ends) or table.cut_off not in (None, "instrument"):
         return
     for path in map(file.resolve, table.measured_files):
@@ -481,7 +496,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
     table = file.case.surface
-    cleaned = table.clean and surface.measured is not None
+    cleaned = table.clean and surface.measured is not None and surface.spectrum is None
     with about_keys("rubber.shift"):
         try:
             return Case(

@@ -46,6 +46,18 @@ from gripscale.questions.cut_off.curve import (
     refusals,
 )
 from gripscale.questions.inputs.findings import in_words
+from gripscale.surface.random_phases import PHASES_FREEDOM, REAL_PHASES
+
+
+def _real_phases(case: Case) -> list[Factor]:
+    """Return the factor from random phases to those of a surface known by its spectrum only."""
+    spectrum = case.surface.spectrum
+    if spectrum is None or spectrum.phases == "random":
+        return []
+    kind = case.kind if case.kind in REAL_PHASES else "surface"
+    area, friction = (LogNormalValue(math.exp(m), s) for m, s in REAL_PHASES[kind].values())
+    freedom = PHASES_FREEDOM[kind]
+    return [Factor("real_phases", "random to real phases", area, friction, freedom, True)]
 
 
 def direct_contact_design(
@@ -159,10 +171,12 @@ def continued_curve(case: Case, load: Load, folder: str | Path | None = None) ->
 def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
     """Return the factor of the roughness of a `continued_curve` below the cut-off of its case.
 
-    Its error is that of the continuation; none without a curve, or one that was refused.
+    Its error is that of the continuation; none without a curve, or one that was refused. Of a
+    surface known by its spectrum also that from random to real phases.
     """
+    phases = _real_phases(case)
     if curve is None or any(refusals(curve)):
-        return []
+        return phases
     cut_off = resolved_wavelength(case.surface)
 
     def grown(name: str) -> LogNormalValue:
@@ -174,7 +188,7 @@ def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
 
     end = in_mm(float(curve.cut_off[-1]), 3)
     label = f"roughness continued from {in_mm(cut_off, 3)} to {end}"
-    return [Factor("below_measurement", label, grown(AREA), grown(FRICTION))]
+    return [*phases, Factor("below_measurement", label, grown(AREA), grown(FRICTION))]
 
 
 def direct_contact_totals(
