@@ -70,14 +70,14 @@ def test_a_saved_case_is_the_same(tmp_path):
 def test_real_phases_are_a_factor_and_random_ones_are_said():
     random = gs.answer(gs.Case(spectrum("random"), styrene_butadiene(), filled=False, **LOAD))
     real = gs.answer(gs.Case(spectrum(), styrene_butadiene(), filled=False, **LOAD))
-    road = gs.answer(gs.Case(spectrum(), styrene_butadiene(), filled=False, kind="road", **LOAD))
+    worn = gs.answer(gs.Case(spectrum("worn"), styrene_butadiene(), filled=False, **LOAD))
     assert "roughness down to 1 mm, for random phases." in str(random)
     assert "Solved on lines of your spectrum with random phases" in str(real)
-    for answer, kind in ((real, "surface"), (road, "road")):
+    for answer, phases in ((real, "real"), (worn, "worn")):
         for name in ("contact_fraction", "friction"):
             ratio = getattr(answer, name) / getattr(random, name)
             free = 1.0 - float(random.data.total_contact_fraction)
-            assert ratio == pytest.approx(math.exp(free * REAL_PHASES[kind][name][0]))
+            assert ratio == pytest.approx(math.exp(free * REAL_PHASES[phases][name][0]))
         assert answer.half_widths == {} or answer.half_widths["area"] > 0.5
     assert "random to real phases" in str(real)
     assert "a spectrum does not tell the phases" in " ".join(str(real).split())

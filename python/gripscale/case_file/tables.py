@@ -125,8 +125,9 @@ class SpectrumKeys(CaseTable):
     """Unit of its density: such as um^4 of a surface, um^3 of a line."""
     normalization: Literal["q", "1/wavelength", "contact.engineering"] | None = None
     """What its density is: over q, over 1/wavelength, or that of contact.engineering."""
-    phases: Literal["real", "random"] = "real"
-    """Phases of the waves that an answer is for: those of a surface, not known, or random ones."""
+    phases: Literal["real", "worn", "random"] = "real"
+    """Phases of the waves that an answer is for: those of any surface, of one with worn or flat
+    tops as most roads have, or random ones."""
 
 
 class UnitKeys(CaseTable):

@@ -30,13 +30,13 @@ from gripscale.surface.profile import MOST_PROFILE_POINTS, Profile
 from gripscale.surface.spectrum import ArealSpectrum
 
 PHASES_OF = "phases_of_spectrum"  # attribute of a result of a spectrum: the phases it is for
-# ln(number of a surface / that with random phases) by the kind of a case: mean over families of
-# surfaces, standard deviation of one surface. Roads have worn or flat tops.
+# Of what the phases of a surface are, ln(its number / that with random ones), over 1 - A: the mean
+# over families of surfaces, and the standard deviation of one surface, with degrees of freedom.
 REAL_PHASES = {
-    "road": {"contact_fraction": (1.0, 0.6), "friction": (-1.0, 0.7)},
-    "surface": {"contact_fraction": (0.2, 1.1), "friction": (-0.2, 1.1)},
+    "real": {"contact_fraction": (0.29, 1.07), "friction": (-0.21, 1.16)},
+    "worn": {"contact_fraction": (1.08, 0.63), "friction": (-1.12, 0.68)},
 }
-PHASES_FREEDOM = {"road": 4.0, "surface": 10.0}
+PHASES_FREEDOM = {"real": 33.0, "worn": 21.0}
 _LINES, _WAVES = 4, 16  # lines that are drawn, and longest waves in each
 _ENOUGH_POINTS = 2**17  # of a line: with more it holds fewer of its longest waves, at least one
 _POINTS_IN_WAVE = 8  # steps in the smallest wave
@@ -56,9 +56,10 @@ class Spectrum(ArealSpectrum, eq=False):
     """Name of the surface in tables and figures."""
     source: str = checked(checks.text, default="")
     """Where it comes from, such as a file name."""
-    phases: str = checked(checks.one_of, choices=("real", "random"), default="real")
-    """Whether an answer is for the "real" phases of a surface, which are not known, so that their
-    effect and its scatter count; or for the "random" ones of a Gaussian surface."""
+    phases: str = checked(checks.one_of, choices=(*REAL_PHASES, "random"), default="real")
+    """What an answer is for: the "real" phases of any surface, which are not known, or those of one
+    with "worn" or flat tops, as most roads (negative skewness of the heights), both with their
+    scatter; or "random" ones, those of a Gaussian surface."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -127,13 +128,16 @@ class Spectrum(ArealSpectrum, eq=False):
     @property
     def finding(self) -> Finding:
         """What an answer from it rests on."""
-        shortest, road = in_mm(2.0 * np.pi / float(self.wavenumber[-1]), 2), REAL_PHASES["road"]
-        area, friction = (math.exp(road[name][0]) for name in ("contact_fraction", "friction"))
+        shortest = in_mm(2.0 * np.pi / float(self.wavenumber[-1]), 2)
+        area, friction = (math.exp(mean) for mean, _ in REAL_PHASES["worn"].values())
+        mean, scatter = REAL_PHASES["real"]["contact_fraction"]
         text = (
             f"The surface is known by its spectrum (rms height {in_mm(self.rms_height, 3)}, rms "
-            f"slope {self.rms_gradient():.2g} down to {shortest}), which does not tell the phases: "
-            f"a road (kind in [surface]) has about {area:.2g} times the area and {friction:.2g} "
-            "times the friction of random ones, any other surface a third to four times."
+            f"slope {self.rms_gradient():.2g} down to {shortest}), which does not tell its phases: "
+            f'surfaces with worn or flat tops, as most roads (phases = "worn" in [surface]), have '
+            f"{area:.2g} times the area and {friction:.2g} times the friction of random phases, "
+            f"all surfaces {math.exp(mean - scatter):.2g} to {math.exp(mean + scatter):.2g} times "
+            "the area."
         )
         changes = (friction - 1.0, area - 1.0) if self.phases == "random" else (math.nan, math.nan)
         return Finding(Severity.WARNING, text, *changes, Topic.SURFACE)

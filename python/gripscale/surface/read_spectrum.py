@@ -144,7 +144,7 @@ def read_spectrum(
     normalization : str, optional
         What the density is, one of `NORMALIZATIONS`, where its title does not tell.
     phases : str
-        "real" or "random", see `gripscale.Spectrum`.
+        "real", "worn" or "random", see `gripscale.Spectrum`.
     """
     file = file_path(path)
     table = _table(file)

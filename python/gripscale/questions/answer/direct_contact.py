@@ -54,9 +54,11 @@ def _real_phases(case: Case) -> list[Factor]:
     spectrum = case.surface.spectrum
     if spectrum is None or spectrum.phases == "random":
         return []
-    kind = case.kind if case.kind in REAL_PHASES else "surface"
-    area, friction = (LogNormalValue(math.exp(m), s) for m, s in REAL_PHASES[kind].values())
-    freedom = PHASES_FREEDOM[kind]
+    area, friction = (
+        LogNormalValue(math.exp(mean), scatter)
+        for mean, scatter in REAL_PHASES[spectrum.phases].values()
+    )
+    freedom = PHASES_FREEDOM[spectrum.phases]
     return [Factor("real_phases", "random to real phases", area, friction, freedom, True)]
 
 

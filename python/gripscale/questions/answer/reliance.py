@@ -106,7 +106,7 @@ def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
         # the parts of an interval that is sampled say why
         why = ": the measured surface is too small, or too few of its summits carry"
         why = "" if "part_label" in data else why
-        if data.attrs.get(PHASES_OF) == "real":
+        if data.attrs.get(PHASES_OF, "random") != "random":
             why = ": a spectrum does not tell the phases of the surface"
         yield f"The ends of the interval are more than a factor of two from the value{why}."
 
