@@ -24,8 +24,7 @@ from rich.console import Console
 import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.model import Load, Model, predicted_answer
-from gripscale.questions import Study
-from gripscale.questions.vary.page import study_table
+from gripscale.questions import Study, Variation
 from gripscale.surface.surface import Surface, SurfacePart
 
 CASE = Path(__file__).parent / "three_waves" / "case.toml"
@@ -65,7 +64,7 @@ def main(folder: str = "results/examples") -> None:
     """Vary speed and pressure of a case with it; print the table."""
     vary = {"speed": "0.01 m/s, 10 m/s", "pressure": "1 bar, 3 bar"}
     result = Study(read_case(CASE), vary, model=Proportional()).run(Path(folder) / "toy_model")
-    Console(width=100).print(study_table(result))
+    Console(width=100).print(Variation(result).table())
 
 
 if __name__ == "__main__":

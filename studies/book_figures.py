@@ -43,7 +43,7 @@ from gripscale.questions import blocks_figure
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.charts import named_traces
 from gripscale.questions.chain.view import PredictionView
-from gripscale.questions.sensitivity.charts import sensitivity_figure
+from gripscale.questions.sensitivity.question import sensitivity_figure
 from gripscale.questions.uncertainty.charts import parts_figure
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import transmission

@@ -17,7 +17,7 @@ from gripscale.charts.chart import Mark, Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import save_figure
 from gripscale.charts.style import COLOURS, GREY
-from reproduction.inputs import read_inputs
+from gripscale.reproduction.inputs import read_inputs
 from studies.whole_surfaces import Cases, Found, solved
 
 

@@ -7,16 +7,15 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Sequence
-from itertools import groupby
 from pathlib import Path
 
 import PIL.Image
 
 from gripscale.core.errors import FileError
-from reproduction.figures import TITLES
-from reproduction.inputs import ROAD, TREAD
-from reproduction.run import FIGURES, reproduce
-from reproduction.statement import Statement, as_markdown, count
+from gripscale.reproduction.figures import TITLES, title_of
+from gripscale.reproduction.inputs import PaperInputs, read_inputs
+from gripscale.reproduction.run import reproduce_paper
+from gripscale.reproduction.statement import Statement, as_markdown, number_holding, verdict_table
 
 MADE = "<!-- made by python -m studies.paper_page -->"
 SHOWN, SHADES = 0.6, 64
@@ -30,46 +29,38 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--output", type=Path, default=Path("results/reproduction"))
     parser.add_argument("--workers", type=int)
     asked = parser.parse_args(arguments)
-    statements = reproduce(output=asked.output, workers=asked.workers)
-    for name in FIGURES:
+    inputs = read_inputs()
+    statements = reproduce_paper(inputs, asked.output, workers=asked.workers)
+    for name in TITLES:
         _pack(asked.output / f"{name}.png", asked.docs / "figures" / f"paper_{name}.png")
-    write_page(asked.docs / "paper.md", statements)
+    write_page(asked.docs / "paper.md", statements, inputs)
 
 
-def write_page(path: Path, statements: Sequence[Statement]) -> None:
+def write_page(path: Path, statements: Sequence[Statement], inputs: PaperInputs) -> None:
     """Replace all below the mark of a page; `FileError` if it has none."""
     page = path.read_text(encoding="utf-8")
     if MADE not in page:
         raise FileError(f'{path} must have a line "{MADE}", below which it is written')
-    text = "\n".join([MADE, "", *_summary(statements), *_figures(statements)])
+    text = "\n".join([MADE, "", *_summary(statements), *_figures(statements, inputs)])
     path.write_text(f"{page[: page.index(MADE)]}{text.rstrip()}\n", encoding="utf-8")
 
 
 def _summary(statements: Sequence[Statement]) -> Iterator[str]:
-    yield f"{count(statements)}:\n"
-    yield "| figure | statement | holds | does not hold | not judged |\n|---|---|---|---|---|"
-    for (figure, said), same in groupby(
-        sorted(statements, key=lambda s: (FIGURES.index(s.figure), s.said)),
-        lambda s: (s.figure, s.said),
-    ):
-        verdicts = [s.holds for s in same]
-        counts = (str(verdicts.count(verdict) or "") for verdict in (True, False, None))
-        yield f"| {_called(figure)} | {said} | {' | '.join(counts)} |"
+    yield f"{number_holding(statements)}:\n"
+    table = verdict_table(statements)
+    yield f"| {' | '.join(column.name for column in table.columns)} |\n|---|---|---|---|---|"
+    for figure, said, *counts in table.rows():
+        yield f"| Figure {figure} | {said} | {' | '.join(str(n or '') for n in counts)} |"
     yield ""
 
 
-def _figures(statements: Sequence[Statement]) -> Iterator[str]:
-    for name in FIGURES:
-        title = TITLES[name].format(rubber=TREAD, surface=ROAD)
-        yield f"### {_called(name)}: {title}\n"
+def _figures(statements: Sequence[Statement], inputs: PaperInputs) -> Iterator[str]:
+    for name in TITLES:
+        title = title_of(name, inputs)
+        yield f"### Figure {name.removeprefix('fig')}: {title}\n"
         yield f"![{title}](figures/paper_{name}.png)\n"
         yield as_markdown([s for s in statements if s.figure == name], lambda _: "").strip()
         yield ""
-
-
-def _called(figure: str) -> str:
-    """Return what a figure is called in the paper."""
-    return f"Figure {figure.removeprefix('fig')}"
 
 
 def _pack(source: Path, target: Path) -> None:

@@ -15,8 +15,17 @@ import numpy as np
 
 import gripscale as gs
 from gripscale.half_space import random_phases, surface_of_sines
+from gripscale.model import FOOTPRINT
+from gripscale.reproduction.inputs import (
+    COARSE,
+    FASTEST,
+    FILLED_TREAD,
+    NOMINAL_PRESSURE,
+    SBR,
+    SPEED,
+    PaperInputs,
+)
 from gripscale.surface import HeightMap, Profile, SineStack
-from reproduction.inputs import FASTEST, FOOTPRINT, PRESSURE, ROAD, SBR, SPEED, TREAD, Inputs
 
 SEEDS = range(6)
 PERIODS = 12
@@ -65,7 +74,7 @@ def _told(pair: Pair | None) -> str:
 class Cases:
     """The surfaces and rubbers, and what is asked of them."""
 
-    inputs: Inputs
+    inputs: PaperInputs
 
     def small_strain(self) -> Iterator[Case]:
         """Yield the lines of the first table."""
@@ -119,7 +128,7 @@ class Cases:
     def _maps(self) -> Iterator[Case]:
         surface = isotropic_map()
         lines = [Profile(surface.x, surface.z[:, row]) for row in range(0, len(surface.y), 16)]
-        tread = self.inputs.rubbers[TREAD]
+        tread = self.inputs.compounds[FILLED_TREAD].rubber
         step = float(surface.x[1])
         spectrum = gs.surface.map_spectrum(surface.z, x_step=step, y_step=step, taper="none")
         yield Case(
@@ -137,7 +146,7 @@ class Cases:
             lambda: [self.contact(line, 4e-4, periodic=True) for line in lines],
         )
         found = gs.theory.persson(
-            tread, spectrum, pressure=PRESSURE, speed=SPEED, smallest_wavelength=4e-4
+            tread, spectrum, pressure=NOMINAL_PRESSURE, speed=SPEED, smallest_wavelength=4e-4
         )
         pair = found.contact_fraction, found.friction
         yield Case("Persson's theory for it", "0.027, 0.086", None, lambda: [pair])
@@ -153,13 +162,13 @@ class Cases:
 
     def stations(self) -> list[Profile]:
         """Return the two lines of the road as they are evaluated."""
-        measured = self.inputs.surfaces[ROAD].measured
+        measured = self.inputs.surfaces[COARSE].measured
         assert measured is not None
         return measured.cleaned
 
     def waves(self, multiples: np.ndarray) -> SineStack:
         """Return waves that many times shorter than the first, with slopes by the road's law."""
-        fitted = self.inputs.surfaces[ROAD].sines
+        fitted = self.inputs.surfaces[COARSE].sines
         first, slope = fitted.wavelength[0], fitted.amplitude / fitted.wavelength
         exponent = np.log(slope[-1] / slope[0]) / np.log(first / fitted.wavelength[-1])
         lengths = first / np.asarray(multiples, dtype=float)
@@ -174,20 +183,20 @@ class Cases:
 
     def seven(self) -> SineStack:
         """Return seven waves fitted to the road down to 0.2 mm."""
-        return gs.fit_sines(self.inputs.correlation(ROAD), scales=7, smallest_wavelength=2e-4)
+        return gs.fit_sines(self.inputs.correlation(COARSE), scales=7, smallest_wavelength=2e-4)
 
     def chain(
         self,
         sines: SineStack,
-        rubber: str = TREAD,
+        rubber: str = FILLED_TREAD,
         speed: float = SPEED,
         solver: str = "half_plane",
     ) -> Pair:
         """Return contact fraction and friction of the waves one after the other."""
         found = gs.solve_chain(
-            self.inputs.rubbers[rubber],
+            self.inputs.compounds[rubber].rubber,
             sines,
-            pressure=PRESSURE,
+            pressure=NOMINAL_PRESSURE,
             speed=speed,
             footprint=FOOTPRINT,
             solver=solver,
@@ -199,16 +208,16 @@ class Cases:
         surface: Profile | HeightMap,
         smallest: float | None = None,
         *,
-        rubber: str = TREAD,
+        rubber: str = FILLED_TREAD,
         speed: float = SPEED,
         periodic: bool | None = None,
         tolerance: float = 0.02,
     ) -> Pair:
         """Return contact fraction and friction of a whole surface at once."""
         found = gs.solve_rough_contact(
-            self.inputs.rubbers[rubber],
+            self.inputs.compounds[rubber].rubber,
             surface,
-            pressure=PRESSURE,
+            pressure=NOMINAL_PRESSURE,
             speed=speed,
             smallest_wavelength=smallest,
             periodic=smallest is None if periodic is None else periodic,

@@ -1,5 +1,5 @@
 from collections.abc import Callable, Mapping
-from typing import Literal, TypedDict, final, type_check_only
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,144 +34,59 @@ class Line:
 
 @final
 class Solution:
-    @property
-    def status(self) -> str: ...
-    @property
-    def residual(self) -> float: ...
-    @property
-    def newton_iterations(self) -> int: ...
-    @property
-    def jacobian_products(self) -> int: ...
-    @property
-    def load_steps(self) -> int: ...
-    @property
-    def load_reached(self) -> float: ...
-    @property
-    def approach(self) -> float: ...
-    @property
-    def contact_fraction(self) -> float: ...
-    @property
-    def contacts(self) -> list[tuple[float, float]]: ...
-    @property
-    def friction(self) -> float: ...
-    @property
-    def friction_from_dissipation(self) -> float: ...
-    @property
-    def lost_by_row(self) -> NDArray[np.float64]: ...
-    @property
-    def row_heights(self) -> NDArray[np.float64]: ...
-    @property
-    def contact_fraction_error(self) -> float: ...
-    @property
-    def friction_error(self) -> float: ...
-    @property
-    def friction_bound(self) -> float | None: ...
-    @property
-    def judged_by(self) -> int | None: ...
-    @property
-    def columns(self) -> int: ...
-    @property
-    def rows(self) -> int: ...
-    @property
-    def too_narrow(self) -> tuple[float, float] | None: ...
-    @property
-    def waves_carried(self) -> int | None: ...
-    @property
-    def min_stretch(self) -> float: ...
-    @property
-    def max_stretch(self) -> float: ...
-    @property
-    def x(self) -> NDArray[np.float64]: ...
-    @property
-    def pressure(self) -> NDArray[np.float64]: ...
-    @property
-    def mesh_x(self) -> NDArray[np.float64]: ...
-    @property
-    def mesh_z(self) -> NDArray[np.float64]: ...
+    status: str
+    residual: float
+    newton_iterations: int
+    jacobian_products: int
+    load_steps: int
+    load_reached: float
+    approach: float
+    contact_fraction: float
+    contacts: list[tuple[float, float]]
+    friction: float
+    friction_from_dissipation: float
+    lost_by_row: NDArray[np.float64]
+    row_heights: NDArray[np.float64]
+    contact_fraction_error: float
+    friction_error: float
+    friction_bound: float | None
+    judged_by: int | None
+    columns: int
+    rows: int
+    too_narrow: tuple[float, float] | None
+    waves_carried: int | None
+    min_stretch: float
+    max_stretch: float
+    x: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    mesh_x: NDArray[np.float64]
+    mesh_z: NDArray[np.float64]
 
 @final
 class Run:
-    @property
-    def status(self) -> str: ...
-    @property
-    def newton_iterations(self) -> int: ...
-    @property
-    def time(self) -> NDArray[np.float64]: ...
-    @property
-    def distance(self) -> NDArray[np.float64]: ...
-    @property
-    def speed(self) -> NDArray[np.float64]: ...
-    @property
-    def pressure(self) -> NDArray[np.float64]: ...
-    @property
-    def friction(self) -> NDArray[np.float64]: ...
-    @property
-    def contact_fraction(self) -> NDArray[np.float64]: ...
-    @property
-    def approach(self) -> NDArray[np.float64]: ...
-
-@type_check_only
-class Rubber(TypedDict):
-    equilibrium_modulus: float
-    moduli: list[float]
-    relaxation_times: list[float]
-    bulk_modulus: float
-    strain_energy: tuple[str, dict[str, float]]
-
-@type_check_only
-class Sine(TypedDict):
-    kind: Literal["sine"]
-    wavelength: float
-    amplitude: float
-
-@type_check_only
-class Sampled(TypedDict):
-    kind: Literal["sampled"]
-    wavelength: float
-    heights: list[float]
-
-@type_check_only
-class Load(TypedDict):
-    pressure: float
-    speed: float
-    load_time: float
-
-@type_check_only
-class Mesh(TypedDict):
-    columns: int
-    rows: int
-    depth: float
-    element_order: int
-
-@type_check_only
-class Body(TypedDict):
-    rubber: Rubber
-    profile: Sine | Sampled
-    mesh: Mesh
-
-@type_check_only
-class Problem(Body):
-    load: Load
-
-@type_check_only
-class Work(TypedDict):
-    workers: int
-    time_limit: float | None
-    look: Callable[[], object]
+    status: str
+    newton_iterations: int
+    time: NDArray[np.float64]
+    distance: NDArray[np.float64]
+    speed: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    friction: NDArray[np.float64]
+    contact_fraction: NDArray[np.float64]
+    approach: NDArray[np.float64]
 
 def solve_steady(
-    problem: Problem,
+    problem: Mapping[str, Any],
     settings: Mapping[str, float],
     tolerance: float | None,
     start: Solution | None,
-    work: Work,
+    work: Mapping[str, Any],
 ) -> Solution: ...
 def solve_transient(
-    problem: Body,
+    problem: Mapping[str, Any],
     settings: Mapping[str, float],
     stages: list[tuple[float, float, float]],
     start: Solution | None,
-    work: Work,
+    work: Mapping[str, Any],
 ) -> Run: ...
 def default_settings() -> list[tuple[str, float, str]]: ...
 def statuses() -> list[tuple[str, str, str]]: ...

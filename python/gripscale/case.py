@@ -298,11 +298,42 @@ class Case(Described):
         checks.allowed_names("argument of a case", changes, self._arguments)
         kept: dict[str, Any] = {"rubber": self.measured_rubber, "chain": self.chain}
         described = {"smallest_wavelength", "longest_wavelength", "waves", "cleaning"}
-        if not described & changes.keys():
-            kept["surface"] = self.surface
+        if "surface" not in changes:
+            if not described & changes.keys():
+                kept["surface"] = self.surface
+            elif isinstance(self._arguments["surface"], Surface):
+                kept["surface"] = self._described_again(changes)
         # the text of a file is that of another case
         kept["origin"] = Origin(self.origin.name, units=self.origin.units)
         return Case(**(self._arguments | kept | changes))
+
+    def _described_again(self, changes: Mapping[str, Any]) -> Surface:
+        """Return the surface of a case file, which holds its waves, with other ones."""
+        surface, measured = self.surface, self.surface.measured
+        if "cleaning" in changes:
+            raise InputError("cleaning must be left out: the surface is clean already; got it")
+        if "longest_wavelength" in changes:
+            if measured is None or measured.map is not None:
+                raise InputError(f"longest_wavelength needs profiles; got {surface.source}")
+            longest = si_value("longest_wavelength", changes["longest_wavelength"], "m")
+            lines = [raw for raw, _ in (*measured.profiles, *measured.across)]
+            measured = Measured.of(lines)
+            if self.cleaning:
+                options = self.cleaning | {"longest_wavelength": longest}
+                measured = Measured.of_raw(lines, options)
+            elif longest is not None:
+                measured = measured.without_long_waves(longest)
+            held = changes.get("footprint", self.load.footprint)
+            surface = described_surface(
+                measured,
+                counted=surface.counted,
+                fit=surface.fit,
+                cut_off=surface.rule,
+                source=surface.source,
+                footprint=si_value("footprint", held, "m") if longest is None else None,
+            )
+        end = si_value("smallest_wavelength", changes.get("smallest_wavelength"), "m")
+        return surface.varied(waves=changes.get("waves"), smallest_wavelength=end)
 
     def task(self, model: Model | None = None) -> Task:
         """Return how the case is predicted: by a model as it stands, or by its chain of waves."""

@@ -21,11 +21,11 @@ from gripscale.core.arrays import Array
 from gripscale.core.errors import InputError
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.solve import solve_rough_contact
-from gripscale.half_space.windows import WindowContacts, solve_windows
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.profile import profile_list
 from studies.isotropic_maps.construction import isotropic_maps, seed_numbers
+from studies.isotropic_maps.window_contacts import WindowContacts, solve_windows
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.half_space import solve_windows, windows
+from gripscale.half_space import windows
 from gripscale.surface import HeightMap
 from gripscale.surface.low_pass import followed
 from studies.isotropic_maps.line_statistics import periodic_lines
 from studies.isotropic_maps.map_factor import solve_map_and_lines
 from studies.isotropic_maps.setting import AREA, FRICTION, LENGTH, LOAD, SMALLEST, TOLERANCE
+from studies.isotropic_maps.window_contacts import solve_windows
 from studies.shipped import road
 
 LAGS = (0.2e-3, 0.8e-3, 3.2e-3, 12.8e-3)

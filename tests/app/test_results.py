@@ -14,7 +14,6 @@ from gripscale.core.finding import Finding, Severity
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import Answer
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
-from gripscale.questions.page_of_folder import page_of
 from gripscale.report.elements import Element, Text
 from tests.run_case import run_case
 
@@ -34,7 +33,7 @@ def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def results_elements(folder: Path) -> list[Element]:
     """Return everything below the head of the page of a run."""
-    sections = page_of(page_of_folder.read_result(folder)).sections
+    sections = page_of_folder.read_result(folder).page_content().sections
     return [element for section in sections for element in section.elements]
 
 

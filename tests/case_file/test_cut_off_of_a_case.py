@@ -12,7 +12,9 @@ import gripscale as gs
 from gripscale import surface
 from gripscale.case_file import read_case, read_case_file
 from gripscale.cli import app
+from gripscale.core import InputError
 from gripscale.io import netcdf
+from gripscale.io.text_table import lines_by_start
 from gripscale.questions import Study
 from tests.run_case import chain_of
 from tests.samples import HALF_PLANE, case_text, write_road
@@ -58,6 +60,44 @@ def test_instrument_and_lengths(case: Path) -> None:
     last = stated(case, 'smallest_wavelength = "1 mm"')
     assert last.cut_off is not None
     assert last.cut_off.rule == "the last wave"
+
+
+def test_the_waves_of_a_file_are_replaced(case: Path) -> None:
+    given = read_case(case)
+    shorter = given.replace(longest_wavelength="20 mm")
+    assert shorter.surface.measured is not None
+    (before,), (after,) = (c.surface.measured.cleaned for c in (given, shorter))  # type: ignore[union-attr]
+    expected = surface.clean(ROAD, longest_wavelength=0.02)[0]
+    np.testing.assert_allclose(after.z, expected.z, atol=1e-9)  # the file has six digits
+    assert np.std(after.z) < np.std(before.z)
+    assert shorter.surface.sines.wavelength[0] < given.surface.sines.wavelength[0]
+    assert shorter.surface.rule == given.surface.rule == "instrument"
+    again = shorter.replace(longest_wavelength=None).surface
+    np.testing.assert_array_equal(again.sines.wavelength, given.surface.sines.wavelength)
+    assert len(given.replace(waves=5).surface.sines) == 5
+    assert given.replace(smallest_wavelength="1 mm").surface.sines.wavelength[-1] == pytest.approx(
+        1e-3
+    )
+    with pytest.raises(InputError, match="cleaning must be left out"):
+        given.replace(cleaning={"detrend": "none"})
+
+
+def test_too_many_lines_are_refused_before_they_are_read(
+    case: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gripscale.case_file.prepare.MOST_POINTS", 100)
+    with pytest.raises(InputError, match=r"cut_off must be a length, at least 1\d times"):
+        read_case(case)
+
+
+def test_lines_are_counted_by_the_start_of_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "road.csv"
+    write_road(path, surface.self_affine_profile(0.8, 3e-3, 6e-4, length=2.0, step=1e-4, seed=1))
+    lines = path.read_bytes().count(b"\n")
+    assert path.stat().st_size > 4 * 2**16
+    assert lines_by_start(path) == pytest.approx(lines, rel=0.05)  # numbers grow by a digit
+    path.write_bytes(b"\0\1" * 99)
+    assert lines_by_start(path) == 0.0
 
 
 def test_what_was_not_measured_is_refused_or_marked(case: Path) -> None:

@@ -1,10 +1,9 @@
-"""The methods of rubbers, sweeps and results are the functions of the same name."""
+"""Rubbers and results draw themselves."""
 
 import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.rubber import Sweeps
 from gripscale.surface import self_affine_profile
 from tests.samples import SHIFTED_RUBBER
 
@@ -14,19 +13,6 @@ ROAD = self_affine_profile(0.8, 2e-3, 1e-4, 0.1, 1e-4, seed=1)
 def test_a_rubber_is_drawn():
     labels = {axes.get_ylabel() for axes in SHIFTED_RUBBER.plot().axes}
     assert any("MPa" in label for label in labels)
-
-
-def test_sweeps_are_superposed():
-    frequency, kelvin = np.meshgrid(np.geomspace(0.1, 100.0, 13), [283.15, 293.15, 303.15])
-    moduli = [
-        SHIFTED_RUBBER.at(float(t)).complex_modulus(2 * np.pi * f)
-        for f, t in zip(frequency.ravel(), kelvin.ravel(), strict=True)
-    ]
-    sweeps = Sweeps(kelvin.ravel(), frequency.ravel(), np.real(moduli), np.imag(moduli))
-    master = sweeps.superpose(reference_temperature=293.15)
-    expected = gs.superpose(sweeps, reference_temperature=293.15)
-    assert np.array_equal(master.frequency, expected.frequency)
-    assert np.array_equal(master.storage, expected.storage)
 
 
 def test_a_direct_contact_is_drawn():

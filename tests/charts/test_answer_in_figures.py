@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 
 from gripscale.questions import contact_figure
 from gripscale.questions.answer.variables import ANSWER, JUDGE
-from gripscale.questions.calibration.charts import profiles_figure
-from gripscale.questions.cut_off.charts import cut_off_sheet
+from gripscale.questions.calibration.question import profiles_figure
 from gripscale.questions.cut_off.curve import AREA, FRICTION, SLOPE_IN_CONTACT
+from gripscale.questions.cut_off.question import cut_off_sheet
 from gripscale.questions.uncertainty.charts import distribution_figure
 
 BEST = {"friction": 0.461, "contact_fraction": 0.0047}

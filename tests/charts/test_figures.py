@@ -29,9 +29,8 @@ from gripscale.questions import (
     profile_figure,
 )
 from gripscale.questions.answer.variables import JUDGE
-from gripscale.questions.compare import charts_of_ladder as ladder
-from gripscale.questions.compare.charts import comparison_figure
-from gripscale.questions.compare.charts_of_ladder import Row
+from gripscale.questions.compare import charts as ladder
+from gripscale.questions.compare.charts import Row, comparison_figure
 from gripscale.questions.inputs.charts_of_surface import kept_points
 from gripscale.questions.inputs.record import envelope, sine_curves
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report

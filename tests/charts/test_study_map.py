@@ -13,7 +13,7 @@ import xarray as xr
 from gripscale.model import TOTALS
 from gripscale.questions import Variation, friction_master_figure, map_figure
 from gripscale.questions.vary.charts import study_pictures
-from gripscale.questions.vary.speed_and_temperature import BEYOND_SHIFT, with_master_curve
+from gripscale.questions.vary.study import BEYOND_SHIFT, with_master_curve
 from gripscale.rubber import WLF, Rubber
 from tests.samples import DOCS
 

@@ -32,11 +32,11 @@ from gripscale.questions.compare.charts import (
     comparison_axis_figure,
     comparison_figure,
     comparison_pictures,
+    rows_of,
 )
-from gripscale.questions.compare.charts_of_ladder import rows_of
 from gripscale.questions.compare.comparison import COMPARED_OVER
-from gripscale.questions.compare.page import Compared, comparison_table, remarks
-from gripscale.questions.page_of_folder import page_of
+from gripscale.questions.compare.page import comparison_table
+from gripscale.questions.compare.question import Comparison
 from gripscale.questions.terminal import PROGRESS_LINES
 from tests.samples import Shell
 
@@ -117,7 +117,7 @@ def test_rungs_of_any_group_alone_are_drawn(comparison: tuple[str, Path], group:
         assert next(comparison_pictures(octaves)).name == "comparison"
         labels = [row.label for row in rows_of(octaves, "friction")]
         assert labels[0].startswith(str(data.label.item(0)))
-        assert page_of(Compared([octaves])).sections[0].figures
+        assert Comparison(octaves).page_content().sections[0].figures
 
 
 def test_factors_lead_from_the_chain_to_the_profile_as_measured(
@@ -350,7 +350,7 @@ def test_model_that_failed_is_open_and_says_why(inputs: Path) -> None:
     assert data.total_friction[1] == made.data.total_friction[1]
     told = "1 of 2 samples failed: tolerance not met"
     assert data.status.values.tolist() == ["tolerance not met", told]
-    assert f"{direct.label}: {told}." in list(remarks(data))
+    assert any(str(direct.label.item()) in str(finding) for finding in Comparison(data).findings)
     assert "1/2" in as_text(comparison_table(data))
     area = comparison_figure(data).axes[0]
     faces = {line.get_marker(): line.get_markerfacecolor() for line in area.lines}

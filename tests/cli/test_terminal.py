@@ -236,7 +236,7 @@ def test_the_shell_completes_commands_and_options(
     monkeypatch.setenv("_GRIPSCALE_COMPLETE", "complete_bash")
     for words, number, expected in (
         ("gripscale comp", 1, ["compare", "compare-rubbers", "compare-surfaces"]),
-        ("gripscale run --ch", 2, ["--chain"]),
+        ("gripscale run --verb", 2, ["--verbose"]),
     ):
         monkeypatch.setenv("COMP_WORDS", words)
         monkeypatch.setenv("COMP_CWORD", str(number))

@@ -292,7 +292,7 @@ def _wave() -> Iterator[PublicFunction]:
 
 def _rough() -> Iterator[PublicFunction]:
     line = {"rubber": SOLID, "surface": LINE, **PRESSED, **ROUGH}
-    most = {"periodic": False, "most_points": 4096, "most_iterations": 20}
+    most = {"periodic": False, "most_points": 4096}
     yield PublicFunction(gs.solve_rough_contact, {**line, **most})
     direct = {"smallest_wavelength": None, "tolerance": 0.02, "most_points": 64}
     yield PublicFunction(rough.DirectContact, {**direct, "periodic": False})
@@ -300,10 +300,5 @@ def _rough() -> Iterator[PublicFunction]:
     yield PublicFunction(rough.random_phases, {"surface": LINE, "seed": 1})
     yield PublicFunction(rough.surface_of_sines, {"stack": SINES, "length": 8e-3, "seed": 1})
     yield PublicFunction(rough.windows, {"surface": LINE, "length": 1e-2})
-    yield PublicFunction(
-        rough.solve_windows,
-        {"rubber": SOLID, "surface": LINE, "length": 1e-2, **PRESSED},
-        slow=True,
-    )
     spread = {"length": 1e-2, "most": 2}
     yield PublicFunction(rough.spread_windows, {"profiles": [LINE], **spread})

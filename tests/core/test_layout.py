@@ -11,7 +11,7 @@ from pathlib import Path
 import gripscale
 
 PACKAGE = Path(gripscale.__file__).parent
-FRONT_ENDS = {"case_file", "cli", "app"}
+FRONT_ENDS = {"case_file", "cli", "app", "reproduction"}
 """Packages that know a case file."""
 
 

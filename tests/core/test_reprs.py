@@ -44,7 +44,6 @@ def objects() -> dict[str, Any]:
         rubber.fit_prony_report(made["master"]),
         rubber.superpose_report(made["sweeps"], reference_temperature=293.15),
         theory.persson(solid, surface.profile_spectrum(road), **load),
-        half_space.solve_windows(solid, road, 0.02, **load),
         gs.solve_transient(solid, wavelength=2e-3, amplitude=1e-4, stages=[gs.Stage(1e-3, 1, 1e5)]),
         export.abaqus_rubber(solid),
         gs.Layers([(solid, 4e-3), (solid, 4e-3)]),

@@ -234,7 +234,7 @@ def test_rows_of_plain_numbers_are_those_cut_cell_by_cell(tmp_path: Path, separa
     lines = [f"{x:.6f}{separator}{z!r}" for x, z in values.tolist()]
     plain, cut = tmp_path / "plain.txt", tmp_path / "cut.txt"
     plain.write_text("\n".join(["x [mm]" + separator + "z [mm]", *lines]), encoding="utf-8")
-    missing = f"99.000000{separator}nan"
+    missing = f"99.000000{separator}n/a"
     cut.write_text(plain.read_text(encoding="utf-8") + f"\n{missing}", encoding="utf-8")
     first, second = read(plain), read(cut)
     assert isinstance(first.rows, PlainRows)
@@ -245,6 +245,18 @@ def test_rows_of_plain_numbers_are_those_cut_cell_by_cell(tmp_path: Path, separa
         numbers = first.numbers(column, name)
         assert (numbers == second.numbers(column, name, missing=True)[:-1]).all()
         assert first.resolution(column) == second.resolution(column)
+
+
+def test_nan_is_read_all_at_once(tmp_path: Path) -> None:
+    """Where a value must not miss, the message names the line as for any other mark."""
+    path = tmp_path / "gaps.txt"
+    path.write_text("x [mm];z [mm]\n0.0;1.5\n0.1;NaN\n0.2;2.25\n", encoding="utf-8")
+    table = read(path)
+    assert isinstance(table.rows, PlainRows)
+    np.testing.assert_array_equal(table.numbers(1, "height", missing=True), [1.5, np.nan, 2.25])
+    assert table.resolution(1) == 0.01
+    with pytest.raises(FileError, match="line 3: expected a height; got 'NaN'"):
+        table.numbers(1, "a height")
 
 
 def test_a_file_that_many_readers_try_is_read_once(

@@ -62,7 +62,7 @@ def solve(surface, **arguments):
 def on_grid(rubber, surface, *, pressure, speed, shape, shortest):
     """Solve on one grid alone, from nothing; `speed` may be negative."""
     heights = periodic_heights(surface, smallest_wavelength=shortest, periodic=True)
-    climb = GridSequence(HalfSpace(rubber, speed), heights, pressure, 1, 60)
+    climb = GridSequence(HalfSpace(rubber, speed), heights, pressure, 1)
     return climb.solve(Level(Grid(shape, heights.grid.lengths), heights.smallest_wavelength))
 
 
@@ -90,7 +90,7 @@ class RandomCase:
     def finer_than(self, contact, halvings: int):
         """Return the numbers of a grid with a spacing halved so often."""
         heights = periodic_heights(self.surface, smallest_wavelength=None, periodic=True)
-        climb = GridSequence(HalfSpace(self.rubber, self.speed), heights, self.pressure, 1, 60)
+        climb = GridSequence(HalfSpace(self.rubber, self.speed), heights, self.pressure, 1)
         points = contact.grid.points * 2 ** (halvings * len(contact.grid.shape))
         for level in levels(heights):
             found = climb.solve(level)

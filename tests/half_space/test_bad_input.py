@@ -49,11 +49,7 @@ NAN, INF = math.nan, math.inf
         ({"most_points": 16}, r"most_points must be at least \d+, four points in each wave"),
         ({"most_points": 1e20}, r"most_points must be a whole number from 1 to"),
         ({"most_points": None}, r"most_points must be a finite number; got None"),
-        ({"most_iterations": 0}, r"most_iterations must be a whole number from 1"),
-        ({"most_iterations": []}, r"most_iterations must be a finite number; got \[\]"),
         ({"periodic": "yes"}, r"periodic must be True or False; got 'yes'"),
-        ({"on_grid": 3}, r"on_grid must be a function or None; got 3"),
-        ({"on_iteration": 3}, r"on_iteration must be a function or None; got 3"),
         ({"rubber": "tread"}, r"rubber must be a Rubber; got str"),
         ({"rubber": gs.Rubber(1e16, bulk_modulus=1e20)}, r"modulus of the rubber must be from"),
     ],
@@ -97,7 +93,7 @@ NUMBERS = [0, -1.0, 1e-300, 5e-324, 1e300, NAN, INF, -INF, 10**400, -(10**400), 
 ARRAYS = [np.array(1.0), np.array([1.0, 2.0]), np.float32(1.0), np.int64(0), Z]
 VALUES = [*WORDS, *NUMBERS, *ARRAYS]
 CLEANING = ["crop", "valid_range", "trim", "spikes", "spike_slope", "form"]
-NAMES = [*LOAD, "smallest_wavelength", "periodic", "most_points", "most_iterations", "on_grid"]
+NAMES = [*LOAD, "smallest_wavelength", "periodic", "most_points"]
 
 
 def test_no_other_exception_comes_out_of_a_solution():

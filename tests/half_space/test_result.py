@@ -89,19 +89,6 @@ def test_area_by_octave_is_that_of_the_smoothed_surface():
     assert octaves.values[-2] == pytest.approx(smooth.contact_fraction, rel=1e-6)
 
 
-def test_progress_is_told_grid_by_grid_and_can_be_broken_off():
-    seen = []
-    solve(isotropic_map(64), tolerance=None, on_grid=seen.append)
-    assert [grid.points for grid in seen] == sorted(grid.points for grid in seen)
-    assert len(seen) >= 2
-
-    def stop(_):
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        solve(isotropic_map(64), on_grid=stop)
-
-
 def test_the_tolerance_is_met_or_the_status_says_so():
     surface = isotropic_map(64, shortest=1.6e-3)
     fine = solve(surface, tolerance=0.01, most_points=2**20)

@@ -57,7 +57,7 @@ def again(contact, *, change=0.0, pressure=None, height=None):
     compliance = half_space_of(contact).compliance(grid) * np.exp(-change)
     response = Response.with_compliance(compliance, grid, 1)
     start = contact.pressure * (pressure / contact.pressure.mean())
-    solved = solve_grid(response, height, start, 60)
+    solved = solve_grid(response, height, start)
     return float(lost_by_harmonic(compliance, grid, solved.pressure).sum())
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import gripscale as gs
 from gripscale.core.errors import InputError
-from gripscale.half_space import random_phases, solve_windows, surface_of_sines, windows
+from gripscale.half_space import random_phases, surface_of_sines, windows
 from gripscale.half_space.grid import joined, periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack, height_difference, self_affine_profile
 from gripscale.surface.resampling import fill_gaps
@@ -103,19 +102,6 @@ def test_a_tenth_of_a_map_missing_changes_little(missing, share, area, friction,
     assert found.missing_share == pytest.approx(share, abs=0.04)
     assert found.contact_fraction == pytest.approx(whole.contact_fraction, rel=area)
     assert found.friction == pytest.approx(whole.friction, rel=friction)
-
-
-def test_windows_have_the_same_contact_within_their_scatter():
-    load = {"pressure": 5e4, "speed": 0.3, "smallest_wavelength": 2e-3, "tolerance": 0.1}
-    parts = solve_windows(ZENER, LINE, 0.02, **load)
-    assert len(parts.contacts) == 10
-    low, high = parts.confidence_interval("friction")
-    assert low < parts.mean("friction") < high
-    assert high - low < 4 * parts.scatter("friction")
-    whole = gs.solve_rough_contact(ZENER, LINE, **load)
-    assert parts.mean("friction") == pytest.approx(
-        whole.friction, abs=4 * parts.scatter("friction") / np.sqrt(10)
-    )
 
 
 def test_windows_leave_out_what_is_mostly_missing():

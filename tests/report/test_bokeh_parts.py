@@ -22,7 +22,7 @@ from gripscale.charts.chart import (
     ValueMap,
 )
 from gripscale.charts.page import draw_linked
-from gripscale.questions.page_of_folder import page_of, read_result
+from gripscale.questions.page_of_folder import read_result
 
 X = np.array([1.0, 2.0, 4.0])
 MARKS = [
@@ -74,7 +74,7 @@ def test_bokeh_has_every_attribute_of_linked_panels() -> None:
 
 
 def test_bokeh_has_every_attribute_of_the_pages(run_folder: Path) -> None:
-    charts = page_of(read_result(run_folder)).charts
+    charts = read_result(run_folder).page_content().charts
     assert charts
     for chart in charts:
         assert model(chart.figure).id == chart.figure.id

@@ -10,11 +10,10 @@ import xarray as xr
 
 from gripscale.case_file import read_case
 from gripscale.io.table import significant
-from gripscale.questions import Study
+from gripscale.questions import Study, Variation
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts import totals_figure
-from gripscale.questions.vary.page import study_cards, study_lines, study_table
 from gripscale.questions.view import course
 from gripscale.surface import Profile, self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_road
@@ -63,7 +62,7 @@ def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Data
 
 
 def test_lines_say_numbers_load_and_factors(solved: xr.Dataset) -> None:
-    answer, held, factors, rests = study_lines(solved)
+    answer, held, factors, rests = Variation(solved).lines
     first, last = (significant(float(value)) for value in solved.answer_friction)
     assert answer.startswith(f"Answer: friction coefficient μ from {first} (")
     assert f" at 0.3 m/s to {last} (" in answer
@@ -74,7 +73,7 @@ def test_lines_say_numbers_load_and_factors(solved: xr.Dataset) -> None:
 
 
 def test_table_and_figure_have_the_interval(solved: xr.Dataset) -> None:
-    names = [column.name for column in study_table(solved).columns]
+    names = [column.name for column in Variation(solved).table().columns]
     assert names[1:5] == [
         "answer_friction",
         "answer_friction_interval",
@@ -103,12 +102,12 @@ def test_the_chain_says_that_the_surface_could_answer(folder: Path) -> None:
     study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]}, model="chain")
     data = study.run(folder / "chain")
     assert "answer_friction" not in data
-    answer, _, advice = study_lines(data)
+    answer, _, advice = Variation(data).lines
     assert answer.startswith("Answer by the chain of sine waves, without an interval: friction")
     assert "`--model direct`" in advice
     waves = Study(read_case(folder / "case.toml"), {"waves": [2, 3]})
     assert waves.model.name == "chain"
-    *_, advice = study_lines(waves.run(folder / "waves"))
+    *_, advice = Variation(waves.run(folder / "waves")).lines
     assert "belongs to the chain only" in advice
 
 
@@ -140,7 +139,7 @@ def test_names_are_said_by_lowest_and_highest() -> None:
 
 
 def test_cards_are_the_range(solved: xr.Dataset) -> None:
-    friction, area = study_cards(solved)
+    friction, area = Variation(solved).cards()
     assert friction.value == " to ".join(significant(float(x)) for x in solved.answer_friction)
     assert friction.detail.endswith("(90 %)")
     assert area.label == "Real contact area A_r/A_0"

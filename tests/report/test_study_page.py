@@ -28,7 +28,7 @@ def page(study_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Page:
 
 
 def test_page_begins_with_the_answer_of_its_model(page: Page) -> None:
-    head = page.text.partition("Curves")[0]
+    head = page.text.partition("Inputs and their origin")[0]
     assert "Answer by the model, without an interval: friction coefficient μ from 0." in head
     assert "4 predictions, 1 without a result" in head
 
@@ -36,7 +36,7 @@ def test_page_begins_with_the_answer_of_its_model(page: Page) -> None:
 def test_failed_prediction_is_loud(page: Page) -> None:
     alerts = [a for _, a in page.tags if a.get("role") == "alert"]
     assert len(alerts) == 1
-    assert "3 m/s, <b>SBR</b>: NOT converged: wave 3 of 3" in page.text
+    assert "1 of 4 predictions failed; the first: wave 3 of 3" in page.text
     assert "gripscale docs reading-results#statuses-and-what-to-do-about-them" in page.text
     assert Status.ITERATION_LIMIT.advice in page.text
     marked = [tag for tag, a in page.tags if "bad" in (a.get("class") or "").split()]
@@ -55,7 +55,7 @@ def test_page_speaks_in_words_and_has_its_inputs(page: Page) -> None:
     assert not re.findall(r"\b[a-z]+_[a-z]\w+", shown.replace("A_r", "").replace("λ_min", ""))
     assert "{" not in shown
     titles = [a["id"] for tag, a in page.tags if tag in ("section", "details") and "id" in a]
-    assert titles[:4] == ["predictions", "curves", "inputs", "method"]
+    assert titles[:4] == ["results", "inputs", "method", "again"]
     for words in ("Nominal pressure 3 bar", "Sliding speed varied", "Footprint 100 mm"):
         assert words in page.text
 

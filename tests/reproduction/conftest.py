@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from reproduction.inputs import Inputs, read_inputs
+from gripscale.reproduction.inputs import PaperInputs, read_inputs
 
 
 @pytest.fixture(scope="session")
-def inputs() -> Inputs:
+def inputs() -> PaperInputs:
     return read_inputs()

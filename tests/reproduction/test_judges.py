@@ -7,10 +7,22 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from reproduction import judge_area, judge_friction
-from reproduction.inputs import DENSE, FAST, R20, R60, ROAD, SBR, SPEED, TREAD, Inputs
-from reproduction.panels import Solved, pair_name
-from reproduction.statement import Statement, as_markdown, count
+from gripscale.reproduction import judges
+from gripscale.reproduction.figures import TITLES, Results, pair_name
+from gripscale.reproduction.inputs import (
+    COARSE,
+    DENSE,
+    FAST,
+    FILLED_TREAD,
+    R20,
+    R60,
+    SBR,
+    SPEED,
+    PaperInputs,
+)
+from gripscale.reproduction.judges import Evidence
+from gripscale.reproduction.run import CLAIMS, judged
+from gripscale.reproduction.statement import Statement, as_markdown, number_holding
 
 WAVELENGTHS = 20e-3 / 3.0 ** np.arange(5)
 
@@ -30,9 +42,17 @@ def prediction(area: Any, friction: Any = None, factor: float = 3.0, **per_wave:
         "modulus": np.full(area.size, 5e6),
         **{name: np.asarray(values, dtype=float) for name, values in per_wave.items()},
     }
-    data = {name: ("scale", values) for name, values in columns.items()}
+    data: dict[str, Any] = {name: ("scale", values) for name, values in columns.items()}
     scale = np.arange(1, area.size + 1)
-    return xr.Dataset(data | {"prediction_status": "converged"}, coords={"scale": scale})
+    return xr.Dataset(
+        data | {"prediction_status": "converged", "nominal_speed": 0.0}, coords={"scale": scale}
+    )
+
+
+def judge(
+    figure: str, inputs: PaperInputs, solved: Results, rest: Results | None = None
+) -> list[Statement]:
+    return judged(figure, Evidence(inputs, solved, rest or {}))
 
 
 def verdicts(statements: list[Statement]) -> list[bool | None]:
@@ -49,91 +69,88 @@ DENSE_PAIRS = ("3.5/2.4", "3/2.2", "6/3")
 """The last fits worst."""
 
 
-def three(worst: Any) -> Solved:
+def three(worst: Any) -> Results:
     areas = (SETTLING, SETTLING, worst)
     lines = {name: prediction(area) for name, area in zip(DENSE_PAIRS, areas, strict=True)}
     return {DENSE: lines}
 
 
-def test_progression(inputs: Inputs) -> None:
-    def judge(solved: Solved) -> list[Statement]:
-        return judge_area.judge_progression("fig5a", solved, inputs)
-
-    assert verdicts(judge(three(SETTLING))) == [True, True]
-    same, _ = judge(three([0.3, 0.15, 0.10, 0.07, 0.06]))
+def test_progression(inputs: PaperInputs) -> None:
+    assert verdicts(judge("fig5a", inputs, three(SETTLING))) == [True, True]
+    same, _ = judge("fig5a", inputs, three([0.3, 0.15, 0.10, 0.07, 0.06]))
     assert same.holds is False
     assert "without 6/3, which fits C_z worst, the others are 0% apart" in same.why_not
-    assert judge(three([0.3, 0.25, 0.2, 0.13, 0.072]))[1].holds is False
+    assert judge("fig5a", inputs, three([0.3, 0.25, 0.2, 0.13, 0.072]))[1].holds is False
 
 
-def test_a_curve_settles_if_it_is_level_before_as_many_decades_again(inputs: Inputs) -> None:
-    def judge(*slopes: float) -> Statement:
+def test_a_curve_settles_if_it_is_level_before_as_many_decades_again(inputs: PaperInputs) -> None:
+    def settling(*slopes: float) -> Statement:
         area = 0.3 * 3.0 ** -np.append(0.0, np.cumsum(slopes))
-        *_, settles = judge_area.judge_progression("fig5a", three(area), inputs)
+        *_, settles = judge("fig5a", inputs, three(area))
         return settles
 
     # Factor 3, four waves: 3 steps so far. The slope falls over the 2 steps between its middles;
     # from 0.4 to 0.2 it is zero 2 steps after the last middle, 1.5 steps after the last wave.
-    found = judge(0.4, 0.3, 0.2)
+    found = settling(0.4, 0.3, 0.2)
     assert found.holds
     assert f"6/3: 0.40 to 0.20, level {1.5 * np.log10(3.0):.1f} decades on" in found.number
-    assert judge(0.44, 0.36, 0.28 - 1e-6).holds  # 0.28/0.16 * 2 - 0.5 = 3 steps
-    found = judge(0.44, 0.36, 0.28 + 1e-3)
+    assert settling(0.44, 0.36, 0.28 - 1e-6).holds  # 0.28/0.16 * 2 - 0.5 = 3 steps
+    found = settling(0.44, 0.36, 0.28 + 1e-3)
     assert found.holds is False
     assert "from each wave to the next, 2.00 times in 6/3, of 1.4 decades" in found.why_not
-    assert judge(0.41, 0.40, 0.39).holds is False
-    assert judge(0.3, 0.3, 0.4).holds is False
+    assert settling(0.41, 0.40, 0.39).holds is False
+    assert settling(0.3, 0.3, 0.4).holds is False
 
 
-def test_motion(inputs: Inputs) -> None:
-    def judge(rest: list[float], moving: list[float]) -> list[bool | None]:
-        solved = ({DENSE: {"a": prediction(area)}} for area in (rest, moving))
-        return verdicts(judge_area.judge_motion(*solved, inputs))
+def test_motion(inputs: PaperInputs) -> None:
+    def in_motion(rest: list[float], moving: list[float]) -> list[bool | None]:
+        solved, still = ({DENSE: dict.fromkeys(DENSE_PAIRS, prediction(a))} for a in (moving, rest))
+        return verdicts(judge("fig5b", inputs, solved, still))[2:]
 
     moving = [0.2, 0.08, 0.05, 0.035]  # its last wave failed
-    assert judge(SETTLING, moving) == [True]
-    assert judge([*moving, 0.03], SETTLING) == [False]
-    assert judge(SETTLING, [0.1, 0.08, 0.07, 0.068, 0.067]) == [False]
+    assert in_motion(SETTLING, moving) == [True]
+    assert in_motion([*moving, 0.03], SETTLING) == [False]
+    assert in_motion(SETTLING, [0.1, 0.08, 0.07, 0.068, 0.067]) == [False]
 
 
-def test_speed_and_area(inputs: Inputs) -> None:
+def test_speed_and_area(inputs: PaperInputs) -> None:
     def over_speed(*areas: list[float]) -> list[bool | None]:
         lines = {"static": prediction([0.01, 0.01, 0.01])}
         lines |= {f"{i} mm/s": prediction(area) for i, area in enumerate(areas)}
-        return verdicts(judge_area.judge_speed({TREAD: lines}, inputs))
+        return verdicts(judge("fig6a", inputs, {FILLED_TREAD: lines}))
 
     assert over_speed([0.3, 0.1, 0.05], [0.25, 0.08, 0.03], [0.2, 0.06]) == [True]
     assert over_speed([0.3, 0.1], [0.2, 0.11]) == [False]
     assert over_speed([0.3, 0.1], [0.1, 0.05]) == [False]
 
 
-def test_stiffness(inputs: Inputs) -> None:
-    def judge(modulus: list[float], area: list[float]) -> list[bool | None]:
+def test_stiffness(inputs: PaperInputs) -> None:
+    def stiff(modulus: list[float], area: list[float]) -> list[bool | None]:
         sbr = prediction([0.5, 0.3], modulus=[1e6, 2e6])
-        lines = {TREAD: prediction(area, modulus=modulus), SBR: sbr}
-        panel = pair_name((TREAD, SBR), FAST)
-        return verdicts(judge_area.judge_stiffness({panel: lines}, inputs))
+        lines = {FILLED_TREAD: prediction(area, modulus=modulus), SBR: sbr}
+        panel = pair_name((FILLED_TREAD, SBR), FAST)
+        return verdicts(judge("fig6b", inputs, {panel: lines}))
 
-    assert judge([5e6, 6e6], [0.2, 0.1]) == [True]
-    assert judge([5e6, 6e6], [0.2, 0.4]) == [False]
-    assert judge([5e6, 1e6], [0.2, 0.1]) == [None]
-    assert judge([0.5e6, 0.6e6], [0.6, 0.4]) == [True]  # the other one is stiffer
+    assert stiff([5e6, 6e6], [0.2, 0.1]) == [True]
+    assert stiff([5e6, 6e6], [0.2, 0.4]) == [False]
+    assert stiff([5e6, 1e6], [0.2, 0.1]) == [None]
+    assert stiff([0.5e6, 0.6e6], [0.6, 0.4]) == [True]  # the other one is stiffer
 
 
-def test_surfaces(inputs: Inputs) -> None:
+def test_surfaces(inputs: PaperInputs) -> None:
     coarse = prediction([0.2, 0.1, 0.06, 0.05, 0.04])
     for last, holds in ((0.055, True), (0.0785, False), (0.2, False)):
-        solved = {"300 mm/s": {ROAD: coarse, DENSE: prediction([0.4, 0.2, 0.12, 0.1, last])}}
-        assert verdicts(judge_area.judge_surfaces(solved, inputs)) == [holds]
+        solved = {"300 mm/s": {COARSE: coarse, DENSE: prediction([0.4, 0.2, 0.12, 0.1, last])}}
+        assert verdicts(judge("fig7b", inputs, solved)) == [holds]
 
 
-def test_worst_fit_departs_at_small_waves_only(inputs: Inputs) -> None:
+def test_worst_fit_departs_at_small_waves_only(inputs: PaperInputs) -> None:
     good = prediction(SETTLING, [0.02, 0.03, 0.05, 0.08, 0.12])
 
     def with_worst(*friction: float) -> list[bool | None]:
         worst = prediction([0.3, 0.1, 0.05], friction, factor=9.0)
         lines = dict(zip(DENSE_PAIRS, (good, good, worst), strict=True))
-        return verdicts(judge_friction.judge_factors_friction({DENSE: lines}, inputs))
+        return verdicts(judge("fig8a", inputs, {DENSE: lines}))
 
     assert with_worst(0.02, 0.055, 0.2) == [True]
     assert with_worst(0.02, 0.055, 0.13) == [False]
@@ -144,78 +161,88 @@ PEAKED = [0.2, 0.3, 0.4, 0.5, 0.4]
 """A loss factor with its maximum before the smallest wave."""
 
 
-def test_maximum_of_friction_comes_sooner(inputs: Inputs) -> None:
-    def judge(*frictions: list[float], loss: list[float] = PEAKED) -> list[Statement]:
+def test_maximum_of_friction_comes_sooner(inputs: PaperInputs) -> None:
+    def at_speeds(*frictions: list[float], loss: list[float] = PEAKED) -> list[Statement]:
         lines = {
             f"{i} mm/s": prediction(SETTLING, each, loss_factor=loss)
             for i, each in enumerate(frictions)
         }
-        return judge_friction.judge_speed_friction({SBR: lines}, inputs)
+        return judge("fig8b", inputs, {SBR: lines})
 
     slow, middle, fast = (
         [0.02, 0.03, 0.05, 0.08, 0.1],
         [0.03, 0.05, 0.08, 0.11, 0.1],
         [0.05, 0.08, 0.1, 0.09, 0.07],
     )
-    assert verdicts(judge(slow, middle, fast)) == [True, True]
-    assert verdicts(judge(slow, fast, middle)) == [True, False]
-    assert verdicts(judge(slow, slow)) == [True, False]
-    rises, sooner = judge(slow, middle, fast, loss=[0.1, 0.2, 0.3, 0.4, 0.5])
+    assert verdicts(at_speeds(slow, middle, fast)) == [True, True]
+    assert verdicts(at_speeds(slow, fast, middle)) == [True, False]
+    assert verdicts(at_speeds(slow, slow)) == [True, False]
+    rises, sooner = at_speeds(slow, middle, fast, loss=[0.1, 0.2, 0.3, 0.4, 0.5])
     assert (rises.holds, sooner.holds) == (True, None)
     assert "the loss factor of unfilled SBR is largest at 1.9e+06 rad/s" in sooner.why_not
-    rises, _ = judge([0.05, 0.02, 0.06, 0.07, 0.08], fast)
+    rises, _ = at_speeds([0.05, 0.02, 0.06, 0.07, 0.08], fast)
     assert rises.holds is False
     assert "at 0 mm/s the wave of 6.67 mm has 40% of the friction of the first" in rises.why_not
 
 
-def test_compounds(inputs: Inputs) -> None:
+def test_compounds(inputs: PaperInputs) -> None:
     def at(lead: list[float], loss: list[float]) -> dict[str, xr.Dataset]:
         friction = np.full(5, 0.1)
         one = prediction(SETTLING, friction, loss_factor=np.full(5, 0.2))
         other = prediction(SETTLING, friction + lead, loss_factor=loss)
-        return {TREAD: one, SBR: other, R20: one, R60: other}
+        return {FILLED_TREAD: one, SBR: other, R20: one, R60: other}
 
-    def judge(*solved: dict[str, xr.Dataset]) -> list[Statement]:
+    def pairs(*solved: dict[str, xr.Dataset]) -> list[Statement]:
         names = [pair_name(pair, v) for pair in inputs.pairs for v in (SPEED, FAST)]
-        return judge_friction.judge_compounds(dict(zip(names, solved, strict=True)), inputs)
+        return judge("fig9a", inputs, dict(zip(names, solved, strict=True)))
 
     lossier = [0.2, 0.19, 0.3, 0.4, 0.3]
     together = at([0.01, -0.01, 0.1, 0.2, 0.02], lossier)
-    assert verdicts(judge(*[together] * 4)) == [True] * 12
+    assert verdicts(pairs(*[together] * 4)) == [True] * 12
     apart = at([0.1, -0.01, -0.1, 0.15, 0.2], lossier)
     unreached = at([0.01, -0.01, 0.1, 0.2, 0.02], [0.2, 0.19, 0.3, 0.4, 0.5])
     crossed = at([0.01, -0.01, 0.1, 0.2, -0.3], [0.2, 0.19, 0.5, 0.4, 0.15])
-    judged = judge(apart, together, unreached, crossed)
-    assert verdicts(judged) == [
-        *(False, False, False),
-        *(True, True, True),
-        *(True, True, None),
-        *(True, True, False),
+    judgements = pairs(apart, together, unreached, crossed)
+    assert verdicts(judgements) == [
+        *(False, True, True, True),
+        *(False, True, True, True),
+        *(False, True, None, False),
     ]
-    assert "the loss factor of R60, 0 °C is largest at" in judged[8].why_not
-    assert "they meet between 0.74 and 0.25 mm and cross" in judged[11].why_not
+    assert "the loss factor of R60, 0 °C is largest at" in judgements[10].why_not
+    assert "they meet between 0.74 and 0.25 mm and cross" in judgements[11].why_not
 
 
-def test_steeper_surface(inputs: Inputs) -> None:
-    def judge(coarse: xr.Dataset, dense: xr.Dataset) -> list[bool | None]:
-        solved = {"300 mm/s": {ROAD: coarse, DENSE: dense}}
-        return verdicts(judge_friction.judge_surface_friction(solved, inputs))
+def test_steeper_surface(inputs: PaperInputs) -> None:
+    def steep(coarse: xr.Dataset, dense: xr.Dataset) -> list[bool | None]:
+        solved = {"300 mm/s": {COARSE: coarse, DENSE: dense}}
+        return verdicts(judge("fig9b", inputs, solved))
 
     more, less = prediction([0.2, 0.05], [0.1, 0.2]), prediction([0.3, 0.1], [0.05, 0.1])
-    assert judge(more, less) == [True]
-    assert judge(less, more) == [False]
-    assert judge(prediction([0.2, 0.05], [0.04, 0.2]), less) == [False]  # less at the first wave
+    assert steep(more, less) == [True]
+    assert steep(less, more) == [False]
+    assert steep(prediction([0.2, 0.05], [0.04, 0.2]), less) == [False]  # less at the first wave
 
 
 def test_table_holds_every_statement() -> None:
-    kept = Statement("fig6a", "area | falls", "here", "less than 1", "0.5", True)
-    broken = Statement("fig7b", "less", "there", "more", "2", False, "steeper")
-    unknown = Statement("fig7b", "less", "beyond", "more", "1", None, "no wave gets there")
-    assert count([kept, broken]) == "1 of 2 statements hold"
-    assert count([kept, broken, unknown]).endswith("hold, 1 cannot be judged with these inputs")
+    kept = Statement("fig6a", "area | falls", "less than 1", "here", "0.5", True, "")
+    broken = Statement("fig7b", "less", "more", "there", "2", False, "steeper")
+    unknown = Statement("fig7b", "less", "more", "beyond", "1", None, "no wave gets there")
+    assert number_holding([kept, broken]) == "1 of 2 statements hold"
+    assert number_holding([kept, broken, unknown]).endswith(
+        "hold, 1 cannot be judged with these inputs"
+    )
     page = as_markdown([kept, broken, unknown], lambda figure: f"## {figure}")
     assert "**Area | falls.** Holds if: less than 1." in page
     assert "| here | 0.5 | **holds** |" in page
     assert "| there | 2 | **does not hold**: steeper |" in page
     assert "| beyond | 1 | **not judged**: no wave gets there |" in page
     assert page.count("**Less.**") == 1
+
+
+def test_every_row_of_the_table_names_a_judge_and_its_figures() -> None:
+    """The numbers of the criteria are those the judges use."""
+    for row in CLAIMS:
+        assert set(row["figures"].split()) <= set(TITLES)
+        assert callable(getattr(judges, row["judge"]))
+        assert "{" not in row["criterion"].format(**vars(judges))
+    assert len(CLAIMS) == len({row["said"] for row in CLAIMS}) == 17

@@ -66,6 +66,17 @@ CURVES: dict[str, tuple[str, dict[str, object]]] = {
         "f (Hz),J' (1/Pa),J'' (1/Pa)\n" + rows(HERTZ, 3 * STORAGE / SQUARE, 3 * LOSS / SQUARE),
         {},
     ),
+    "kN/m2": ("Frequency (Hz),E' (kN/m²),E'' (kN/m2)\n" + two(1e3), {}),
+    "cycles a minute": ("Frequency (cycles/min),E' (MN/m2),E'' (㎫)\n" + two(1e6, 60 * HERTZ), {}),
+    "Modulus E'": ("Frequency;Modulus E';Modulus E''\nHz;Pa;Pa\n" + two(1).replace(",", ";"), {}),
+    "Mettler": ("f\tM'\tM''\n[Hz]\t[MPa]\t[MPa]\n" + two(1e6).replace(",", "\t"), {"modulus": "E"}),
+    "real and imaginary": ("f [Hz],Re(E) [MPa],Im(E) [MPa]\n" + two(1e6), {}),
+    "Universal Analysis": (
+        "OrgMethod\tsweep\nSig1\tTime (min)\nSig2\tFrequency (Hz)\nSig3\tStorage Modulus (MPa)\n"
+        "Sig4\tLoss Modulus (MPa)\nStartOfData\n"
+        + rows(HERTZ, HERTZ, STORAGE / 1e6, LOSS / 1e6, separator="\t"),
+        {"modulus": "E"},
+    ),
 }  # fmt: skip
 
 
@@ -87,6 +98,51 @@ def test_a_unit_that_is_not_known_is_never_proposed_over(tmp_path: Path) -> None
     with pytest.raises(InputError, match=r"modulus_unit .* the unknown unit 'furlong'") as refused:
         gs.read_master_curve(path)
     assert refused.value.missing == ""
+
+
+@pytest.mark.parametrize("title", ["E' x10^6 (Pa)", "E' (10^6 Pa)", "E'/10^6 Pa", "E' ×1e6 (Pa)"])
+def test_a_factor_of_a_title_is_never_left_out(tmp_path: Path, title: str) -> None:
+    path = tmp_path / "dma.csv"
+    path.write_text(f"f (Hz),{title},{title.replace(chr(39), 2 * chr(39))}\n" + two(1e6))
+    with pytest.raises(InputError, match=r"modulus_unit must be given .* the unknown unit"):
+        gs.read_master_curve(path)
+    master = gs.read_master_curve(path, modulus_unit="MPa")
+    np.testing.assert_allclose(master.storage, STORAGE, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("line", "kelvin"),
+    [
+        ("# Master curve, Tref = 25 °C", 298.15),
+        ("Reference temperature;25;°C", 298.15),
+        ("T0 = 298 K", 298.0),
+        ("Glass transition temperature: -50 °C", None),
+        ("t0 = 3", None),
+    ],
+)
+def test_the_reference_that_a_line_states(tmp_path: Path, line: str, kelvin: float) -> None:
+    path = tmp_path / "dma.csv"
+    path.write_text(f"{line}\nf (Hz),E' (Pa),E'' (Pa)\n" + two(1.0), encoding="utf-8")
+    reference = gs.read_master_curve(path).reference_temperature
+    assert reference == (kelvin and pytest.approx(kelvin))
+
+
+def test_a_line_about_the_room_is_not_that_of_a_column(tmp_path: Path) -> None:
+    path = tmp_path / "sweeps.csv"
+    both = [rows(0.0 * HERTZ + celsius, HERTZ, STORAGE, LOSS) for celsius in (0.0, 40.0)]
+    for line in ("Laboratory, temperature: 23 °C", "Reference temperature: 20 °C"):
+        titles = f"{line}\nT (°C),f (Hz),E' (Pa),E'' (Pa)\n"
+        path.write_text(titles + "\n".join(both), encoding="utf-8")
+        np.testing.assert_allclose(gs.read_sweeps(path).temperatures, [273.15, 313.15])
+
+
+def test_a_temperature_in_an_unknown_unit_is_not_passed_over(tmp_path: Path) -> None:
+    path = tmp_path / "dma.csv"
+    path.write_text(
+        "f (Hz),E' (Pa),E'' (Pa),T (°R)\n" + rows(HERTZ, STORAGE, LOSS, 528 + 0 * HERTZ)
+    )
+    with pytest.raises(InputError, match=r"temperature_unit .* the unknown unit '°R'"):
+        gs.read_master_curve(path)
 
 
 def test_german_letters_are_no_chinese(tmp_path: Path) -> None:

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
+import gripscale as gs
 from gripscale.core.errors import InputError
-from gripscale.half_space import solve_windows
 from gripscale.surface import HeightMap, self_affine_profile
 from studies.isotropic_maps.construction import isotropic_maps
 from studies.isotropic_maps.map_factor import map_over_lines, solve_map_and_lines
+from studies.isotropic_maps.window_contacts import solve_windows
 from tests.half_space.rough_cases import WAVELENGTH, ZENER, grooves
 
 AREA, FRICTION = "contact_fraction", "friction_from_dissipation"
@@ -95,3 +96,19 @@ def test_the_dataset_says_that_the_maps_are_synthetic():
 def test_bad_arguments_are_refused(change, says):
     with pytest.raises(InputError, match=says):
         map_over_lines(ZENER, LINE, **({"seeds": [0]} | LOAD | SMALL | change))
+
+
+ROAD = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
+
+
+def test_windows_have_the_same_contact_within_their_scatter():
+    load = {"pressure": 5e4, "speed": 0.3, "smallest_wavelength": 2e-3, "tolerance": 0.1}
+    parts = solve_windows(ZENER, ROAD, 0.02, **load)
+    assert len(parts.contacts) == 10
+    low, high = parts.confidence_interval("friction")
+    assert low < parts.mean("friction") < high
+    assert high - low < 4 * parts.scatter("friction")
+    whole = gs.solve_rough_contact(ZENER, ROAD, **load)
+    assert parts.mean("friction") == pytest.approx(
+        whole.friction, abs=4 * parts.scatter("friction") / np.sqrt(10)
+    )

@@ -11,6 +11,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.core.errors import FileError, GripscaleError, InputError
+from gripscale.io.text_table import read_text
 from gripscale.surface.read import _topography
 
 HEIGHTS = 1e-3 * np.sin(np.arange(120) / 7.0)
@@ -74,6 +75,15 @@ PROFILES = {
     + "\n".join(f"{row},0.1" for row in rows().splitlines()),
     "road profile": "ERDFILEV2.00\n  1, 120, -1, 1, 5, 1.0E-04, -1\nTITLE road\n"
     "LONGNAMEElevation\nUNITSNAMmm\nXUNITS  m\nEND\n" + heights(),
+    "kiloangstrom": "Lateral (dm),Height (kÅ)\n" + rows(0.1, 1e-7),
+    "units as one letter": "x [㎜],z [㎛]\n" + rows(1e-3, 1e-6),
+    "pages": "Distance\tHeight\nmm\tmm\n"
+    + rows(separator="\t").replace("\n5\t", "\n\fPage 2\nDistance\tHeight\nmm\tmm\n5\t"),
+    "pixels": "x (px),z (um)\n# pixel size: 100 um\n"
+    + "\n".join(f"{i},{z / 1e-6:.8g}" for i, z in enumerate(HEIGHTS)),
+    "numbers of points": "Pitch, 0.1, mm\nNo.,Height (mm)\n"
+    + "\n".join(f"{i},{z / 1e-3:.8g}" for i, z in enumerate(HEIGHTS, start=1)),
+    "step and distances": "Pitch=0.1000\nUnit=mm\n[DATA]\n" + rows(separator=" "),
 }
 
 
@@ -84,6 +94,60 @@ def test_a_profile_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
     profile = gs.read_profile(path)
     assert profile.step == pytest.approx(STEP, rel=1e-4)
     np.testing.assert_allclose(profile.z, HEIGHTS, atol=2e-9)
+
+
+@pytest.mark.parametrize(
+    ("titles", "code"),
+    [
+        ("距離 (mm),高さ (mm)", "cp932"),
+        ("Young’s x (mm),Poisson’s z (mm)", "cp1252"),
+        ("Länge (mm),Höhe (mm)", "cp1252"),
+    ],
+)
+def test_code_pages(tmp_path: Path, titles: str, code: str) -> None:
+    path = tmp_path / "road.csv"
+    path.write_bytes(f"{titles}\n{rows()}\n".encode(code))
+    np.testing.assert_allclose(gs.read_profile(path).z, HEIGHTS, atol=2e-9)
+    assert read_text(path).startswith(titles)
+
+
+@pytest.mark.parametrize("unit", ["10^-3 mm", "x10^-3 mm"])
+def test_a_factor_in_a_title_is_no_part_of_its_unit_that_may_be_dropped(
+    tmp_path: Path, unit: str
+) -> None:
+    path = tmp_path / "road.csv"
+    for title in (f"z [{unit}]", f"z {unit.replace(' mm', ' [mm]')}"):
+        path.write_text(f"x [mm],{title}\n{rows()}")
+        with pytest.raises(FileError, match="which is no known unit of length"):
+            gs.read_profile(path)
+
+
+@pytest.mark.parametrize("code", [0.0, 999.99, -99.99, -9999.0])
+def test_codes_far_from_the_road_are_missing(tmp_path: Path, code: float) -> None:
+    path = tmp_path / "road.csv"
+    z = 1e3 * HEIGHTS + 80.0
+    z[[7, 8]] = code
+    np.savetxt(path, np.c_[0.1 * np.arange(120), z], delimiter=",", header="x [mm],z [mm]")
+    profile = gs.read_profile(path)
+    assert np.flatnonzero(np.isnan(profile.z)).tolist() == [7, 8]
+    assert profile.notes == (f"heights of {code:g} mm stand for missing ones",)
+
+
+def test_numbers_of_points_are_no_distances(tmp_path: Path) -> None:
+    path = tmp_path / "road.csv"
+    path.write_text("Point,Height (mm)\n" + "\n".join(f"{i},{z}" for i, z in enumerate(HEIGHTS)))
+    with pytest.raises(FileError, match="column 1, Point, counts points, no dist") as refused:
+        gs.read_profile(path)
+    assert refused.value.missing == "step"
+
+
+def test_pairs_of_distances_and_heights(tmp_path: Path) -> None:
+    path = tmp_path / "road.csv"
+    x = 0.1 * np.arange(120)
+    columns = np.c_[x, 1e3 * HEIGHTS, 2.0 * x, 1e3 * HEIGHTS]
+    np.savetxt(path, columns, delimiter=",", header="x1 [mm],z1 [mm],x2 [mm],z2 [mm]", comments="")
+    steps = [gs.read_profile(path, channel=channel).step for channel in (2, 4, "z2")]
+    assert steps == pytest.approx([STEP, 2.0 * STEP, 2.0 * STEP])
 
 
 def test_a_case_may_state_the_size_of_a_count(tmp_path: Path) -> None:
@@ -199,17 +263,41 @@ MAPS = {
     + table(1e-6, '"{:.6f}"', ","),
     "factor": "h=20 w=24\npixel size=1.0e-004 m\ndata unit=rad\n"
     "height conversion factor (-> m)=6.3e-008\n" + table(6.3e-8),
+    "a title of all": "X resolution (mm),0.1\nZ (nm)\n" + table(1e-9, separator=","),
+    "two separators": "Pixel Size:,100,um\nZ Unit:,nm\n" + table(1e-9, separator=","),
+    "German": '"XY-Kalibrierung";"100,0";"µm"\n"Einheit";"µm"\n\n"Höhe"\n'
+    + table(1e-6, "{:.8f}", ";").replace(".", ","),
+    "Japanese": "XYキャリブレーション,100.0,um\n単位,um\n\n高さ\n" + table(1e-6, "{:.8f}", ","),
+    "Zygo": 'Zygo XYZ Data File - Format 1\n0 3 0 0 "Tue"\n0 0 24 20 1 255\n0 0 24 20\n\n\n\n'
+    '0 0 6.328e-07 0.5 1 0 1.0e-4 1787677163\n3 2 0 0 0 66 0 ""\n0 1 100 0\n0 ""\n1 5 0\n#\n'
+    + "\n".join(f"{i} {j} {z / 1e-6:.8g}" for j, row in enumerate(MAP) for i, z in enumerate(row))
+    + "\n#\n",
 }
 
 
 @pytest.mark.parametrize("kind", MAPS)
 def test_a_map_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
     path = tmp_path / "map.txt"
-    path.write_text(MAPS[kind])
+    path.write_text(MAPS[kind], encoding="utf-8")
     surface = gs.read_map(path)
     assert surface.x[1] - surface.x[0] == pytest.approx(1e-4)
     assert surface.y[1] - surface.y[0] == pytest.approx(1e-4)
     np.testing.assert_allclose(surface.z, MAP.T, atol=2e-12)
+
+
+def test_a_simple_field_of_gwyddion(tmp_path: Path) -> None:
+    path = tmp_path / "map.gsf"
+    sizes = "XRes = 24\nYRes = 20\nXReal = 0.0024\nYReal = 0.002\nXYUnits = m\nZUnits = nm\n"
+    head = f"Gwyddion Simple Field 1.0\n{sizes}".encode()
+    head += bytes(4 - len(head) % 4)
+    heights = (1e9 * MAP).astype("<f4").tobytes()
+    path.write_bytes(head + heights)
+    surface = gs.read_map(path)
+    assert surface.step == pytest.approx((1e-4, 1e-4))
+    np.testing.assert_allclose(surface.z, MAP.T, rtol=1e-6)
+    path.write_bytes(head + heights[:-4])
+    with pytest.raises(FileError, match="expected a simple field of Gwyddion"):
+        gs.read_map(path)
 
 
 @pytest.mark.parametrize("name", ["map.sdf", "map.txt"])

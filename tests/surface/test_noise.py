@@ -72,9 +72,10 @@ def test_short_lines_tell_nothing() -> None:
     assert sensor_noise([line])[0] == 0.0
 
 
-def test_a_case_doubts_noisy_heights() -> None:
-    """20 um on the shipped road: named with its number, its effect and a cut-off without it."""
-    lines = [with_noise(road(station), 2e-5, station) for station in (0, 1)]
+@pytest.mark.parametrize(("rms", "stated", "cut_off"), [(1e-5, "8.5", "0.16"), (2e-5, "19", "0.3")])
+def test_a_case_doubts_noisy_heights(rms: float, stated: str, cut_off: str) -> None:
+    """Noise on the shipped road: named with its number, its effect and a cut-off without it."""
+    lines = [with_noise(road(station), rms, station) for station in (0, 1)]
     load = {"pressure": 3e5, "speed": 0.3, "smallest_wavelength": 1e-4}
     rubber = gs.Rubber(3e6, [2e7], [1e-3], bulk_modulus=2e9)
     noisy, clean = (
@@ -83,6 +84,6 @@ def test_a_case_doubts_noisy_heights() -> None:
     (doubt,) = (f for f in noisy.surface.doubts if "noise" in str(f))
     assert not any("noise" in str(f) for f in clean.surface.findings)
     assert doubt.severity == Severity.DOUBT
-    assert sensor_noise(noisy.surface.measured.cleaned)[0] == pytest.approx(2e-5, rel=0.15)
-    assert "white noise of 19 µm" in str(doubt)
-    assert "With a cut-off of 0.3" in str(doubt)
+    assert sensor_noise(noisy.surface.measured.cleaned)[0] == pytest.approx(rms, rel=0.15)
+    assert f"white noise of {stated} µm" in str(doubt)
+    assert f"With a cut-off of {cut_off}" in str(doubt)

@@ -37,7 +37,6 @@ def test_constant_friction_is_the_closed_form() -> None:
     exact = 0.8 * np.where(over < 1.0, 1.0 - (1.0 - over) ** 3, 1.0)
     solved = brush_force(BRUSH, constant, SLIP, ROAD)
     assert solved.force == pytest.approx(exact, rel=1e-6)
-    assert solved.sliding_from == pytest.approx(np.maximum(1.0 - over, 0.0), abs=1e-4)
 
 
 def marched(slip: float, points: int = 2000) -> float:

@@ -82,7 +82,6 @@ def rough_line(chance: random.Random) -> Any:
         periodic=chance.random() < 0.5,
         tolerance=chance.choice([None, 0.02, 0.3]),
         most_points=4096,
-        most_iterations=30,
         time_limit=0.4 * LONGEST,  # very lossy rubber takes longer; threads of BLAS count, too
     )
 

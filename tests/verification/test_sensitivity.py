@@ -83,7 +83,7 @@ def log_friction(contact, change, pressure=1.0) -> float:
     compliance = half_space_of(contact).compliance(grid) * np.exp(-real)
     response = Response.with_compliance(compliance, grid, 1)
     start = contact.pressure * (pressure * contact.nominal_pressure / contact.pressure.mean())
-    solved = solve_grid(response, contact.height, start, 60)
+    solved = solve_grid(response, contact.height, start)
     return float(np.log(lost_by_harmonic(compliance, grid, solved.pressure).sum()))
 
 

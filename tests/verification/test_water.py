@@ -24,7 +24,7 @@ def contacts_at_rest(seed: int, pressures: Iterator[float] | list[float]) -> Ite
     """Yield elastic contacts of a random map of 128 x 128 points under each pressure."""
     heights = periodic_heights(isotropic_map(seed=seed), smallest_wavelength=8e-4, periodic=True)
     for pressure in pressures:
-        sequence = GridSequence(HalfSpace(ELASTIC, 0.0), heights, pressure, 1, 60)
+        sequence = GridSequence(HalfSpace(ELASTIC, 0.0), heights, pressure, 1)
         for level in levels(heights):
             contact = sequence.solve(level)
         yield contact

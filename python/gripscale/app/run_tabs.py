@@ -141,7 +141,7 @@ def answer_elements(run: AppRun) -> elements.PageElements:
         result = page_of_folder.read_result(run.folder)
     except GripscaleError:
         return []  # the next tab says why
-    page = page_of_folder.page_of(result)
+    page = result.page_content()
     numbers = elements.Cards(page.cards, [*filter(None, [page.subtitle]), *page.basis])
     opened, folded = page.warnings
     return [*page.errors, numbers, *opened, *([elements.Folded(folded)] if folded else [])]

@@ -47,7 +47,7 @@ from gripscale.core import (
 from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.half_space.grid import MOST_POINTS
-from gripscale.io.text_table import is_text, read_bytes
+from gripscale.io.text_table import lines_by_start, read_bytes
 from gripscale.model import FOOTPRINT
 from gripscale.rubber import (
     MasterCurve,
@@ -171,16 +171,14 @@ def _require_few_points(file: CaseFile) -> None:
     if any(end is not None for end in ends) or table.cut_off not in (None, "instrument"):
         return
     for path in map(file.resolve, table.measured_files):
-        if path.is_file() and path.stat().st_size > 2 * MOST_POINTS:
-            raw = read_bytes(path)
-            points = raw.count(b"\n") if is_text(raw) else 0
-            if points > MOST_POINTS:
-                words = (
-                    f" must be a length, at least {points / MOST_POINTS:.2g} times what the "
-                    f"measurement carries: {path} has {points} lines, a contact at most "
-                    f"{MOST_POINTS} points, four in each wave"
-                )
-                raise InputError(Words(f"{file.path}: ", CaseKey("cut_off"), words))
+        points = lines_by_start(path) if path.is_file() else 0.0
+        if points > MOST_POINTS:
+            words = (
+                f" must be a length, at least {points / MOST_POINTS:.2g} times what the "
+                f"measurement carries: {path} has some {points / 1e6:.2g} million "
+                f"lines, a contact at most {MOST_POINTS} points, four in each wave"
+            )
+            raise InputError(Words(f"{file.path}: ", CaseKey("cut_off"), words))
 
 
 @about_keys("surface")

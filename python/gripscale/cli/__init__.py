@@ -20,8 +20,9 @@ from gripscale.cli.docs import docs
 from gripscale.cli.export import export
 from gripscale.cli.inputs import fit_rubber, fit_surface, init, keys
 from gripscale.cli.new import KindCommand, look_at, new
-from gripscale.cli.run import PASS_ON, report_command, reproduce, run
+from gripscale.cli.reproduce import reproduce
 from gripscale.cli.run import open_app as app_command
+from gripscale.cli.run import report_command, run
 from gripscale.core.provenance import COMMAND, version_of
 from gripscale.questions.registry import commands
 
@@ -66,7 +67,7 @@ _enter("run", run)
 for name, question in commands():
     _enter(name, question)
 _enter("report", report_command)
-_enter("reproduce", reproduce, context_settings=PASS_ON)
+_enter("reproduce", reproduce)
 _enter("fit-surface", fit_surface)
 _enter("fit-rubber", fit_rubber)
 _enter("keys", keys)
@@ -95,8 +96,10 @@ def main() -> None:
 
     Systems of equations in Python are small: the threads of BLAS would wait more than they compute,
     a sixth of the processor time of a run. To look for circles of garbage each 700 objects takes
-    another twentieth.
+    another twentieth. xarray imports Dask, where it is installed, to ask whether an array is one of
+    its own: 0.2 s, which only a cluster needs.
     """
+    sys.modules.setdefault("dask", None)  # type: ignore[arg-type]
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read as numpy is imported
     gc.set_threshold(50_000, *gc.get_threshold()[1:])
     try:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
-import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from gripscale.core.errors import FileError
 from gripscale.questions import terminal
 from gripscale.questions.terminal import CasePath, argument, case_command, command, option
 
@@ -20,11 +17,8 @@ def run(
     output: Annotated[
         Path | None, option("Results folder, instead of the one in the case.", metavar="DIR")
     ] = None,
-    chain: Annotated[
-        bool,
-        typer.Option(
-            "--chain", help="Print the paper's chain of waves too, wave by wave, for comparison."
-        ),
+    verbose: Annotated[
+        bool, typer.Option("--verbose", help="Print all of report.txt: inputs and every table.")
     ] = False,
 ) -> None:
     """Answer with contact area and friction of a case; resumes where it was stopped."""
@@ -34,7 +28,7 @@ def run(
     work = terminal.CaseCommand(case)
     target = output or work.file.resolve(work.file.case.output.folder)
     require_writable(target)  # before the files of the case are read
-    solve_run(work, target, show_chain=chain)
+    solve_run(work, target, verbose=verbose)
 
 
 @command
@@ -59,27 +53,6 @@ def report_command(
     terminal.print_wrapped(
         terminal.screen(), f"Report, {page.stat().st_size / 1e6:.1f} MB, is {page}"
     )
-
-
-# Settings of the command: whatever follows its name is for the reproduction.
-PASS_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []}
-
-
-@command
-def reproduce(context: typer.Context) -> None:
-    """Reproduce figures of Lind & Wangenheim 2014 and judge the paper's statements."""
-    root = Path(__file__).resolve().parents[3]
-    clone = (root / "reproduction" / "__main__.py").is_file()
-    if not clone and "--help" in context.args:
-        typer.echo(context.get_help())
-        return
-    if not clone:
-        raise FileError(
-            "the reproduction is in the source of gripscale, not in the package: "
-            "run `python -m reproduction` in a clone of it"
-        )
-    sys.path.insert(0, str(root))
-    raise typer.Exit(importlib.import_module("reproduction.__main__").main(context.args))
 
 
 @command

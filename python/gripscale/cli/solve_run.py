@@ -14,13 +14,13 @@ from gripscale.questions import terminal
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, bench_of, solved_chain
 from gripscale.questions.answer.page import slopes_table
 from gripscale.questions.answer.variables import OF_THE_PAPER
-from gripscale.questions.chain.page import LEGEND, chain_tables, judgement
+from gripscale.questions.chain.page import LEGEND, chain_tables, judgement, waves_in_brief
 from gripscale.questions.cut_off.question import CutOff, cut_off_result
 from gripscale.questions.inputs.charts_of_rubber import rubber_figures
 from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
 from gripscale.questions.inputs.record import excited
-from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE, write_report
+from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE
 from gripscale.questions.result import warning_lines
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.material import require_load_bearing
@@ -31,8 +31,11 @@ if TYPE_CHECKING:
 TEXT, WIDTH = "report.txt", 110  # name of the report, and characters of its lines
 
 
-def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> None:
-    """Solve, print and write a case: its answer, and the chain of waves beside it."""
+def solve_run(work: terminal.CaseCommand, target: Path, *, verbose: bool) -> None:
+    """Solve, print and write a case: its answer, and the chain of waves beside it.
+
+    Inputs and further tables are printed if `verbose`; the report has them.
+    """
     case, console = work.case, work.console
     rubber, load, measured = case.rubber_before, case.load, case.surface.measured is not None
     require_load_bearing(rubber, load.pressure, load.time_under(load.footprint))
@@ -45,34 +48,33 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, show_chain: bool) -> 
     result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
     findings = warning_lines(result.findings, TEXT, result.half_widths)
-    terminal.print_parts(console, ["", *result.lines, *findings, "", *inputs])
+    terminal.print_parts(
+        console, ["", *result.lines, *findings, *(["", *inputs] if verbose else [])]
+    )
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
         result.chain = solved_chain(case, bench_of(target))
         terminal.end_steps()
     _save(result, case, target)
-    _conclude(work, result, [f"{header}: {case.title}", "", *inputs], show_chain=show_chain)
+    _conclude(work, result, [f"{header}: {case.title}", "", *inputs], verbose=verbose)
 
 
 def _conclude(
-    work: terminal.CaseCommand, result: Answer, opening: list[str | Table], *, show_chain: bool
+    work: terminal.CaseCommand, result: Answer, opening: list[str | Table], *, verbose: bool
 ) -> None:
     """Print what stands below the answer; write report, figures and page.
 
-    The report begins with the answer and `opening`. The chain of a measured surface is printed
-    where it is asked for.
+    The report begins with the answer and `opening`. All but the chain of a measured surface, in
+    brief, and how it compares is printed where it is asked for.
     """
     case, target = work.case, work.target
     assert result.chain is not None
-    waves: list[str | Table] = [*chain_tables(result.chain), LEGEND]
-    parts = _parts(result, case)
-    if case.surface.measured is None:
-        parts = [*waves, *parts]
-    else:
-        opening = [*opening, "", *waves]
-        if show_chain:
-            terminal.print_parts(work.console, ["", *waves])
+    parts: list[str | Table] = [*chain_tables(result.chain), LEGEND, *_tables(result)]
+    if case.surface.measured is not None:
+        shown = parts if verbose else [waves_in_brief(result.chain)]
+        terminal.print_parts(work.console, ["", *shown])
+        opening, parts = [*opening, "", *parts], [judgement(result.chain, result.data)]
 
     def draw() -> None:
         figures = FigureFolder(target / "figures", work.file.case.output.figures)
@@ -87,12 +89,12 @@ def _conclude(
         answer_printed=True,
         text=TEXT,
         closing="Results, report and figures are in",
-        page=lambda page: write_report(target, page),
         opening=opening,
         width=WIDTH,
         draw=draw,
     )
-    terminal.print_wrapped(work.console, result.lines[0])
+    if verbose:
+        terminal.print_wrapped(work.console, result.lines[0])
 
 
 def _inputs(case: Case) -> list[str | Table]:
@@ -120,12 +122,10 @@ def _save(result: Answer, case: Case, target: Path) -> None:
         cut_off_result(result.curve, case).save(target / CURVE_FILE)
 
 
-def _parts(result: Answer, case: Case) -> list[str | Table]:
-    """Return tables and sentences that stand below an answer."""
+def _tables(result: Answer) -> list[str | Table]:
+    """Return the tables of an answer: shares by slope, and the rules of the cut-off."""
     parts: list[str | Table] = list(slopes_table(result.data))
     if result.curve is not None:
         curve = CutOff(result.curve)
-        parts += ["", *curve.basis, curve.rules_table()]
-    if case.surface.measured is not None and result.chain is not None:
-        parts += ["", judgement(result.chain, result.data)]
+        parts += ["", *(line.strip() for line in curve.lines[1:]), curve.rules_table()]
     return parts

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
@@ -27,10 +28,10 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 _PSI = 0.45359237 * 9.80665 / 0.0254**2
 _METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "pm": 1e-12, "in": 0.0254}
 _METRES |= {"km": 1e3, "Å": 1e-10, "mil": 2.54e-5, "uin": 2.54e-8, "ft": 0.3048, "yd": 0.9144}
-_METRES["ftUS"] = 1200.0 / 3937.0
+_METRES |= {"ftUS": 1200.0 / 3937.0, "dm": 0.1, "kÅ": 1e-7, "mi": 1609.344}
 _PASCALS = {"Pa": 1.0, "kPa": 1e3, "psi": _PSI, "bar": 1e5, "MPa": 1e6, "N/mm^2": 1e6, "GPa": 1e9}
 _PASCALS |= {"ksi": 1e3 * _PSI, "kgf/cm^2": 98066.5, "kgf/mm^2": 9806650.0, "N/cm^2": 1e4}
-_PASCALS |= {"atm": 101325.0}
+_PASCALS |= {"atm": 101325.0, "kN/m^2": 1e3, "MN/m^2": 1e6, "kN/cm^2": 1e7}
 _HERTZ = {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "mHz": 1e-3, "rpm": 1.0 / 60.0}
 _HERTZ |= {"rad/s": 0.5 / math.pi, "krad/s": 500.0 / math.pi}
 
@@ -43,7 +44,8 @@ UNITS: dict[str, dict[str, float]] = {
     "length": _METRES,
     "pressure": _PASCALS,
     "modulus": _PASCALS | {"dyn/cm^2": 0.1},
-    "compliance": {"1/Pa": 1.0, "1/kPa": 1e-3, "1/MPa": 1e-6, "1/GPa": 1e-9, "cm^2/dyn": 10.0},
+    "compliance": {"1/Pa": 1.0, "1/kPa": 1e-3, "1/MPa": 1e-6, "1/GPa": 1e-9, "cm^2/dyn": 10.0}
+    | {"1/psi": 1.0 / _PSI},
     "speed": {"m/s": 1.0, "mm/s": 1e-3, "km/h": 1.0 / 3.6, "cm/s": 1e-2, "um/s": 1e-6}
     | {"mm/min": 1e-3 / 60.0, "m/min": 1.0 / 60.0, "mph": 0.44704},
     "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
@@ -83,23 +85,20 @@ _OTHER_SPELLINGS = {
     "W/(m K)": ("w/mk", "w/(mk)", "w/(m*k)", "w/m/k"),
     "J/(kg K)": ("j/kgk", "j/(kgk)", "j/(kg*k)", "j/kg/k"),
     "kJ/(kg K)": ("kj/(kgk)",),
-    "kg/m^3": ("kg/m3", "kg/m³"),
-    "g/cm^3": ("g/cm3", "g/cm³"),
-    "N/mm^2": ("n/mm2", "n/mm²"),
-    "Pa": ("n/m2", "n/m^2"),
-    "dyn/cm^2": ("dyn/cm2", "dyn/cm²", "dyne/cm2", "dyne/cm^2", "dyne/cm²"),
-    "N/cm^2": ("n/cm2", "n/cm²"),
-    "kgf/mm^2": ("kgf/mm2", "kgf/mm²", "kp/mm2", "kp/mm²"),
+    "N/mm^2": ("n/mm^2",),
+    "Pa": ("n/m^2",),
+    "dyn/cm^2": ("dyne/cm^2",),
+    "kgf/mm^2": ("kp/mm^2",),
     "psi": ("lbf/in2", "lbf/in^2"),
     "ksi": ("kpsi",),
-    "kgf/cm^2": ("kgf/cm2", "kgf/cm²", "kg/cm2", "kg/cm^2", "kg/cm²", "kp/cm2", "kp/cm²"),
+    "kgf/cm^2": ("kg/cm^2", "kp/cm^2"),
     "Hz": ("hz", "cps"),
     "rad/s": ("rad/sec", "rad s-1", "rad s^-1", "rad·s-1", "rads-1", "rad.s-1", "rad/s."),
-    "rpm": ("cpm", "1/min", "min-1", "min^-1", "u/min", "r/min"),
-    "1/Pa": ("pa-1", "pa^-1", "pa⁻¹", "m2/n", "m^2/n", "m²/n"),
-    "cm^2/dyn": ("cm2/dyn", "cm²/dyn", "cm2/dyne", "cm^2/dyne"),
-    "C": ("°c", "degc", "deg c", "celsius"),
-    "F": ("°f", "degf", "deg f", "fahrenheit"),
+    "rpm": ("cpm", "cycles/min", "1/min", "min-1", "min^-1", "u/min", "r/min"),
+    "1/Pa": ("pa-1", "pa^-1", "m^2/n"),
+    "cm^2/dyn": ("cm^2/dyne",),
+    "C": ("°c", "degc", "deg. c", "celsius"),
+    "F": ("°f", "degf", "deg. f", "fahrenheit"),
     "K": ("kelvin",),
     "deg": ("°", "degree", "degrees"),
 }
@@ -134,9 +133,11 @@ def spelled(unit: object, kind: str) -> str | None:
     if not isinstance(unit, str):
         return None
     word = unit.strip()
+    if not (word.isascii() or word in _SPELLINGS):  # ㎜, ㎫ and ℃ are one letter, as is a raised 2
+        word = unicodedata.normalize("NFKC", word).replace("\u2212", "-")
+    word = re.sub(r"(?<=m)(?=[23]($|/))", "^", word)
     word = _SPELLINGS.get(word.lower(), _SPELLINGS.get(word.lower().replace(" ", ""), word))
-    # Two characters look like this: the micro sign and the Greek letter; so do those of angstrom.
-    word = re.sub("^[µμ]", "u", word).replace("\u212b", "Å")
+    word = re.sub("^μ", "u", word)  # to which the micro sign, which looks alike, is normalised
     return word if word in UNITS[kind] else None
 
 

@@ -21,6 +21,7 @@ from __future__ import annotations
 import importlib
 import multiprocessing
 import signal
+import sys
 import warnings
 from collections.abc import Callable, Generator, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -198,6 +199,8 @@ def cluster(client: Any, workers: int) -> Iterator[_Solve]:
     A `distributed.Client` stays open. Raises `InputError` if Dask is not installed, the scheduler
     does not answer or has another gripscale.
     """
+    if sys.modules.get("dask", importlib) is None:  # kept out by the command line
+        del sys.modules["dask"]
     try:
         distributed = importlib.import_module("distributed")
     except ModuleNotFoundError as error:

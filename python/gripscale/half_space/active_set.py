@@ -63,8 +63,6 @@ from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
 
 _Index = NDArray[np.intp]
-# Called with the number of an iteration and of the points that are to change sides.
-OnIteration = Callable[[int, int], None]
 _REACH = 1  # steps along each axis to the neighbours that the extension uses
 FAR = 2.0  # weight of all farther points, over that of a neighbour along an axis
 # Loss angle, median of the waves, above which a line takes the extension across its gaps [rad].
@@ -94,6 +92,7 @@ TIGHTENING = 1e-2  # missing pressure allowed, over the share of points that cha
 # Iterations without fewer wrong points before only the worse half of them may change sides, and
 # before the iteration ends.
 PATIENCE, GIVING_UP = 6, 18
+MOST_ITERATIONS = 60  # active sets tried on a grid
 
 
 def _across_gaps(active: Mask) -> scipy.sparse.csr_array:
@@ -288,9 +287,7 @@ def solve_grid(
     response: Response,
     height: Array,
     start: Array,
-    most_iterations: int,
     goal: float = CONTACT_TOLERANCE,
-    on_iteration: OnIteration | None = None,
     pools: Pools | None = None,
     active: Mask | None = None,
 ) -> GridContact:
@@ -298,7 +295,6 @@ def solve_grid(
 
     `start` is a pressure [Pa] with the required mean, positive where contact is expected; `goal`
     the missing pressure over the pressure at which the linear system counts as solved.
-    `on_iteration` is called with the number of each iteration and of the points to change sides.
     With `pools` the load rests on their water too; `active` then are the points of `start` in
     contact.
     """
@@ -309,7 +305,7 @@ def solve_grid(
     load, stiffest = float(start.sum()), response.smallest_compliance
     sharper = SHARPER if is_lossy_line(response) else 1.0
     tolerance, products, fewest, waited = sharper * LOOSEST, 1, flat.size + 1, 0
-    for iteration in range(1, most_iterations + 1):
+    for iteration in range(1, MOST_ITERATIONS + 1):
         averaged: Averaged | None = None
         where, room = np.flatnonzero(active), np.zeros(1)
         if pools is not None:
@@ -350,11 +346,9 @@ def solve_grid(
             following = pools.refilled(pressure, gap, active)
             count += int((following.filled != pools.filled).sum())
             pools = following
-        if on_iteration is not None:
-            on_iteration(iteration, count)
         waited = 0 if count < fewest else waited + 1
         solved = count == 0 and tolerance <= goal
-        if solved or iteration == most_iterations or waited > GIVING_UP:
+        if solved or iteration == MOST_ITERATIONS or waited > GIVING_UP:
             break
         if waited > PATIENCE and wrong.any():
             wrong &= excess >= np.median(excess[wrong])

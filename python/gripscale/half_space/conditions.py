@@ -355,12 +355,13 @@ def solve_coupled_contact(
     tolerance = max(STATE_TOLERANCE, min(_OF_GOAL * goal, _LOOSEST))
     fixed_point = solve_fixed_point(fine, replace(fine, solve=quick), tolerance)
     contact, x = fixed_point.last.solution.contact, fixed_point.last.x
+    earlier = [grid for grid in fine.grids if grid not in contact.grids]
     out = replace(
         contact,
         scales=None if x is None else fine.state(x),
         passes=fixed_point.fine,
         coarse_passes=fixed_point.coarse,
-        grids=fine.grids,
+        grids=[*earlier, *contact.grids],
     )
     if contact.converged and not fixed_point.converged:
         return replace(out, status=Status.CONDITIONS_NOT_SETTLED)

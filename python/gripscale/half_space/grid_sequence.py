@@ -57,7 +57,7 @@ import numpy as np
 import scipy
 
 from gripscale.core import Array, ComplexArray, Described, Mask
-from gripscale.half_space.active_set import CONTACT_TOLERANCE, OnIteration, solve_grid
+from gripscale.half_space.active_set import CONTACT_TOLERANCE, solve_grid
 from gripscale.half_space.grid import Grid, PeriodicHeights, doubled, nearest, resampled
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.theory.half_plane import GridContact
@@ -227,13 +227,11 @@ class GridSequence:
     heights: PeriodicHeights
     pressure: float
     workers: int
-    most_iterations: int
     start: KnownLevels = field(default_factory=dict)  # contacts with another rubber, to start from
     solved: dict[Level, LevelContact] = field(default_factory=dict)
     # Contact on other heights of the same lengths, that the first level starts from.
     other: LevelContact | None = None
     last: LevelContact | None = None
-    on_iteration: OnIteration | None = None
     # When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s].
     deadline: float = math.inf
 
@@ -252,7 +250,7 @@ class GridSequence:
         else:
             expected = following if self.last is None else self._expected(response, height)
             start = loaded(expected, self.pressure)
-            contact = self._contact(response, height, start, tolerance)
+            contact = solve_grid(response, height, start, tolerance)
             if not contact.settled and np.iscomplex(response.compliance).any():
                 contact = self._through_losses(response, height, start, contact)
         lost = float(lost_by_harmonic(response.compliance, level.grid, contact.pressure).sum())
@@ -275,12 +273,6 @@ class GridSequence:
         self.solved[level] = self.last
         return self.last
 
-    def _contact(
-        self, response: Response, height: Array, start: Array, tolerance: float = CONTACT_TOLERANCE
-    ) -> GridContact:
-        limit = self.most_iterations
-        return solve_grid(response, height, start, limit, tolerance, self.on_iteration)
-
     def _through_losses(
         self, response: Response, height: Array, start: Array, contact: GridContact
     ) -> GridContact:
@@ -290,7 +282,7 @@ class GridSequence:
             if loss != 1.0:
                 body = replace(self.body, loss=loss)
                 part = Response.of(body, response.grid, self.workers, self.deadline)
-            step = self._contact(part, height, start)
+            step = solve_grid(part, height, start)
             contact = replace(
                 step,
                 iterations=contact.iterations + step.iterations,

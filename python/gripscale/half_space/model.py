@@ -206,7 +206,6 @@ class DirectContact(Checked, model.Model):
     tolerance: float | None = checked(relative_tolerance, default=0.02)
     most_points: int = checked(checks.whole, least=1, most=2**40, default=MOST_POINTS)
     periodic: bool = checked(checks.flag, default=False)
-    time_limit: float | None = checked(checks.positive, unit="s", default=None)
     conditions: Conditions | None = None
     traces: bool = checked(checks.flag, default=False)
     """Whether the answer holds every contact as charts draw it (`with_traces`)."""
@@ -243,6 +242,8 @@ class DirectContact(Checked, model.Model):
         load: Load,
         start: RoughContact | None = None,
         by_scale: RubberByScale | None = None,
+        *,
+        coarse: bool = False,
     ) -> RoughContact:
         """Return the contact of one profile of a surface, or of its map.
 
@@ -261,11 +262,11 @@ class DirectContact(Checked, model.Model):
             most_points=self.most_points,
             periodic=self.periodic,
             thickness=load.thickness,
-            time_limit=self.time_limit,
             conditions=self.conditions,
             footprint=load.footprint,
             start=start,
             by_scale=by_scale,
+            coarse=coarse,
         )
 
     def _with_alternatives(
@@ -287,7 +288,7 @@ class DirectContact(Checked, model.Model):
         def solve(
             other: Rubber, by_scale: RubberByScale | None, under: Load = load
         ) -> RoughContact:
-            return dry.contact(other, surface, measured, under, start, by_scale)
+            return dry.contact(other, surface, measured, under, start, by_scale, coarse=True)
 
         changes = dict(condition_changes(contact, rubber, solve))
         numbers = np.array(list(changes.values())).reshape(-1, 2).T

@@ -29,7 +29,11 @@ class Regions:
 
 def periodic_regions(mask: Mask) -> Regions:
     """Return the regions of a mask on a periodic line or map."""
-    labels, count = scipy.ndimage.label(mask)
+    if mask.ndim == 1:  # `scipy.ndimage` is slow to import
+        starts = mask & ~np.append(False, mask[:-1])
+        labels, count = np.cumsum(starts) * mask, int(starts.sum())
+    else:
+        labels, count = scipy.ndimage.label(mask)
     parts = _Parts(count + 1, mask.ndim)
     for axis in range(mask.ndim):
         first, last = (np.take(labels, end, axis=axis).reshape(-1) for end in (0, -1))

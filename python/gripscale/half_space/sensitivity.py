@@ -71,7 +71,6 @@ TEMPERATURE_STEP = 0.01  # [K], likewise
 # Change of the logarithm of an input in differences of the contact fraction. A tenth of it moves
 # too few points of a grid in and out of contact.
 AREA_STEP = 0.2
-MOST_ITERATIONS = 60
 _SOURCE = "gripscale adjoint of the direct contact"
 
 # By the end of their name in a Dataset.
@@ -356,7 +355,7 @@ class ContactFractionDifferences:
             response = Response.with_compliance(compliance, contact.grid, 1)
             pressure = contact.nominal_pressure * math.exp(by * pressed)
             start = contact.pressure * (pressure / contact.pressure.mean())
-            solved = solve_grid(response, contact.height, start, MOST_ITERATIONS, START_TOLERANCE)
+            solved = solve_grid(response, contact.height, start, START_TOLERANCE)
             fraction = grid_contact_fraction(solved.active, solved.gap, response.loss_angle)
             logs.append(math.log(fraction))
         return (logs[1] - logs[0]) / (2.0 * step)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 
@@ -18,7 +18,7 @@ import numpy as np
 
 from gripscale.conditions.conditions import Conditions, RubberByScale, water_film
 from gripscale.core import ConvergenceError, InputError, Quantity, Status, checks, worker_count
-from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE, OnIteration
+from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
 from gripscale.half_space.grid import MOST_POINTS, PeriodicHeights, nearest, periodic_heights
 from gripscale.half_space.grid_sequence import (
@@ -73,15 +73,13 @@ def solve_rough_contact(
     tolerance: float | None = 0.02,
     workers: int | None = None,
     most_points: int = MOST_POINTS,
-    most_iterations: int = 60,
     time_limit: float | None = None,
-    on_grid: Callable[[GridRecord], None] | None = None,
-    on_iteration: OnIteration | None = None,
     conditions: Conditions | None = None,
     footprint: Quantity | None = None,
     extrapolate: str = "warn",
     by_scale: RubberByScale | None = None,
     start: RoughContact | None = None,
+    coarse: bool = False,
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
@@ -135,17 +133,9 @@ def solve_rough_contact(
         Points a grid may have. A solution takes about 150 bytes a point (150 MB for 1024 x 1024),
         and 4 bytes for each point in contact and product of the linear solver, of which it keeps
         10 to 60, in very lossy rubber 240.
-    most_iterations : int
-        Active-set iterations allowed on each grid.
     time_limit : float, optional
         Time [s] after which the status is "time limit" and the numbers are those of the last grid
         that was solved. Lines of very lossy rubber take minutes on grids above 131,072 points.
-    on_grid : callable, optional
-        Called with the `GridRecord` of each grid as it is solved. A `KeyboardInterrupt` is raised
-        at the next return from compiled code; only these records remain of a stopped solution.
-    on_iteration : callable, optional
-        Called within a grid after each iteration, with its number and that of the points to change
-        sides; both begin anew with each grid.
     conditions : Conditions, optional
         Temperature, softening, heat and area term. Softening and heat are iterated with the
         contact.
@@ -162,6 +152,9 @@ def solve_rough_contact(
         pressure and speed. Only the last grids are solved: without a tolerance those with all waves
         that are not coarser than its own, and the result may have no cut-off exponents. Conditions
         that are iterated start anew.
+    coarse : bool
+        Solve the first grid with all waves only, two points in the smallest: the ratio to that grid
+        of `start` is what another rubber or thickness changes.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     effects = Conditions() if conditions is None else conditions
@@ -191,10 +184,6 @@ def solve_rough_contact(
         )
     film = _checked_water(effects.water or water, heights, effects, start)
     threads = worker_count(workers) if len(heights.grid.shape) > 1 else 1
-    iterations = checks.whole("most_iterations", most_iterations, least=1, most=10**6)
-    for name, hook in (("on_grid", on_grid), ("on_iteration", on_iteration)):
-        if hook is not None and not callable(hook):
-            raise InputError(f"{name} must be a function or None; got {checks.short_repr(hook)}")
     other = None if start is None else _known_contact(start, heights)
     deadline = math.inf
     if time_limit is not None:
@@ -208,18 +197,16 @@ def solve_rough_contact(
             heights,
             load,
             threads,
-            iterations,
             earlier,
             other=None if iterated else other,
-            on_iteration=on_iteration,
             deadline=deadline,
         )
-        return _solve_sequence(sequence, most, reach, on_grid)
+        return _solve_sequence(sequence, most, reach, coarse=coarse)
 
     if not iterated:
         contact = solve(by_scale, {}, goal).contact
         if film > 0.0 and contact.status in (Status.CONVERGED, Status.TOLERANCE_NOT_MET):
-            contact = with_water(contact, film, workers=threads, most=iterations)
+            contact = with_water(contact, film, workers=threads)
         return replace(contact, conditions=conditions, status=_judged(contact, goal))
     heated = 0.0
     if effects.heat is not None and body.speed > 0.0:
@@ -295,7 +282,7 @@ def _known_contact(start: RoughContact, heights: PeriodicHeights) -> LevelContac
     return LevelContact(level, start.height, contact, start.grids[-1])
 
 
-def _planned(sequence: GridSequence, goal: float) -> list[Level]:
+def _planned(sequence: GridSequence, goal: float, *, coarse: bool) -> list[Level]:
     """Return the levels to solve: from a known contact those a goal is judged by, or fewest."""
     heights, other = sequence.heights, sequence.other
 
@@ -305,6 +292,8 @@ def _planned(sequence: GridSequence, goal: float) -> list[Level]:
     if resolved := with_all_waves(sequence.start):
         return resolved[-(1 if math.isinf(goal) else ERROR_GRIDS) :]
     every = levels(heights)
+    if coarse:
+        return with_all_waves(every)[:1]
     if other is None or not math.isinf(goal):
         return every if other is None else every[-ERROR_GRIDS:]
     fine = [level for level in with_all_waves(every) if level.grid.points >= other.height.size]
@@ -312,16 +301,17 @@ def _planned(sequence: GridSequence, goal: float) -> list[Level]:
 
 
 def _solve_sequence(
-    sequence: GridSequence, most: int, goal: float, on_grid: Callable[[GridRecord], None] | None
+    sequence: GridSequence, most: int, goal: float, *, coarse: bool
 ) -> GridSequenceResult:
     """Return the contact with one rubber, on grids refined until the errors meet `goal`."""
     body, heights, load = sequence.body, sequence.heights, sequence.pressure
-    plan, in_time = _planned(sequence, goal), True
+    plan, in_time = _planned(sequence, goal, coarse=coarse), True
     grids: list[GridRecord] = []
     while plan:
         level = plan.pop(0)
         try:
-            solved = sequence.solve(level, START_TOLERANCE if plan else CONTACT_TOLERANCE)
+            loose = plan or coarse
+            solved = sequence.solve(level, START_TOLERANCE if loose else CONTACT_TOLERANCE)
         except OutOfTime:
             if not grids:
                 raise ConvergenceError(
@@ -330,8 +320,6 @@ def _solve_sequence(
             in_time = False
             break
         grids.append(solved.record)
-        if on_grid is not None:
-            on_grid(solved.record)
         following = finer(solved.level)
         if not plan and not _met(_same_surface(grids), goal) and following.grid.points <= most:
             plan.append(following)

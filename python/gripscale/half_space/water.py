@@ -47,7 +47,7 @@ TOUCH = 1e-3
 _ERRORS = ("contact_fraction_error", "friction_error")
 
 
-def with_water(contact: RoughContact, film: float, *, workers: int, most: int) -> RoughContact:
+def with_water(contact: RoughContact, film: float, *, workers: int) -> RoughContact:
     """Return a dry contact with trapped water, solved on its grid and more coarsely.
 
     The coarse solution has half the points each way and half the steps of load. Errors are those of
@@ -55,15 +55,15 @@ def with_water(contact: RoughContact, film: float, *, workers: int, most: int) -
     """
     response = Response.of(contact.body, contact.grid, workers)
     load = contact.nominal_pressure
-    step, pools = _under_rising_load(response, contact.height, load, film, LOAD_STEPS, most)
+    step, pools = _under_rising_load(response, contact.height, load, film, LOAD_STEPS)
     numbers = _numbers(response, contact.height, step)
 
     shape = tuple(n // 2 for n in contact.grid.shape)
     response = Response.of(contact.body, Grid(shape, contact.grid.lengths), workers)
     height = resampled(scipy.fft.rfftn(contact.height), contact.grid.shape, shape)
     start = loaded(response.full_contact(height, load), load)
-    before = _numbers(response, height, solve_grid(response, height, start, most, START_TOLERANCE))
-    coarse, _ = _under_rising_load(response, height, load, film, LOAD_STEPS // 2, most)
+    before = _numbers(response, height, solve_grid(response, height, start, START_TOLERANCE))
+    coarse, _ = _under_rising_load(response, height, load, film, LOAD_STEPS // 2)
     after = _numbers(response, height, coarse)
     changed: dict[str, Any] = {**numbers}
     for error, name in zip(_ERRORS, ("contact_fraction", "friction_from_dissipation"), strict=True):
@@ -92,15 +92,15 @@ def with_water(contact: RoughContact, film: float, *, workers: int, most: int) -
 
 
 def _under_rising_load(
-    response: Response, height: Array, load: float, film: float, steps: int, most: int
+    response: Response, height: Array, load: float, film: float, steps: int
 ) -> tuple[GridContact, Pools]:
     """Return the contact on a grid under loads that rise from a dry one, and its pools."""
     level = _water_level(height, film)
     loads = load * np.geomspace(FIRST_LOAD, 1.0, steps)
     start = loaded(response.full_contact(height, loads[0]), loads[0])
-    step = solve_grid(response, height, start, most, START_TOLERANCE)
+    step = solve_grid(response, height, start, START_TOLERANCE)
     start = loaded(step.pressure, TOUCH * load)
-    touch = solve_grid(response, height, start, most, START_TOLERANCE)
+    touch = solve_grid(response, height, start, START_TOLERANCE)
     regions = periodic_regions(~touch.active)
     closed = regions.where(np.asarray(~regions.percolates.any(axis=1)))
     step = replace(step, gap=np.where(closed, touch.gap, step.gap))
@@ -110,7 +110,7 @@ def _under_rising_load(
         pools = _trapped(pools, step, height, level, touched)
         touched, goal = step.active, POOL_TOLERANCE if under == loads[-1] else START_TOLERANCE
         start = loaded(step.pressure, under)
-        step = solve_grid(response, height, start, most, goal, pools=pools, active=touched)
+        step = solve_grid(response, height, start, goal, pools=pools, active=touched)
     return step, pools
 
 

@@ -1,25 +1,20 @@
-"""Windows of a surface, the scatter of their contacts, and surfaces to compare with.
+"""Windows of a surface, and surfaces to compare with.
 
-Windows show how well one measurement represents the surface. Surfaces to compare with are one
-period of a line, superposed sines, and a surface with the same spectrum but random phases.
+Surfaces to compare with are one period of a line, superposed sines, and a surface with the same
+spectrum but random phases.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import product
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 import scipy
 
-from gripscale.core import Array, Described, InputError, Quantity, checks
+from gripscale.core import InputError, Quantity, checks
 from gripscale.half_space.grid import joined, surface_axes
-from gripscale.half_space.result import RoughContact
-from gripscale.half_space.solve import solve_rough_contact
-from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, SineStack
 from gripscale.surface.low_pass import one_period as one_period
 from gripscale.surface.low_pass import upper_envelope
@@ -31,55 +26,6 @@ _POINTS_IN_WAVE = 8
 _MOST_POINTS = 10_000_000
 
 _Measurement = TypeVar("_Measurement", Profile, HeightMap)
-
-
-@dataclass(frozen=True, repr=False)
-class WindowContacts(Described):
-    """Contacts of the windows of one surface; statistics use those that converged.
-
-    A `name` is that of a number of `RoughContact`, in its unit: `contact_fraction`, `friction`,
-    `friction_from_dissipation` and so on.
-    """
-
-    contacts: list[RoughContact]
-    """One for each window."""
-
-    def values(self, name: str) -> Array:
-        """Return a number of each window that converged, shape (windows,)."""
-        return np.array([float(getattr(c, name)) for c in self.contacts if c.converged])
-
-    def mean(self, name: str) -> float:
-        """Return the mean over windows; NaN if none converged.
-
-        All windows have the same pressure and size, so that this is the mean of the surface.
-        """
-        values = self.values(name)
-        return float(values.mean()) if values.size else math.nan
-
-    def scatter(self, name: str) -> float:
-        """Return the standard deviation from window to window; NaN for fewer than two."""
-        values = self.values(name)
-        return float(values.std(ddof=1)) if values.size > 1 else math.nan
-
-    def confidence_interval(
-        self, name: str, *, level: float = 0.95, seed: int = 0
-    ) -> tuple[float, float]:
-        """Return the interval of the mean by a block bootstrap, the windows being the blocks.
-
-        Percentiles of 9999 resamples (B. Efron & R. Tibshirani, An Introduction to the Bootstrap,
-        1993, ch. 13), `level` being between 0 and 1; NaN for fewer than three windows. Too narrow
-        if windows are shorter than the surface's longest correlation, or few.
-        """
-        values = self.values(name)
-        if values.size < 3:
-            return math.nan, math.nan
-        random = np.random.default_rng(seed)
-        from scipy.stats import bootstrap  # 0.5 s and 15 MB, which a run need not pay
-
-        interval = bootstrap(
-            (values,), np.mean, confidence_level=level, method="percentile", rng=random
-        ).confidence_interval
-        return float(interval.low), float(interval.high)
 
 
 def windows(
@@ -144,18 +90,6 @@ def spread_windows(profiles: Sequence[Profile], length: float, most: int) -> lis
     every = [window for line in lines for window in windows(line, length)]
     chosen = np.linspace(0, len(every) - 1, min(number, len(every))).round().astype(int)
     return [one_period(every[index]) for index in chosen]
-
-
-def solve_windows(
-    rubber: Rubber, surface: Profile | HeightMap, length: float | tuple[float, float], **load: Any
-) -> WindowContacts:
-    """Return the direct contact of each of the `windows` of `surface`.
-
-    Arguments and errors are those of `windows` and of `solve_rough_contact`, without `periodic`.
-    """
-    return WindowContacts(
-        [solve_rough_contact(rubber, window, **load) for window in windows(surface, length)]
-    )
 
 
 def surface_of_sines(stack: SineStack, length: Quantity, seed: int) -> Profile:

@@ -38,15 +38,13 @@ def save(
     import xarray as xr
 
     def write(temporary: Path) -> None:
-        if groups:
-            tree = xr.DataTree.from_dict({"/": data, **groups})
-            tree.to_netcdf(temporary, engine=ENGINE)
-        else:
-            # `to_netcdf` asks Dask, where it is installed, for a lock: seconds of imports
-            lock = xr.backends.netCDF4_.NETCDF4_PYTHON_LOCK
-            kind: Any = xr.backends.NetCDF4DataStore
-            with closing(kind.open(temporary, mode="w", lock=lock)) as store:
-                data.dump_to_store(store)
+        # `to_netcdf` asks Dask, where it is installed, for a lock: seconds of imports
+        lock = xr.backends.netCDF4_.NETCDF4_PYTHON_LOCK
+        kind: Any = xr.backends.NetCDF4DataStore
+        with closing(kind.open(temporary, mode="w", lock=lock)) as store:
+            data.dump_to_store(store)
+            for name, group in (groups or {}).items():
+                group.dump_to_store(store.get_child_store(name))
         with temporary.open("r+b") as file:
             digest = _digest(file, temporary.stat().st_size)
             file.write(_SEAL + digest + b"\n")

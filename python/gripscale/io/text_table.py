@@ -124,6 +124,7 @@ MOST_LINES = 10**6
 _ENOUGH_CELLS = 2000  # numbers of a column that show the decimals of all
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
+_FACTOR = re.compile(r"(?:10 ?(?:\^|\*\*) ?|[x×·*] ?1[eE])[-+]?\d+|10[⁰¹²³⁴-⁹⁻]+")
 _NAME_AND_UNIT = re.compile(r"(.*?)(?:\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|\s+/\s*(\S+))\s*")
 _TITLES_IN_BRACKETS = re.compile(r"[^()\[\]]+[(\[][^()\[\]]*[)\]]")
 _DIGITS = frozenset("0123456789+-.")
@@ -143,15 +144,16 @@ class ColumnTitle:
 
 
 class PlainRows(Sequence[list[str]]):
-    """Rows that hold nothing but numbers with a decimal point; cells are cut when asked for."""
+    """Rows of numbers with a decimal point, or `nan`; cells are cut when asked for."""
 
     def __init__(self, lines: Sequence[str], separator: str | None) -> None:
         """Parse all numbers; raise `ValueError` if a cell is something else."""
         self.lines, self.separator = lines, separator
         self.values = np.loadtxt(lines, delimiter=separator, comments=None, ndmin=2)
         """The numbers, shape (rows, columns)."""
-        if not (np.abs(self.values) <= MOST).all():
-            raise ValueError("a number is missing or too large")
+        missing = np.isnan(self.values)
+        if missing[-1].all() or not (missing | (np.abs(self.values) <= MOST)).all():
+            raise ValueError("a remark below the table, or a number that is too large")
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -238,7 +240,9 @@ class TextTable:
         if (noted := _noted.get()) is not None:
             noted[self.empty + column + 1] = self.columns[column]
         if isinstance(self.rows, PlainRows):
-            return self.rows.values[:, column].copy()
+            values = self.rows.values[:, column].copy()
+            if missing or not np.isnan(values).any():
+                return values
         cells = self._cells(column)
         if missing:
             cells = ["nan" if cell.lower() in MISSING else cell for cell in cells]
@@ -389,12 +393,14 @@ def table_in(
         above, count = [line for _, line in lines[:first]], plain.values.shape[1]
         _check_faults(path, lines[:first], separator, range(count, count + 1))
         return TextTable(path, _columns(above, count, kinds, named), plain, numbers, ".")
+    titles = {line.strip() for _, line in lines[:first]}  # which come again on each page
     below = [(number, line) for number, line in lines[first:] if not is_comment(line)]
-    numbers = [number for number, _ in below]
-    rows = [cells_of(line, separator) for _, line in below]
-    while not any(map(is_number, rows[-1])):  # remarks below the table
-        rows.pop()
-    numbers, count = numbers[: len(rows)], len(rows[0])
+    cells = [(n, cells_of(line, separator)) for n, line in below if line.strip() not in titles]
+    while not any(map(is_number, cells[-1][1])):  # remarks below the table
+        cells.pop()
+    count = len(cells[0][1])
+    cells = [(n, row) for n, row in cells if len(row) == count or any(map(fits, row))]
+    numbers, rows = [number for number, _ in cells], [row for _, row in cells]
     _check_faults(path, lines[:first], separator, range(count, count + 1))
     for number, row in zip(numbers, rows, strict=True):
         if len(row) != count:
@@ -474,7 +480,8 @@ def read_text(path: Path) -> str:
     ):
         kind = next((k for start, k in _BINARY.items() if raw.startswith(start)), "binary data")
         raise FileError(f"{path}: expected a text file; got {kind}")
-    for code in ("utf-8-sig", *(["gb18030"] if _is_chinese(raw) else []), "cp1252"):
+    eastern = [code for code, of in (("gb18030", _is_chinese), ("cp932", _is_japanese)) if of(raw)]
+    for code in ("utf-8-sig", *eastern, "cp1252"):
         with suppress(UnicodeDecodeError):
             return raw.decode(code)
     return raw.decode("latin-1")
@@ -488,6 +495,17 @@ def _wide(raw: bytes) -> str:
         if len(half) > 8 and half.count(0) > 0.9 * len(half) and not start[1 - first :: 2].count(0):
             return code
     return ""
+
+
+_START = 2**16  # bytes by which the lines of a file are counted
+
+
+def lines_by_start(path: Path) -> float:
+    """Return about how many lines a text has, by its size and its first ones; 0 of other files."""
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        start = file.read(_START)
+    return start.count(b"\n") * size / len(start) if start and is_text(start) else 0.0
 
 
 _BEYOND_ASCII = re.compile(rb"[\x80-\xff]+")
@@ -509,6 +527,21 @@ def _is_chinese(raw: bytes) -> bool:
         and all(len(run) % 2 == 0 and min(run) >= 0xA1 for run in runs)
         and 2 * ideographs > len(pairs) > 1
     )
+
+
+def _is_japanese(raw: bytes) -> bool:
+    """Return whether letters beyond ASCII are pairs of Shift-JIS, whose first bytes are no letters.
+
+    In other code pages those are quotation marks and dashes, before ASCII or a byte without one.
+    """
+    start = raw[:65536].rpartition(b"\n")[0]
+    try:
+        letters = [letter.encode("cp932") for letter in start.decode("cp932") if letter > "\x7f"]
+    except UnicodeDecodeError:
+        return False
+    wide = [pair for pair in letters if len(pair) == 2 and pair[:1] < b"\xa0"]
+    sure = [pair for pair in wide if pair[1:] > b"\x7f" or not b"\x91" <= pair[:1] <= b"\x97"]
+    return bool(sure) and 2 * len(wide) >= len(letters)
 
 
 def _first_row(path: Path, lines: list[Line], expected: str) -> tuple[int, str | None]:
@@ -592,7 +625,9 @@ def _column_title(title: str, kinds: Collection[str]) -> ColumnTitle:
     for cut in _CUT.finditer(title):
         unit = cut[1] or cut[2]
         if _is_unit(unit, kinds):
-            return ColumnTitle(title[: cut.start()], unit)
+            name = title[: cut.start()]
+            factor = _FACTOR.search(name)  # a unit with it is unknown, so that it is asked for
+            return ColumnTitle(name, f"{factor[0]} {unit}" if factor else unit)
     parts = _NAME_AND_UNIT.fullmatch(title)
     return ColumnTitle(parts[1], parts[2] or parts[3]) if parts else ColumnTitle(title)
 

@@ -24,9 +24,9 @@ from .compare.question import Comparison as Comparison
 from .cut_off.question import CutOff as CutOff
 from .design.compound_limits import CompoundLimits as CompoundLimits
 from .design.compound_limits import PointLimit as PointLimit
-from .design.design_text import designed_rubber as designed_rubber
 from .design.goal_friction import CompoundGoal as CompoundGoal
 from .design.question import CompoundDesign as CompoundDesign
+from .design.question import designed_rubber as designed_rubber
 from .inputs.charts_of_rubber import master_curve_figure as master_curve_figure
 from .inputs.charts_of_rubber import measured_moduli_figure as measured_moduli_figure
 from .inputs.charts_of_rubber import shift_figure as shift_figure
@@ -40,8 +40,8 @@ from .sensitivity.friction_sensitivity import FrictionSensitivity as FrictionSen
 from .sensitivity.question import Sensitivity as Sensitivity
 from .slip.question import SlipCurve as SlipCurve
 from .uncertainty.profile_blocks import ProfileBlocks as ProfileBlocks
+from .uncertainty.propagation import Uncertainty as Uncertainty
 from .uncertainty.sampled_inputs import Range as Range
-from .uncertainty.sampling import Uncertainty as Uncertainty
 from .uncertainty.series_scatter import SeriesScatter as SeriesScatter
 from .uncertainty.variance_shares import Shares as Shares
 from .uncertainty.variance_shares import shares as shares

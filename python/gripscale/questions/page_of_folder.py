@@ -9,11 +9,10 @@ import xarray as xr
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.questions.answer.answer import ANSWER_FILE, Answer
-from gripscale.questions.compare.page import Compared, comparison_page, stored_comparisons
+from gripscale.questions.compare.question import Comparison
 from gripscale.questions.result import Result
 from gripscale.questions.stored import KINDS_OF_REPORTS, load, predicted_tree, result_of
 from gripscale.report import write_page
-from gripscale.report.elements import Page
 
 CHAIN_FILE, CURVE_FILE = "chain.nc", "cut_off.nc"  # beside the answer of a run
 
@@ -51,15 +50,20 @@ def write_report(result: str | Path, output: str | Path | None = None) -> Path:
     """
     path = Path(result)
     folder = path if path.is_dir() else path.parent
-    return write_page(lambda: page_of(read_result(path)), output or folder / "report.html")
+    return write_page(read_result(path).page_content, output or folder / "report.html")
 
 
-def page_of(source: Compared | Result) -> Page:
-    """Return the page of a result."""
-    return comparison_page(source) if isinstance(source, Compared) else source.page_content()
+def read_comparisons(folder: Path) -> Comparison | None:
+    """Return the comparisons in a folder as one; None without any."""
+    paths = [folder / "comparison.nc", *sorted(folder.glob("over_*.nc"))]
+    every = [Comparison(predicted_tree(p).to_dataset()) for p in paths if p.is_file()]
+    if not every:
+        return None
+    every[0].others = every[1:]
+    return every[0]
 
 
-def read_result(path: Path) -> Compared | Result:
+def read_result(path: Path) -> Result:
     """Read the results folder or netCDF file at `path`.
 
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
@@ -76,8 +80,7 @@ def read_result(path: Path) -> Compared | Result:
         return result
     if (path / ANSWER_FILE).is_file():
         return read_run(path)
-    compared = stored_comparisons(path)
-    if compared.parts:
+    if (compared := read_comparisons(path)) is not None:
         return compared
     others = sorted(file for file in path.glob("*.nc") if not file.name.startswith("."))
     if not others:

@@ -21,19 +21,20 @@ import xarray as xr
 
 from gripscale.core.described import Described, with_figure
 from gripscale.core.errors import InputError
+from gripscale.core.finding import Finding, Severity
 from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
 from gripscale.questions.answer.variables import described
-from gripscale.questions.inputs.findings import input_findings
-from gripscale.questions.inputs.record import InputRecord
+from gripscale.questions.inputs.record import InputRecord, input_findings
+from gripscale.report.again import case_title, rerun_section
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
     from gripscale.charts.draw import Sheet
-    from gripscale.core.finding import Finding
-    from gripscale.report.elements import Page
+    from gripscale.charts.page_elements import Picture
+    from gripscale.report.elements import Card, Element, Page, Section
 
 NO_WIDTHS: Mapping[str, float] = MappingProxyType({})
 KIND = "kind"  # attribute of a saved result: the question it answers
@@ -92,9 +93,13 @@ class Result(Described, ABC):
     def table(self) -> Table:
         """Return the numbers of the result as one table."""
 
+    def pictures(self) -> Iterator[Picture]:
+        """Yield the figures that show the result, the most telling first, with their captions."""
+        yield from ()
+
     def figures(self) -> Iterator[tuple[str, Sheet | Figure]]:
         """Yield the figures that show the result, with their names, the most telling first."""
-        yield from ()
+        yield from ((picture.name, picture.figure) for picture in self.pictures())
 
     def plot(self) -> Figure:
         """Draw the figure that shows the result (matplotlib).
@@ -120,9 +125,39 @@ class Result(Described, ABC):
 
         return write_page(self.page_content, path)
 
-    @abstractmethod
+    @property
+    def title(self) -> str:
+        """What its page is called."""
+        return f"{self.data.attrs.get('title', self.kind)}: {case_title(self.data.attrs)}"
+
+    def cards(self) -> Iterator[Card]:
+        """Yield the numbers at the head of its page."""
+        yield from ()
+
+    def chapters(self) -> Iterator[Section]:
+        """Yield what stands on the page below figures and tables."""
+        yield from ()
+
+    def elements(self) -> list[Element]:
+        """Return figures and tables as they stand on a page."""
+        from gripscale.charts.draw import image
+        from gripscale.report.elements import as_elements
+
+        return [*map(image, self.pictures()), *as_elements(self.parts())]
+
     def page_content(self) -> Page:
-        """Return what stands on the page of the result."""
+        """Return the page: answer, numbers, figures and tables, then how to run it again."""
+        from gripscale.report.elements import Page, Section
+
+        lead, *basis = (line.strip() for line in self.lines)
+        failed = [Finding(Severity.ERROR, self.failure)] if self.failure else []
+        sections = [
+            Section("results", "Results", self.elements()),
+            *self.chapters(),
+            rerun_section(self.data.attrs),
+        ]
+        findings = [*failed, *self.findings]
+        return Page.of(self.title, lead, findings, self.cards(), sections, basis)
 
     def save(self, path: str | Path) -> Path:
         """Write the result with the record of its inputs to a netCDF file; return its path.

@@ -7,7 +7,6 @@ coordinate were given. Nothing here knows a question.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -22,16 +21,19 @@ from gripscale.charts import chart, style
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.style import BLUE, INK
 from gripscale.core.arrays import Array
-from gripscale.core.finding import Finding
-from gripscale.core.units import GIVEN, UNITS, USUAL, ZERO_CELSIUS, DisplayUnit
+from gripscale.core.units import (
+    GIVEN,
+    UNITS,
+    USUAL,
+    ZERO_CELSIUS,
+    DisplayUnit,
+    display_unit_of,
+)
 from gripscale.experiment.design import CONVERGED
-from gripscale.io.table import Column, Table, significant
-from gripscale.model import METHOD, STATUS
+from gripscale.io.table import Column, Table, least_to_most, percent, significant
+from gripscale.model import STATUS
 from gripscale.questions.answer.variables import SYMBOLS, believed
-from gripscale.questions.inputs.page import input_sections
-from gripscale.report.again import rerun_section
-from gripscale.report.elements import Card, Page, Section
-from gripscale.report.equations import method_section
+from gripscale.report.elements import Card
 
 # Places.
 
@@ -302,21 +304,37 @@ def stacked_panel(
     return Panel(abscissa, y, [*bands[::-1], total])
 
 
-# The page.
+# The head of the page.
+
+# Models in words; others by their names.
+_MODELS = {"chain": "chain of sine waves", "direct": "direct contact of the measured surface"}
 
 
-def page(
-    data: xr.Dataset,
-    titles: tuple[str, str],
-    findings: Iterable[Finding],
-    cards: Iterable[Card],
-    chapters: Iterable[Section],
-    lines: Iterable[str],
-) -> Page:
-    """Return the page of a result: numbers, its own chapters, inputs, method and how to repeat it.
+def model_in_words(data: xr.Dataset) -> str:
+    """Return what predicted a result."""
+    name = str(data.attrs.get("model", "model"))
+    return _MODELS.get(name, name.replace("_", " "))
 
-    `titles` are its title and what stands below.
-    """
-    method = method_section(json.loads(data.attrs.get(METHOD, "[]")))
-    sections = [*chapters, *input_sections(data), method, rerun_section(data.attrs)]
-    return Page.of(*titles, findings, cards, sections, [line.strip() for line in lines])
+
+def load_in_words(data: xr.Dataset) -> Iterator[str]:
+    """Yield nominal pressure and speed, where a result has one of them."""
+    for name in ("pressure", "speed"):
+        nominal = data.get(f"nominal_{name}", data.attrs.get(f"nominal_{name}", math.nan))
+        values = np.unique(nominal)
+        if name not in data.dims and values.size == 1 and math.isfinite(values[0]):
+            yield display_unit_of(data.attrs, name).text(float(values[0]))
+
+
+def cards(data: xr.Dataset) -> Iterator[Card]:
+    """Yield the range of friction and contact area."""
+    for name in answers(data):
+        values = data[name].values
+        values = values[values > 0.0]  # none at rest
+        if not values.size:
+            continue
+        detail = "answer" if name.startswith("answer") else model_in_words(data)
+        if interval_ends_of(data, name):
+            width = float(data[f"{name}_half_width"].max())
+            detail = f"answer; ± {percent(width)} (90 %)"
+        words = chart.spelled_out(title(data[name]))
+        yield Card(f"{words[0].upper()}{words[1:]}", least_to_most(values), detail)

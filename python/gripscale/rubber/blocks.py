@@ -42,6 +42,7 @@ class Block:
     table: TextTable
     temperature: float | None = None  # temperature [K]
     shift: WLF | None = None
+    reference: float | None = None  # temperature that a line above says a curve holds for [K]
 
     def states_temperature(self, layout: FileLayout) -> bool:
         """Return whether a line above the table, or a column, states the temperature."""
@@ -89,7 +90,7 @@ def _blocks_in(
     expected = [column for column in layout.by_quantity.values() if isinstance(column, str)]
     if any(len(text) > _WIDEST for _, text in lines[:_ENOUGH]):
         raise FileError(f"{path}: expected {_ROWS}; got lines of more than {_WIDEST} characters")
-    lines, plain = _plain_end(lines)
+    lines, plain = _plain_end(_with_signals(lines))
     lines = [(at, columns.with_logarithms(columns.with_primes(line))) for at, line in lines]
     if lines and _PARAMETERS.fullmatch(lines[0][1]):
         unit = temperature_unit or layout.temperature_unit
@@ -105,6 +106,7 @@ def _blocks_in(
     for above, rows in parts:
         first = next((n for n, (_, text) in enumerate(above) if _names(text, expected)), None)
         temperature = _temperature_above(path, above, temperature_unit)
+        reference = _temperature_above(path, above, None, "reference")
         if first is not None:
             here = [line for line in above[first:] if stated_in(line[1]) is None]
             titles = here or titles
@@ -112,10 +114,23 @@ def _blocks_in(
             titles = []  # those of another step are not its own
         whole = [*titles, *rows] if titles else [*above, *rows]
         table = _with_frequency(_table(path, whole, expected), layout, above)
-        blocks.append(Block(table, temperature))
+        blocks.append(Block(table, temperature, reference=reference))
     if len(blocks) < 2:
         return blocks or [Block(_table(path, lines, expected))]
     return _sufficient(blocks, layout) or blocks
+
+
+_SIGNAL = re.compile(r"\s*Sig\d+\s+(.*\S)\s*")
+
+
+def _with_signals(lines: list[Line]) -> list[Line]:
+    """Return lines of TA's Universal Analysis with its signals, one a line, as titles."""
+    signals = [match[1] for _, text in lines[:_ENOUGH] if (match := _SIGNAL.fullmatch(text))]
+    starts = (at for at, (_, text) in enumerate(lines) if text.strip() == "StartOfData")
+    start = next(starts, None) if signals else None
+    if start is None:
+        return lines
+    return [(lines[start][0], "\t".join(signals)), *lines[start + 1 :]]
 
 
 _PLAIN = "0123456789+-.eE\t;, \r"  # characters of a row of numbers
@@ -193,13 +208,17 @@ def _names(line: str, expected: list[str]) -> bool:
     return False
 
 
-def _temperature_above(path: Path, above: list[Line], unit: str | None) -> float | None:
-    """Return the last temperature that the lines above a table state [K]."""
+def _temperature_above(
+    path: Path, above: list[Line], unit: str | None, kind: str = "temperature"
+) -> float | None:
+    """Return the last temperature, or reference, that the lines above a table state [K]."""
     for number, line in reversed(above):
-        statement = stated_in(line)
+        statement = stated_in(line, kind)
         if statement is None:
             continue
         value, written = statement
+        if kind == "reference" and spelled(written, "temperature") is None:
+            continue  # t0 may be a time
         chosen = unit if spelled(written, "temperature") is None else written
         if chosen is None:
             why = f"({listed('temperature')}), because the line states none with {value}"

@@ -49,14 +49,16 @@ _TITLES = {
         "temperature": r"t[eé]mp(?!s\b)|(sample|proben)\s*-?temp|ts$|温度|試料温度",
         "frequency": r"omega|.*(freq|fr[eé]qu|frecu)|pulsation|częstot|част|주파수"
         r"|角?频率|角?周波数",
-        "magnitude": r"\|?[eg]\*|.*complex .*modulus|.*komplexer .*modul|复数?模量"
+        "magnitude": r"\|?[egm]\*|.*complex .*modulus|.*komplexer .*modul|复数?模量"
         r"|.*module? complex",
-        "storage": r"[eg]'(?!')|[eg][_ ]?p(rime)?\b|[eg][_ ]?stor|.*\bstor|.*speichermodul"
+        "storage": r"(modul\w* )?[egm]'(?!')|re(al)? ?\([eg]\b|real (part|modulus)"
+        r"|[eg][_ ]?p(rime)?\b|[eg][_ ]?stor|.*\bstor|.*speichermodul"
         r"|.*elastic component"
         r"|m[oó]dul[eo] (de |d['’]|di )?(stockage|conserva|a(lm|rm)a[cz]ena|accumul|[eé]lasti)"
         r"|.*zachowaw|.*opslagmod|.*lagringsmod|.*накопл|저장"
         r"|(储能|存储|储存)模量|貯蔵.*率",
-        "loss": r"[eg]''|[eg][_ ]?(pp|double[ _-]?prime)\b|[eg][_ ]?loss|.*\bloss"
+        "loss": r"(modul\w* )?[egm]''|im(ag)? ?\([eg]\b|imag\w* (part|modulus)"
+        r"|[eg][_ ]?(pp|double[ _-]?prime)\b|[eg][_ ]?loss|.*\bloss"
         r"|.*verlustmodul|.*viscous component"
         r"|.*stratno|.*verliesmod|.*f[öo]rlustmod|.*потерь|손실"
         r"|m[oó]dul[eo] .*(perte|p[eé]rdi|perda|dissipa|visqueux|viscos)|损耗模量|損失.*率",
@@ -90,16 +92,21 @@ _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequ
 _BAREPRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')
 PRIMES = str.maketrans(dict.fromkeys("’′`´", "'") | dict.fromkeys('″”"', "''"))
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
-# A line that states the temperature or the frequency of the rows below it.
+# Before a temperature, words by which it is not that of the rows.
+_OTHERS = ("reference", "ref.", "room", "ambient", "transition", "lab", "start", "end", "cure")
+_NOT_BEHIND = "".join(rf"(?<!\b{re.escape(word)}\s)" for word in _OTHERS)
+# A line that states the temperature or the frequency of the rows below it, or what a curve holds
+# for.
 _STATED = {
     kind: re.compile(
-        rf"(?:^|[\s;,#%!])(?:{names})\.?\s*"
+        rf"(?:^|[\s;,#%!]){'' if kind == 'reference' else _NOT_BEHIND}(?:{names})\.?\s*"
         rf"(?:[\[(]\s*(?P<before>[^\])]+)[\])])?\s*[=:;,\t]\s*\"?(?P<number>{_NUMBER})\"?"
         rf"(?:[\t;,]?[ \t]*[\[(]?(?P<after>°?\s?[A-Za-z]+(?:/s)?)[\])]?)?\s*(?:$|[;,\t\"])",
         re.IGNORECASE,
     )
     for kind, names in {
         "temperature": r"T|Temp\w*|Sample temp\w*|Probentemp\w*",
+        "reference": r"T_?(?:0|ref|r)|(?:Reference|Ref\.|Referenz-?|Bezugs-?)\s*temp\w*",
         "frequency": r"f|Freq\w*|Test freq\w*|Messfreq\w*|Prüffreq\w*",
     }.items()
 }

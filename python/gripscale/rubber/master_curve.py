@@ -12,7 +12,7 @@ import numpy as np
 import gripscale
 from gripscale.core import Checked, FileError, Pictured, checked, checks, shown_value
 from gripscale.core.arrays import Array, Quantity, Vector
-from gripscale.core.units import quantity_in_si
+from gripscale.core.units import UNITS, quantity_in_si, spelled
 from gripscale.io.folders import write_text
 from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns
@@ -185,6 +185,7 @@ def read_master_curve(
             "temperature in its name, such as sweep_-20C.csv"
         )
     above = _temperature_of_rows(table, layout) if above is None else above
+    above = blocks[0].reference if above is None else above
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
@@ -197,6 +198,9 @@ def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:
     """Return the temperature of a column in which all rows have the same [K], or None."""
     column = layout.column(table, "temperature")
     unit = None if column is None else columns.unit_in(table.columns[column], "temperature")
+    stated = None if column is None else table.columns[column].unit
+    if column is not None and stated and not any(spelled(stated, kind) for kind in UNITS):
+        layout.unit(table, column, "temperature")  # refuses a unit that is not known
     unit = layout.temperature_unit or unit
     if column is None or unit is None:
         return None

@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-import gripscale
 from gripscale.core import Array, Checked, Quantity, Vector, checked, checks
 from gripscale.core.errors import FileError, GripscaleError, InputError, about_file
 from gripscale.core.units import ZERO_CELSIUS, quantity_in_si, si_value
@@ -28,6 +27,7 @@ from gripscale.rubber.columns import (
     check_rows,
     notes_of_faults,
     spread_of_repeats,
+    unit_in,
     young_moduli,
 )
 from gripscale.rubber.many_rows import thinned
@@ -98,10 +98,6 @@ class Sweeps(Checked, eq=False):
                     f" K; got {len(inside)} rows from {inside.min():.2f} to {inside.max():.2f} K "
                     "without a gap; a ramp needs nominal temperatures (temperature_step)"
                 )
-
-    def superpose(self, **options: Any) -> gripscale.MasterCurve:
-        """Return their master curve; arguments as in `gripscale.superpose`."""
-        return gripscale.superpose(self, **options)
 
     def _rows(self) -> list[slice]:
         group = neighbours_of(self.temperature, self.tolerance)
@@ -368,14 +364,25 @@ def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:
     return rows[:, measured]
 
 
+# A line above rows whose temperature is farther from their column [K] is of the room or an older
+# run: no oven is that far from what it was set to.
+_AWAY = 5.0
+
+
 def row_temperatures(block: Block, layout: FileLayout, temperature: float | None) -> Array:
     """Return the temperature of each row [K]: the caller's, of the lines above, of a column."""
-    table = block.table
-    if temperature is None and "temperature" not in layout.by_quantity:
-        temperature = block.temperature
+    table, above = block.table, block.temperature
+    column = layout.column(table, "temperature")
+    if temperature is None and above is not None and "temperature" not in layout.by_quantity:
+        unit = None if column is None else unit_in(table.columns[column], "temperature")
+        if column is None or unit is None:
+            temperature = above
+        else:
+            degrees = table.numbers(column, "a temperature", missing=True)
+            away = np.abs(quantity_in_si(degrees, unit, "temperature") - above)
+            temperature = None if (away > _AWAY).any() else above
     if temperature is not None:
         return np.full(len(table.rows), temperature)
-    column = layout.column(table, "temperature")
     if column is None:
         raise InputError(
             f"{table.path}: the temperature of the rows must stand in a column, Temperature [°C], "

@@ -8,7 +8,8 @@
 Names are read in English and German. A spacing without a unit has that of distances. Points of a
 column reach from end to end of a stated length, pixels of a table fill it.
 
-A file of ERD (road profiles, University of Michigan) states the step in its second line.
+A file of ERD (road profiles, University of Michigan) states the step in its second line, points of
+Zygo the size of a pixel in the eighth.
 """
 
 from __future__ import annotations
@@ -18,25 +19,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from gripscale.core.units import quantity_in_si, spelled
-from gripscale.io.cells import Line
+from gripscale.io.cells import Line, is_number
 
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?"
 _PAIR = re.compile(
     r"[\s#%!/*\"]*(?P<name>[^:=;\t\[(,]+?)\s*(?:[\[(](?:->\s*)?(?P<unit>[^\])]*)[\])])?"
-    rf"(?:\s*[:=;\t,]\s*|\s+(?=\d))(?:(?P<number>{_NUMBER})[\s;,]*)?"
+    rf"(?:\s*[:=;\t,][:=;\t,\s]*|\s+(?=\d))(?:(?P<number>{_NUMBER})[\s;,]*)?"
     r"(?P<word>[^\s;,]*?)(?:(?:/|\s*\bper\s+)(?P<each>sample|pixel|px|point|pt|pkt|count|digit|lsb|bit)s?)?"
     rf"(?:\s*[x×*]\s*(?P<second>{_NUMBER})\s*(?P<last>[^\s;,]*))?[\s;,\"]*"
 )
 _STEP = (
     r"(?:(?:data |measur\w+ )?(?:point|sampl(?:e|ing)|pixel|lateral)s?[ -]?)?"
     r"(?:spacing|step(?: ?(?:size|width|distance|length))?|increment|pitch|interval)"
-    r"|(?:lateral|pixel|sampling|xy)[ -]?(?:resolution|calibration)"
+    r"|(?:lateral|pixel|sampling|xy)[ -]?(?:resolution|calibration|kalibrierung|キャリブレーション)"
     r"|(?:point|sampl(?:e|ing))[ -]distance|pixel ?size|pixelgr(?:ö|oe)(?:ß|ss)e"
     r"|schrittweite|(?:mess|abtast)schritt|(?:mess)?punktabstand|abtast(?:abstand|weite)"
     r"|pas(?: d['’ ]?(?:échantillonnage|acquisition))?"
 )
 _SIZE = r"(?:size|length|range|distance|extent|width)"
-_UNIT = r"(?:units?|einheit(?:en)?)"
+_UNIT = r"(?:units?|einheit(?:en)?|単位)"
 _OF = r" (?:of |der |in )?"
 _NAMES = {
     "dx": rf"d ?x|delta ?x|x[ -]?(?:{_STEP}|resolution)|(?:{_STEP})(?: (?:in )?x)?",
@@ -55,6 +56,10 @@ _DENSITY = re.compile(
     rf"(?:(?<!\d)(?P<number>{_NUMBER})\s*)?(?:points?|pts|samples?|punkte)\s*(?:/|per|pro|je)\s*"
     rf"(?P<unit>[a-zµμ]+)\W*(?P<after>{_NUMBER})?",
     re.IGNORECASE,
+)
+# The only title above a table of heights.
+_ALONE = re.compile(
+    r"[\s#%!\"]*(?:z|heights?|höhen?|高さ)\s*[\[(](?P<unit>[^\])]+)[\])][\s;,\"]*", re.IGNORECASE
 )
 _MOST_LINES = 100  # lines of a header
 
@@ -85,6 +90,8 @@ def read_header(lines: Sequence[Line]) -> Header:
         count = float((density["number"] or density["after"] or "0").replace(",", "."))
         if count > 0.0 and spelled(density["unit"], "length"):
             lengths["dx"] = 1.0 / count, density["unit"]
+    for alone in filter(None, (_ALONE.fullmatch(text) for _, text in lines[:_MOST_LINES])):
+        units["z"] = alone["unit"]
     texts = [re.sub(r'"\s*[,;]\s*"', "\t", text) for _, text in lines[:_MOST_LINES]]
     for pair in filter(None, map(_PAIR.fullmatch, texts)):
         low = pair["name"].lower()
@@ -127,9 +134,12 @@ def _both(
     )
 
 
-def erd_as_table(lines: list[Line]) -> list[Line]:
-    """Return the lines of a file of ERD with its step and titles as other files have them."""
-    if not lines or not lines[0][1].lstrip("\ufeff").startswith("ERDFILE"):
+def titled_lines(lines: list[Line]) -> list[Line]:
+    """Return the lines of a file of ERD or of Zygo with titles as other files have them."""
+    start = lines[0][1].lstrip("\ufeff") if lines else ""
+    if start.startswith("Zygo XYZ Data File"):
+        return _zygo_as_table(lines)
+    if not start.startswith("ERDFILE"):
         return lines
     end = next((at for at, (_, text) in enumerate(lines) if text.strip() == "END"), 1)
     words = [*(cell.strip() for cell in lines[1][1].split(",")), *[""] * 6]
@@ -145,3 +155,16 @@ def erd_as_table(lines: list[Line]) -> list[Line]:
     above = "\t".join(f"{name or 'Elevation'} [{of}]" for name, of in titles)
     rows = [(number, "\t".join(text.split())) for number, text in lines[end + 1 :]]
     return [(lines[1][0], f"step: {words[5]} {unit}"), (lines[end][0], above), *rows]
+
+
+def _zygo_as_table(lines: list[Line]) -> list[Line]:
+    """Return points of Zygo's MetroPro and Mx: x and y in pixels of a size [m], heights in um.
+
+    Empty lines of the header count; # ends it.
+    """
+    end = next((at for at, (_, text) in enumerate(lines) if text.strip() == "#"), 0)
+    optics = next((text.split() for number, text in lines[:end] if number == 8), [])
+    if len(optics) < 7 or not is_number(optics[6]) or float(optics[6]) <= 0.0:
+        return lines
+    pixels = f"[{optics[6]} m]"
+    return [(lines[end][0], f"x {pixels}\ty {pixels}\tz [um]"), *lines[end + 1 :]]

@@ -26,7 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -77,14 +77,6 @@ class HeightDifference(Checked, eq=False):
                 self._set(**{name: np.full(size, unknown)})
             elif values.size != size:
                 raise InputError(f"{name} must have {size} entries as lag; got {values.size}")
-
-    def fit_self_affine(self, **options: Any) -> gripscale.SelfAffineFit:
-        """Return power law and plateau; options as in `gripscale.fit_self_affine`."""
-        return gripscale.fit_self_affine(self, **options)
-
-    def fit_sines(self, **options: Any) -> gripscale.SineStack:
-        """Return the sine waves of the same C_z; options as in `gripscale.fit_sines`."""
-        return gripscale.fit_sines(self, **options)
 
     def plot(
         self,

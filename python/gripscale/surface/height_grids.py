@@ -1,4 +1,4 @@
-"""Maps on a grid in text below a header of pairs: the surface data format, and the grid of ESRI.
+"""Maps on a grid below a header of pairs: surface data format, grid of ESRI, field of Gwyddion.
 
 The surface data format (.sdf), ISO 25178-71, lists counts profile by profile:
 
@@ -15,6 +15,12 @@ A grid of ESRI (.asc) lists heights row by row from north to south, in units tha
     ncols 400           points along x of each row, nrows that of rows
     cellsize 0.2        distance of points; or dx and dy
     NODATA_value -9999  a missing height
+
+A simple field of Gwyddion (.gsf) holds 4-byte numbers, row by row, behind its header and one to
+four empty bytes (http://gwyddion.net/documentation/user-guide-en/gsf.html):
+
+    XRes = 400          points along x of each row, YRes that of rows
+    XReal = 1e-3        length along x [XYUnits], YReal that along y
 
 Names are taken in any case, with =, a colon or blanks before their value. BAD is a missing height.
 """
@@ -49,12 +55,37 @@ def is_sdf_text(path: Path, raw: bytes) -> bool:
     )
 
 
+def simple_field_header(raw: bytes) -> dict[str, str]:
+    """Return the header of a simple field of Gwyddion by name in small letters; else empty."""
+    if not raw.startswith(b"Gwyddion Simple Field"):
+        return {}
+    return _header(raw.partition(b"\0")[0].decode("utf-8", errors="replace"))[0]
+
+
+def _simple_field(path: Path, raw: bytes, header: dict[str, str]) -> tuple[Array, Array, Array]:
+    """Return x, y and heights as `read_height_grid`, in the units of the header."""
+    end = raw.index(b"\0") if b"\0" in raw else len(raw)
+    try:
+        points, rows = int(header["xres"]), int(header["yres"])
+        dx, dy = float(header["xreal"]) / points, float(header["yreal"]) / rows
+        z = np.frombuffer(raw, "<f4", points * rows, end + 4 - end % 4)
+    except (KeyError, ValueError, ZeroDivisionError) as error:
+        raise FileError(
+            f"{path}: expected a simple field of Gwyddion with XRes, YRes, XReal, YReal and as "
+            f"many heights; got {len(raw)} bytes with {', '.join(header)}"
+        ) from error
+    counts = np.array(z, dtype=float).reshape(rows, points)
+    return dx * np.arange(points, dtype=float), dy * np.arange(rows, dtype=float), counts.T
+
+
 def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
     """Return x, y and heights of shape (points along x, profiles), NaN where missing.
 
-    They are in m of the surface data format, in the units of the file of a grid of ESRI. Raises
+    They are in m of the surface data format, in the units of the file of other grids. Raises
     `FileError` if the header lacks a number, or there are not as many heights as it states.
     """
+    if field := simple_field_header(raw):
+        return _simple_field(path, raw, field)
     header, start = _header(raw[:_LONGEST_HEADER].decode("latin-1"))
     esri = is_esri_grid(raw)
 

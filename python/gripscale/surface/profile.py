@@ -204,18 +204,6 @@ class Profile(Checked, Pictured, eq=False):
         """Number of points whose height is missing."""
         return int(np.isnan(self.z).sum())
 
-    def clean(self, **options: Any) -> tuple[Profile, gripscale.surface.CleaningReport]:
-        """Return the cleaned profile and a report; options as in `gripscale.clean`."""
-        return gripscale.clean(self, **options)
-
-    def height_difference(self, **options: Any) -> gripscale.HeightDifference:
-        """Return the correlation C_z; options as in `gripscale.height_difference`."""
-        return gripscale.height_difference(self, **options)
-
-    def spectrum(self, **options: Any) -> gripscale.surface.ProfileSpectrum:
-        """Return the power spectrum; options as in `gripscale.surface.profile_spectrum`."""
-        return gripscale.surface.profile_spectrum(self, **options)
-
     def plot(self, cleaned: Profile | None = None) -> Figure:
         """Draw the profile; with the `cleaned` one also what cleaning removed."""
         if cleaned is None:
@@ -342,15 +330,6 @@ class HeightMap(Checked, Pictured, eq=False):
         """Return the map turned by a quarter, for sliding along its y: x becomes y, and y is -x."""
         heights = self.z[::-1].T
         return replace(self, x=self.y, y=-self.x[::-1], z=heights)
-
-    def clean(self, **options: Any) -> tuple[HeightMap, gripscale.surface.CleaningReport]:
-        """Return the cleaned map and a report; options as in `gripscale.clean_map`."""
-        return gripscale.clean_map(self, **options)
-
-    def spectrum(self, **options: Any) -> gripscale.surface.ArealSpectrum:
-        """Return the power spectrum; options as in `gripscale.surface.map_spectrum`."""
-        dx, dy = self.step
-        return gripscale.surface.map_spectrum(self.z, x_step=dx, y_step=dy, **options)
 
     def plot(self) -> Figure:
         """Draw the heights from above; the rubber slides along x."""

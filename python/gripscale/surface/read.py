@@ -10,7 +10,7 @@ import io
 import math
 import os
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,7 +18,16 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from gripscale.core import Array, FileError, InputError, about_file, checks, unstated, using_extra
+from gripscale.core import (
+    Array,
+    FileError,
+    GripscaleError,
+    InputError,
+    about_file,
+    checks,
+    unstated,
+    using_extra,
+)
 from gripscale.core.units import quantity_in_si
 from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
 from gripscale.io.text_table import (
@@ -32,7 +41,12 @@ from gripscale.io.text_table import (
     read_sheets,
     read_text,
 )
-from gripscale.surface.height_grids import is_esri_grid, is_sdf_text, read_height_grid
+from gripscale.surface.height_grids import (
+    is_esri_grid,
+    is_sdf_text,
+    read_height_grid,
+    simple_field_header,
+)
 from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import NO_HEIGHT, length_unit, read_text_map, read_text_profile
 from gripscale.surface.triangles import is_stl, read_stl
@@ -78,13 +92,18 @@ def read_instrument_file(
     raw = read_bytes(path)
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
-    stl, sdf = is_stl(path, raw), is_sdf_text(path, raw)
-    if stl or sdf or is_esri_grid(raw):
+    if raw.startswith(_ARRAY):
+        x, *y, z = _array(path, raw, step)
+        z_unit = length_unit(path, "the file", None, "z_unit", z_unit)
+        return HeightField(quantity_in_si(z, z_unit, "length"), x, y[0] if y else None)
+    stl, sdf, gsf = is_stl(path, raw), is_sdf_text(path, raw), simple_field_header(raw)
+    if stl or sdf or gsf or is_esri_grid(raw):
         if step is not None:
             raise InputError(f"step must be left out; {path} states the size of its surface")
-        x_unit = length_unit(path, "the file", "m" if sdf else None, "x_unit", x_unit)
+        units = {"xyunits": "m", "zunits": "m"} if sdf else gsf
+        x_unit = length_unit(path, "the file", units.get("xyunits"), "x_unit", x_unit)
         z_unit = z_unit or (x_unit if stl else None)
-        z_unit = length_unit(path, "the file", "m" if sdf else None, "z_unit", z_unit)
+        z_unit = length_unit(path, "the file", units.get("zunits"), "z_unit", z_unit)
         along, across, field = (read_stl if stl else read_height_grid)(path, raw)
         x, y = (quantity_in_si(axis, x_unit, "length") for axis in (along, across))
         return HeightField(quantity_in_si(field, z_unit, "length"), x, y)
@@ -132,6 +151,35 @@ def read_instrument_file(
         return HeightField(heights[:, None], x, None, reliable)
     x, y = (quantity_in_si(np.asarray(axis, dtype=float), x_unit, "length") for axis in positions)
     return HeightField(heights, x[:, 0], y[0, :], reliable)
+
+
+_ARRAY = b"\x93NUMPY"
+
+
+def _array(path: Path, raw: bytes, step: tuple[float, float] | None) -> list[Array]:
+    """Return x, y of a map [m], and the heights of an array of NumPy."""
+    try:
+        array = np.load(io.BytesIO(raw), allow_pickle=False)
+    except (ValueError, EOFError, OSError, MemoryError) as error:
+        raise FileError(f"{path}: expected an array of heights; got a damaged file") from error
+    if array.ndim not in (1, 2) or array.size == 0 or array.dtype.kind not in "biuf":
+        got = f"numbers of the type {array.dtype} and shape {array.shape}"
+        raise FileError(f"{path}: expected an array of one or two dimensions; got {got}")
+    if step is None:
+        raise _without_size(path, array.shape)
+    axes = [d * np.arange(n, dtype=float) for n, d in zip(array.shape, step, strict=False)]
+    return [*axes, np.asarray(array, dtype=float).reshape(len(axes[0]), -1)]
+
+
+def _without_size(path: Path, points: Sequence[int]) -> GripscaleError:
+    """Return the refusal of an array of heights whose step nothing states."""
+    return unstated(
+        f"{path}: expected a lateral size; the file gives none: give ",
+        "step",
+        f", for an array of {' x '.join(map(str, points))} heights whose first index runs along x, "
+        "the way of sliding",
+        kind=FileError,
+    )
 
 
 def _opened(
@@ -183,13 +231,7 @@ def _topography(
             raise InputError(f"step must be left out; {path} states the size of its surface")
         return channel.topography()
     if step is None:
-        size = " x ".join(map(str, channel.nb_grid_pts))
-        raise unstated(
-            f"{path}: expected a lateral size; the file gives none: give ",
-            "step",
-            f", for an array of {size} heights whose first index runs along x, the way of sliding",
-            kind=FileError,
-        )
+        raise _without_size(path, channel.nb_grid_pts)
     sizes = tuple(n * d for n, d in zip(channel.nb_grid_pts, step, strict=False))
     return channel.topography(physical_sizes=sizes)
 

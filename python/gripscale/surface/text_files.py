@@ -32,7 +32,7 @@ from gripscale.core.errors import FileError, InputError, about_file, unstated
 from gripscale.core.units import UNITS, in_mm, listed, quantity_in_si, size_of_count, spelled
 from gripscale.io.cells import Line
 from gripscale.io.text_table import ColumnTitle, TextTable, column_in, read_lines, table_in
-from gripscale.surface.header import Header, erd_as_table, read_header
+from gripscale.surface.header import Header, read_header, titled_lines
 from gripscale.surface.profile import (
     FEWEST_POINTS,
     TURNED_ROUND,
@@ -44,7 +44,7 @@ from gripscale.surface.profile import (
 from gripscale.surface.read_spectrum import is_spectrum, kind_of
 from gripscale.surface.resampling import printed_grid, resample
 
-_NINES = [10.0**digits - 1.0 for digits in range(3, 10)]
+_NINES = [float(f"{'9' * n}.{'9' * d}") for n in range(2, 10) for d in range(5) if n + d > 2]
 _WORDS = [2.0**bits - less for bits in (15, 16, 31, 32) for less in (0.0, 1.0)]
 # Codes in use, without sign: nines, and the limits of the whole numbers instruments store.
 _CODES = np.array([*_NINES, *_WORDS])
@@ -54,15 +54,15 @@ _ALONE = 10.0  # least distance of a code from all heights, in the largest diffe
 
 def without_codes(heights: Array) -> tuple[Array, float | None]:
     """Return heights as printed, NaN where one is a code, and the code if there is one."""
-    suspect = np.isin(np.abs(heights), _CODES) | (np.abs(heights) >= _BEYOND)
-    codes = np.unique(heights[suspect])
-    rest = heights[np.isfinite(heights) & ~suspect]
-    if codes.size != 1 or rest.size == 0:
-        return heights, None
-    code = float(codes[0])
-    if np.abs(rest - code).min() <= _ALONE * np.ptp(rest):
-        return heights, None
-    return np.where(suspect, np.nan, heights), code
+    in_use = np.isin(np.abs(heights), _CODES) | (np.abs(heights) >= _BEYOND)
+    for suspect in (in_use, heights == 0.0):  # laser profilers write zero far from the road
+        codes = np.unique(heights[suspect])
+        rest = heights[np.isfinite(heights) & ~suspect]
+        if codes.size != 1 or rest.size == 0 or (codes[0] == 0.0 and np.ptp(rest) == 0.0):
+            continue
+        if np.abs(rest - codes[0]).min() > _ALONE * np.ptp(rest):
+            return np.where(suspect, np.nan, heights), float(codes[0])
+    return heights, None
 
 
 def length_unit(
@@ -104,13 +104,13 @@ def _column_unit(
 
 
 _DISTANCE_TITLE = re.compile(
-    r"^\W*(x\b|x_|dist|pos|length|lateral|weg\b|abstand|l(ä|ae)nge|strecke|station|chainage|travel"
+    r"^\W*(x\d*\b|x_|dist|pos|length|lateral|weg\b|abstand|l(ä|ae)nge|strecke|station|chainage|travel"
     r"|longueur|abscisse|distan[cz]|afstand|str(ä|ae)cka|avst(å|aa)nd|odległo|расст|距[离離]|位置)",
     re.IGNORECASE,
 )
 _ACROSS_TITLE = re.compile(r"^\W*(y\b|y_)", re.IGNORECASE)
 _HEIGHT_TITLE = re.compile(
-    r"^\W*(z\b|z_|height|depth|h(ö|oe)he|tiefe|profondeur|elev|relative.height|profile"
+    r"^\W*(z\d*\b|z_|height|depth|h(ö|oe)he|tiefe|profondeur|elev|relative.height|profile"
     r"|(raw|total|primary|waviness|roughness) profile|hauteur|altitude|altezza|altura|hoogte"
     r"|h(ö|oe)jd|wysoko|выс|高[度さ])",
     re.IGNORECASE,
@@ -120,6 +120,7 @@ _INDEX_TITLE = re.compile(
     r"^\W*((index|idx|no|nr|n°|id|points?|pts?|punkt|count|row|sample)[ _.]*(no|nr|number)?)?\W*$",
     re.IGNORECASE,
 )
+_UNIT_OF_INDEX = re.compile(r"px|pix(el)?s?|pts?|points?|samples?|#", re.IGNORECASE)
 # Of columns and channels with a length these are no heights of a surface, or a part of them.
 NO_HEIGHT = re.compile(
     r"deflection|error|amplitude|phase|intensit|quality|friction|lateral force|speed|filter"
@@ -156,7 +157,7 @@ def _titled(table: TextTable, title: re.Pattern[str]) -> list[int]:
 
 
 def _profile_columns(
-    table: TextTable, channel: str | int | None, step: float | None
+    table: TextTable, channel: str | int | None, step: float | None, *, by_header: bool = False
 ) -> tuple[int | None, int]:
     """Return the columns of distances and heights; None for distances that the `step` states."""
     count = len(table.columns)
@@ -166,11 +167,15 @@ def _profile_columns(
         for at, column in enumerate(table.columns)
         if at not in x and (_TIME_TITLE.match(column.name) or spelled(column.unit, "time"))
     ]
-    numbered = [at for at in _titled(table, _INDEX_TITLE) if count > 2 and _counts(table, at)]
+    few = count == 2 and not by_header
+    numbered = [
+        at for at in range(count) if _is_index(table.columns[at], few) and _counts(table, at)
+    ]
+    x = [at for at in x if at not in numbered]
     rest = [at for at in range(count) if at not in (*x, *times, *numbered)]
     # with a step, columns without titles are a table of heights
     if not x and not times and len(rest) > 1 and (step is None or not table.names):
-        if len(rest) == 2 and step is None:
+        if len(rest) == 2 and (step is None or by_header):
             x, rest = rest[:1], rest[1:]
         elif channel is None:
             raise FileError(
@@ -185,6 +190,7 @@ def _profile_columns(
         numbers = {name: at for at, name in enumerate(table.names) if name}
         z = [numbers[channel] if channel in numbers else _column_number(table, channel)]
         x = [at for at in x if at not in z] or [at for at in rest if at not in z and not times][:1]
+        x = [at for at in x if at < z[0]][-1:] or x[:1]  # of pairs its own
     if len(z) != 1 or len(x) > 1:
         listed_columns = ", ".join(f"{at + 1} {table.columns[at].name!r}" for at in z)
         words = f"{table.path}: expected one column of heights; got {listed_columns}; give "
@@ -193,13 +199,12 @@ def _profile_columns(
         refusal.choices = tuple(table.columns[at].name if once else at + 1 for at in z)
         raise refusal
     if not x and step is None:
-        seconds = float(np.median(np.diff(table.numbers(times[0], "a time")[:100])))
-        unit = table.columns[times[0]].unit or ""
-        words = (
-            f"{table.path}: column {times[0] + 1}, {table.label(times[0])}, holds times, no "
-            "distances: give "
-        )
-        after = f", the distance between points: the speed times {seconds:.4g} {unit}".rstrip()
+        at, after = (*times, *numbered)[0], ", the distance between points"
+        if times:
+            seconds = float(np.median(np.diff(table.numbers(at, "a time")[:100])))
+            after += f": the speed times {seconds:.4g} {table.columns[at].unit or ''}".rstrip()
+        holds = f"column {at + 1}, {table.label(at)}, {'holds times' if times else 'counts points'}"
+        words = f"{table.path}: {holds}, no distances: give "
         raise unstated(words, "step", after, kind=FileError)
     return (x[0] if x else None), z[0]
 
@@ -208,6 +213,13 @@ def _is_no_height(title: ColumnTitle) -> bool:
     """Return whether a column has the unit of something else than a length, or a name of one."""
     other = any(spelled(title.unit, kind) for kind in UNITS if kind != "length")
     return other or bool(NO_HEIGHT.search(title.name))
+
+
+def _is_index(title: ColumnTitle, few: bool) -> bool:
+    """Return whether a title is one of numbers of points; of `few` columns it must be there."""
+    if title.unit is not None:
+        return bool(_UNIT_OF_INDEX.fullmatch(title.unit.strip()))
+    return bool(_INDEX_TITLE.match(title.name)) and (bool(title.name) or not few)
 
 
 def _counts(table: TextTable, column: int) -> bool:
@@ -247,7 +259,7 @@ def read_text_profile(
     distances put on equal ones. Raises `FileError`, which names the line, if the file cannot be
     read or understood, `InputError` if a unit is unknown or contradicts the file.
     """
-    lines = erd_as_table(read_lines(path, sheet=sheet))
+    lines = titled_lines(read_lines(path, sheet=sheet))
     column, header = column_in(path, lines, kinds=("length",)), read_header(lines)
     pair = None if step is None else (step, step)
     if column is not None:
@@ -262,7 +274,8 @@ def read_text_profile(
         return _profile(path, np.asarray(x, float), z, notes, depth_doubts(column, 0))
     table = _read_table(path, lines, "rows with two columns of numbers")
     steps = _stated_steps(path, pair, header.steps(max(2, len(table.rows))))
-    x_column, z_column = _profile_columns(table, channel, None if steps is None else steps[0])
+    spacing, by_header = (None, False) if steps is None else (steps[0], step is None)
+    x_column, z_column = _profile_columns(table, channel, spacing, by_header=by_header)
     if x_column is not None:
         x_unit = _column_unit(table, x_column, "x_unit", x_unit, header.x_unit)
     z_unit = _column_unit(table, z_column, "z_unit", z_unit, header.z_unit)
@@ -401,7 +414,7 @@ def read_text_map(
     Raises `FileError`, which names the line if possible, if the file cannot be read or understood,
     `InputError` if an argument is unknown or contradicts the file.
     """
-    lines = erd_as_table(read_lines(path))
+    lines = titled_lines(read_lines(path))
     header = read_header(lines)
     table = _read_table(path, lines, "rows of heights, or of x, y and z")
     count = len(table.columns)

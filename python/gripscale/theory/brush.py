@@ -84,8 +84,6 @@ class BrushForce(NamedTuple):
     """Braking force over the load [-]."""
     warming: Array
     """Largest temperature rise of the rubber in the patch [K]."""
-    sliding_from: Array
-    """y = x/L where bristles begin to slide [-]."""
 
 
 def brush_force(
@@ -129,7 +127,7 @@ def brush_force(
             edge > 0.0, brush.stiffness * brush.length * s / (1.0 - s) * edge**2, 0.0
         )
     force = (sliding + 0.5 * sheared[..., 0]) / brush.pressure
-    return BrushForce(force, warming.max(-1), edge[..., 0])
+    return BrushForce(force, warming.max(-1))
 
 
 class _Patch(NamedTuple):

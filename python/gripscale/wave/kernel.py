@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
-from typing import Protocol, TypeVar, runtime_checkable
+from typing import Any, Protocol, TypeVar, runtime_checkable
 
 import gripscale._kernel as _kernel
 from gripscale.core import InputError, checks
@@ -40,7 +40,7 @@ def solve_steady(
 ) -> Solution:
     """Return the static or steadily sliding solution; Ctrl-C and the end of a job interrupt it."""
     load, rubber = problem.load, problem.rubber
-    inputs: _kernel.Problem = {
+    inputs = {
         **_body(rubber, problem.profile, mesh),
         "load": {"pressure": load.pressure, "speed": load.speed, "load_time": load.load_time},
     }
@@ -76,12 +76,11 @@ def solution_of(start: ScaleResult) -> Solution:
     )
 
 
-def _work(workers: int | None, time_limit: float | None) -> _kernel.Work:
+def _work(workers: int | None, time_limit: float | None) -> dict[str, Any]:
     return {"workers": worker_count(workers), "time_limit": time_limit, "look": look}
 
 
-def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> _kernel.Body:
-    heights: _kernel.Sine | _kernel.Sampled
+def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> dict[str, Any]:
     if isinstance(profile, Sine):
         heights = {"kind": "sine", "wavelength": profile.wavelength, "amplitude": profile.amplitude}
     else:

@@ -20,7 +20,7 @@ from gripscale.core.errors import InputError
 from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.questions import Predicted, fit_area_term
-from gripscale.questions.calibration.page import notes, shear_stress_table
+from gripscale.questions.calibration.question import notes, shear_stress_table
 from tests.samples import DOCS
 
 from .synthetic import REFERENCE, TRUE, hysteresis, measurement
@@ -134,8 +134,6 @@ def test_a_flank_does_not_determine_the_top() -> None:
     assert math.isnan(by_name["stress_0"].high)
     assert math.isnan(by_name["speed_0"].high)
     assert not by_name["speed_0"].determined
-    said = " ".join(notes(fit))
-    assert "The upper end of stress_0 is not determined by the data." in said
     assert "upper end not determined" in shear_stress_table(fit)
 
 
@@ -147,7 +145,6 @@ def test_one_speed_determines_the_height_of_the_bell_alone() -> None:
     fit = fit_area_term(*measurement(speeds=np.full(4, 0.02)))
     determined = {one.name for one in fit.estimates if one.determined}
     assert determined == {"stress_0"}
-    assert "width is not determined by the data." in " ".join(notes(fit))
 
 
 def test_fixed_parameters_stay() -> None:

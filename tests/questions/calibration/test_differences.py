@@ -13,7 +13,7 @@ from gripscale.core.units import DISPLAY_UNITS
 from gripscale.experiment import MeasuredFriction
 from gripscale.io.table import as_text
 from gripscale.questions import Predicted, residuals
-from gripscale.questions.calibration.page import residual_table
+from gripscale.questions.calibration.question import residual_table
 
 MEASURED = MeasuredFriction(
     [0.1, 1.0, 10.0], [0.5, 0.6, 0.7], [0.1, np.nan, 0.05], [293.15] * 3, pressure=[2e5, 3e5, 3e5]

@@ -13,7 +13,7 @@ from gripscale.conditions import Conditions
 from gripscale.io.table import as_text, significant
 from gripscale.questions import SolvedLadder
 from gripscale.questions.answer.page import answer_lines
-from gripscale.questions.compare.page import comparison_table, remarks
+from gripscale.questions.compare.page import comparison_table, temperature_only
 from gripscale.surface import self_affine_profile
 from tests.samples import SOFTENING
 
@@ -96,7 +96,7 @@ def test_a_theory_knows_temperature_and_softening(made: SolvedLadder) -> None:
     data = made.data
     assert any(
         "Softening: in the chains, the direct contacts and Persson" in line
-        for line in remarks(data)
+        for line in temperature_only(data)
     )
 
 

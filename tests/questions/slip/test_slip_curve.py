@@ -14,8 +14,7 @@ from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.questions.slip import question
-from gripscale.questions.slip.friction_table import AXES, TABLE, TableFriction
-from gripscale.questions.slip.vehicle_formulas import FORMULAS
+from gripscale.questions.slip.friction_table import AXES, FORMULAS, TABLE, TableFriction
 from gripscale.theory import Brush
 from tests.questions.answer.test_answer_object import CASE
 from tests.samples import Shell

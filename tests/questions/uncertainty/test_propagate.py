@@ -17,7 +17,7 @@ from gripscale.core.units import display_unit_of
 from gripscale.io import netcdf
 from gripscale.questions import Uncertainty
 from gripscale.questions.page_of_folder import write_report
-from gripscale.questions.uncertainty.page import page_notices, sampling_failure, too_many_failed
+from gripscale.questions.uncertainty.question import SampledAnswer
 
 from .sampled import propagate
 
@@ -134,23 +134,20 @@ def test_failures_are_counted_and_said(half_failing):
     data, _ = half_failing
     assert int(data.failed.sum()) == 5
     assert np.isfinite(data.friction.values).sum() == 5
-    assert str(sampling_failure(data)).startswith(
-        "5 of 10 samples have no answer and count in no quantile; 5"
+    assert SampledAnswer(data).failure.startswith(
+        "5 of 10 samples have no answer and count in no quantile; the first: "
     )
     assert np.isfinite(data.friction_quantile).all()
-    assert too_many_failed(data)
-    (notice,) = page_notices(data)
-    assert notice.severity == "error"
 
 
 def test_few_failures_are_a_warning(half_failing):
     """Up to a quarter of the samples of a model: the others stand for all."""
     data, _ = half_failing
     few = data.assign(failed=0 * data.failed + 2)
-    assert not too_many_failed(few)
-    (notice,) = page_notices(few)
+    assert not SampledAnswer(few).failure
+    (notice,) = SampledAnswer(few).findings
     assert notice.severity == "warning"
-    assert too_many_failed(data.assign(failed=0 * data.failed + 3))
+    assert SampledAnswer(data.assign(failed=0 * data.failed + 3)).failure
 
 
 def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
@@ -163,7 +160,7 @@ def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
     choice = Uncertainty(without=["waves", "modulus"], ranges={"equilibrium_modulus": "1 Pa,6 MPa"})
     data = propagate(read_case(case), choice, samples=10, models=["chain"])
     assert int(data.failed.sum()) == 5
-    assert "equilibrium_modulus [Pa] must be" in str(sampling_failure(data))
+    assert "equilibrium_modulus [Pa] must be" in SampledAnswer(data).failure
     assert set(data.status_word.values.ravel()) == {"converged", ""}  # a refusal has no word
 
 

@@ -16,7 +16,7 @@ from gripscale.core.errors import InputError
 from gripscale.io.table import significant
 from gripscale.questions import Compounds, at_one_temperature, compare_compounds
 from gripscale.questions.page_of_folder import write_report
-from gripscale.questions.vary.charts_side_by_side import ranking_figure
+from gripscale.questions.vary.charts import ranking_figure
 from gripscale.questions.vary.friction_ratio import (
     FrictionRatio,
     ratio_changes,

@@ -300,10 +300,3 @@ def test_a_study_says_what_lies_beyond_the_band(case: Path, shell: Any) -> None:
     assert result.total_decades_below_band.values[0] == pytest.approx(
         np.log10(0.01 / (2e-4 * np.pi))
     )
-
-
-def test_steep_waves_of_factors_are_named_before_they_are_solved(case: Path) -> None:
-    lines = Study(read_case(case), {"factors": "3/3.2,3/1.1"}).description()
-    (steep,) = (line for line in lines if "take minutes" in line)
-    assert "factors 3 and 1.1 make waves of slope" in steep
-    assert "steeper than 3 they take minutes or have no solution" in steep

@@ -25,8 +25,7 @@ def test_command_solves_prints_draws_and_resumes(
     }
     files = {"case.toml", "study.nc", "study.txt"}
     assert written == files | {".case", "report.html", "figures/totals.png"}
-    for words in ("speed (3) x pressure (2); 6 different predictions", "[6/6] speed"):
-        assert words in result.stdout
+    assert "[6/6] speed" in result.stdout
     data = netcdf.load_dataset(target / "study.nc")
     assert f"{float(data.total_friction[2, 1]):.3f}" in result.stdout
     assert result.stdout.count("converged") == 6

@@ -17,9 +17,8 @@ from gripscale.conditions import Conditions, ConstantStress
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.io.table import as_text
-from gripscale.questions import Study
+from gripscale.questions import Study, Variation
 from gripscale.questions.vary.axis import axes_of
-from gripscale.questions.vary.page import shift_sentence, study_table
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane, KlueppelHeinrich, Persson
@@ -158,8 +157,10 @@ def test_friction_by_decade_is_of_the_rubber_as_warm_as_it_is(case: Path) -> Non
 def test_temperatures_beyond_the_shift_are_flagged_and_said(case: Path, tmp_path: Path) -> None:
     result = Study(read_case(case), {"temperature": "10 C, 60 C"}).run(tmp_path / "out")
     assert result.rubber_temperature_extrapolated.values.tolist() == [False, True]
-    assert shift_sentence(result).startswith("1 of 2 predictions lie beyond the temp")
-    text = as_text(study_table(result))
+    assert any(
+        "1 of 2 predictions lie beyond the temp" in str(f) for f in Variation(result).findings
+    )
+    text = as_text(Variation(result).table())
     assert "60 °C *" in text
     assert "10 °C *" not in text
 
@@ -177,7 +178,7 @@ def test_effects_are_left_out_by_name(case: Path, tmp_path: Path) -> None:
         alone = own.predict(task.rubber, task.surface, task.load)
         assert float(result.total_friction[i]) == float(alone.total_friction)
         assert float(result.total_adhesive_friction[i]) == float(alone.total_adhesive_friction)
-    text = as_text(study_table(result))
+    text = as_text(Variation(result).table())
     assert "area term" in text
     assert "no effects" in text
 

@@ -41,7 +41,7 @@ from gripscale.questions.answer.variables import (
 from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.view import PredictionView
-from gripscale.questions.cut_off.charts import cut_off_sheet
+from gripscale.questions.cut_off.question import cut_off_sheet
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import NO_WIDTHS, Result

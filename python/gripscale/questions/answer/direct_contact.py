@@ -45,7 +45,7 @@ from gripscale.questions.cut_off.curve import (
     cut_off_curve,
     refusals,
 )
-from gripscale.questions.inputs.findings import in_words
+from gripscale.questions.inputs.record import in_words
 from gripscale.surface.random_phases import PHASES_FREEDOM, REAL_PHASES
 
 

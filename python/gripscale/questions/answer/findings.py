@@ -27,14 +27,14 @@ from gripscale.questions.answer.reliance import (
 )
 from gripscale.questions.answer.variables import answer_number, has_answer
 from gripscale.questions.cut_off.curve import CONTINUED_TO
-from gripscale.questions.inputs.findings import (
+from gripscale.questions.inputs.record import (
+    InputRecord,
     extrapolated,
     extrapolated_roughness,
     in_words,
     input_findings,
     misfits,
 )
-from gripscale.questions.inputs.record import InputRecord
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.wave.result import LARGE_MISMATCH

@@ -32,6 +32,7 @@ from gripscale.questions.answer.findings import (
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.variables import (
     ERROR_LEFT,
+    FRICTION_BELOW_MEASUREMENT,
     HEADINGS,
     SYMBOLS,
     AnswerNumber,
@@ -42,10 +43,8 @@ from gripscale.questions.answer.variables import (
 from gripscale.questions.chain.page import chain_section
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.cut_off.question import CutOff
-from gripscale.questions.inputs.findings import signed_percent
 from gripscale.questions.inputs.page import files_table, rubber_section, surface_section
-from gripscale.questions.inputs.record import InputRecord
-from gripscale.questions.uncertainty.sampled_answer import FRICTION_BELOW_MEASUREMENT
+from gripscale.questions.inputs.record import InputRecord, signed_percent
 from gripscale.report.again import case_title, rerun_section
 from gripscale.report.elements import Card, Element, Facts, Page, Section, Text, percent_text
 from gripscale.report.equations import method_section

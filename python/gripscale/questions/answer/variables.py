@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import xarray as xr
 
@@ -37,6 +37,8 @@ JUDGE = "direct contact of the profiles"  # what a figure of a chain calls the m
 OF_THE_PAPER = "the paper's chain of waves"
 ANSWER = "answer (90 %)"  # what figures call the answer with its interval
 
+# Name of the share of the friction in waves shorter than the `resolution_limit` [m].
+FRICTION_BELOW_MEASUREMENT = "friction_below_measurement"
 # Both parts of a friction with an interface.
 HYSTERESIS, INTERFACE = "answer_hysteresis_friction", "answer_interface_friction"
 # Lines of an answer relative to the end of what the step to their surface was fitted to.
@@ -200,6 +202,6 @@ def answer_number(data: xr.Dataset, name: str) -> AnswerNumber:
     """Return a number of the answer of one load, such as `friction`; NaN without one."""
     if not has_answer(data):
         return AnswerNumber(math.nan, math.nan, math.nan)
-    start = f"answer_{name}"
-    values: list[Any] = [data.get(f"{start}{end}", math.nan) for end in ("", "_low", "_high")]
-    return AnswerNumber(*map(float, values))
+    names = [f"answer_{name}{end}" for end in ("", "_low", "_high")]
+    # `get` would look for names that are spelled like a missing one
+    return AnswerNumber(*(float(data[n]) if n in data else math.nan for n in names))

@@ -14,34 +14,46 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.charts.draw import image
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
+from gripscale.charts.page_elements import Picture
+from gripscale.charts.style import BLUE, FAINT, GREY, ORANGE, WIDE
 from gripscale.conditions import Conditions
 from gripscale.conditions.area_term import (
     FittedPoints,
     InterfacialShearStress,
     shear_stress_from_dict,
+    shear_stress_to_dict,
 )
 from gripscale.core import Array, InputError, checks
-from gripscale.core.finding import Finding, Severity, to_json
+from gripscale.core.finding import Finding, sentences, to_json
+from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, celsius, display_unit_of
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import (
+    MEASURED,
     MeasuredFriction,
+    MeasuredSeries,
     friction_doubts,
     read_measured_friction,
     speed_doubts,
 )
 from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.io.table import Table
-from gripscale.model import INPUT_DOUBTS, STATUS
+from gripscale.io.table import Column, Table, digits, fixed, least_to_most, percent, significant
+from gripscale.model import INPUT_DOUBTS, STATUS, input_doubts_of
 from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.calibration import calibration_law as laws
-from gripscale.questions.calibration import page
 from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate, fit_area_term
-from gripscale.questions.calibration.charts import calibration_pictures
+from gripscale.questions.calibration.calibration_law import (
+    LIKELIHOOD_LEVEL,
+    PARAMETERS,
+    WRITTEN,
+    written,
+)
 from gripscale.questions.calibration.measured_comparison import (
     Predicted,
     answers_at,
@@ -49,30 +61,87 @@ from gripscale.questions.calibration.measured_comparison import (
     predicted_of,
 )
 from gripscale.questions.calibration.profile_likelihood import groups_of
+from gripscale.questions.compare.charts import measured_sheet
 from gripscale.questions.inputs import record
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.questions.vary.inputs import default_model
-from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Page, Section, Text, as_elements
 from gripscale.report.failures import failures_in, first_of
-from gripscale.rubber.extrapolation import require_measured
+from gripscale.rubber.extrapolation import WORTH_SAYING, require_measured
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+CEILING = 2.5  # highest excess that is drawn, over the threshold
+
+
+def fitted_figure(data: xr.Dataset) -> Figure:
+    """Draw measured friction with its spread, the hysteresis alone, and the total with its band."""
+    level = f"{100.0 * data.attrs['level']:.0f} % interval of the fit"
+
+    def fit(series: MeasuredSeries, speed_unit: DisplayUnit) -> list[Mark]:
+        rows = series.rows[np.isfinite(data.friction.values[series.rows])]
+        speed = speed_unit.of(data.measured_speed.values[rows])
+        total, band, hysteresis = (
+            data[name].values[rows] for name in ("friction", "friction_band", "hysteresis")
+        )
+        return [
+            ShadedBand(speed, total - band, total + band, ORANGE, level, alpha=0.25),
+            Series(speed, total, ORANGE, "hysteresis and area term"),
+            Series(speed, hysteresis, BLUE, "hysteresis alone", marker="."),
+        ]
+
+    return measured_sheet(data, fit, head=0.5).on_paper()
+
+
+def profiles_figure(data: xr.Dataset) -> Figure:
+    """Draw by how much the sum of squares rises where each parameter is held elsewhere."""
+    count = data.sizes["parameter"]
+    columns = 2 if count == 4 else min(count, 3)
+    panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
+    height = 0.4 + 2.1 * -(-count // columns)
+    look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05, "layout": {"sharey": True}}
+    return Sheet(panels, columns, min(3.5 * columns, WIDE), height, **look).on_paper()
+
+
+def _profile_panel(data: xr.Dataset) -> Panel:
+    threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
+    unit = str(data.unit.item())
+    display = WRITTEN.get(unit, DisplayUnit("-" if unit == "1" else unit))
+    rows = np.isfinite(data.profile_excess.values)
+    value, excess = display.of(data.profile_value.values[rows]), data.profile_excess.values[rows]
+    low, high, best = (float(display.of(data[name])) for name in ("low", "high", "estimate"))
+    least, most = float(value.min()), float(value.max())
+    ends = [end if np.isfinite(end) else edge for end, edge in ((low, least), (high, most))]
+    name = str(data.parameter.item())
+    missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
+    title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
+    return Panel(
+        PlotAxis(f"{PARAMETERS[name].label} [{display.unit}]", low=least, high=most,
+             log=name != "activation_energy" and most > 5.0 * least),
+        PlotAxis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
+        [
+            CrossLine(ends[0], FAINT, "interval", upright=True, to=float(ends[1])),
+            Series(value, excess, BLUE, "profile"),
+            CrossLine(threshold, ORANGE, f"{100.0 * level:.0f} %", width=1.0),
+            CrossLine(best, GREY, "best", width=1.0, upright=True),
+        ],
+        title=title if missing else "",
+    )  # fmt: skip
+
 
 _MODELS = ("direct", "chain")  # models whose hysteresis an area term can be put beside
 # Contacts with the heat that the measured friction makes: passes at most, and the friction to which
 # two of them agree.
 MOST_WARMINGS, SAME_FRICTION = 6, 2e-3
-_CALIBRATION = (
-    "A law of the shear stress in the real contact area, fitted so that the predicted hysteresis "
-    "and this area term together give the measured friction. The hysteresis is not fitted."
-)
 
 
 class Calibration(Result):
-    """The area term of a case that agrees best with measured friction."""
+    """The area term of a case that agrees best with measured friction.
+
+    A law of the shear stress in the real contact area: with it the predicted hysteresis, which is
+    not fitted, gives the measured friction.
+    """
 
     kind = "calibration"
     fit: AreaTermFit | None = None
@@ -85,12 +154,37 @@ class Calibration(Result):
 
     @property
     def estimates(self) -> Sequence[Estimate]:
-        """The fitted parameters with their 90 % intervals."""
-        return tuple(page.estimates(self.data))
+        """The fitted parameters with their 90 % intervals, in the units of the law."""
+        estimates = []
+        for name in self.data.parameter.values:
+            part = self.data.sel(parameter=name)
+            unit = str(part.unit.item()).removesuffix("1")
+            numbers = (float(part[key]) for key in ("estimate", "standard_error", "low", "high"))
+            estimates.append(Estimate(str(name), unit, *numbers))
+        return estimates
 
     @property
     def lines(self) -> Sequence[str]:
-        return tuple(page.calibration_lines(self.data))
+        data, difference = self.data, self.data["difference"]
+        values = ", ".join(f"{e.words} = {e.text(3)} ({e.interval})" for e in self.estimates)
+        doubts = sentences(input_doubts_of(data))
+        lead = f"none to rely on. {doubts} It would be an area term" if doubts else "area term"
+        answer = f"Answer: {lead} with {values} ({data.attrs['level']:.0%} intervals)."
+        if not bool(data["area_term"].notnull().any()):
+            return (answer,)
+        term, hysteresis = (least_to_most(data[name]) for name in ("area_term", "hysteresis"))
+        share = float((data["area_term"] / data["friction"]).mean())
+        missed, without = (
+            significant(float(np.sqrt((part**2).mean())), 2)
+            for part in (difference, difference - data["area_term"])
+        )
+        return (
+            answer,
+            f"  It adds {term} to a hysteresis friction of {hysteresis}: {percent(share)} of the "
+            "friction in the mean of the points.",
+            f"  Friction with it misses the measured friction by {missed} (rms), without it by "
+            f"{without}.",
+        )
 
     @property
     def findings(self) -> Sequence[Finding]:
@@ -101,42 +195,175 @@ class Calibration(Result):
         return first_of(failures_in(self.data), self.data[STATUS].size, "measured points")
 
     def parts(self) -> Iterator[str | Table]:
-        yield page.misfit_table(self.data)
         yield self.table()
-        yield from filter(None, [page.correlations(self.data)])
+        yield self._misfit_table()
         if "left_out" in self.data.coords:
-            yield page.held_out_table(self.data)
+            yield self._held_out_table()
         yield from str(self.data.attrs.get("notes", "")).splitlines()
 
     def table(self) -> Table:
-        return page.parameter_table(self.data)
+        """Return value, standard error and interval of each fitted parameter."""
+        fitted = self.estimates
+        errors = [written(e.standard_error, e.unit, 2) if e.determined else "" for e in fitted]
+        level = f"{self.data.attrs['level']:.0%} by profile likelihood".replace("%", " %")
+        columns = [
+            Column("parameter", [e.name for e in fitted]),
+            Column("value", [e.text(4) for e in fitted], words=False),
+            Column("standard_error", errors, "standard error", words=False),
+            Column("interval", [e.interval for e in fitted], level),
+        ]
+        bad = [not e.determined for e in fitted]
+        return Table("parameters", columns, "Parameters of the law", bad=bad)
 
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        for picture in calibration_pictures(self.data):
-            yield picture.name, picture.figure
+    def _misfit_table(self) -> Table:
+        """Return the fitted friction beside the measured one, point by point."""
+        names = ["hysteresis", "area_term", "friction", "difference", "difference_in_spread"]
+        data, model = self.data, [str(self.data.attrs.get("model", "fit"))]
+        table = data[[*names, *(f"measured_{name}" for name in MEASURED)]]
+        table = table.assign({name: data[name].expand_dims(model=model) for name in names})
+        rms = {f"rms_{n}": np.sqrt((table[n] ** 2).mean("measurement")) for n in names[3:]}
+        return residual_table(table.assign(rms))
 
-    def page_content(self) -> Page:
-        attrs, case = self.data.attrs, case_title(self.data.attrs)
-        errors = [Finding(Severity.ERROR, self.failure)] if self.failure else []
-        points, *tables = as_elements(self.parts())
-        fit, profiles = map(image, calibration_pictures(self.data))
-        law = [fit, page.law_facts(self.data), Text(_CALIBRATION), *tables]
-        return Page.of(
-            f"{attrs.get('title', 'Calibration')}{f': {case}' if case else ''}",
-            str(attrs.get("model", "")).replace("_", " "),
-            [*errors, *self.findings],
-            [
-                Card(e.words, e.text(3), "", not e.determined, f"{e.interval} (90 %)")
-                for e in self.estimates
-            ],
-            [
-                Section("law", "The law", law),
-                Section("points", "Point by point", [points]),
-                Section("profiles", "How well the data determine the law", [profiles]),
-                rerun_section(attrs),
-            ],
-            (line.strip() for line in self.lines),
+    def _held_out_table(self) -> Table:
+        """Return the errors of the law at each group of points, fitted to the others."""
+        data = self.data
+        by_temperature = data.attrs["held_out_by"] == "temperature"
+        names = [
+            celsius(value, ".0f") if by_temperature else f"{value:g} to {10.0 * value:g} m/s"
+            for value in data.left_out.values
+        ]
+        columns = [Column("left_out", names, "left out")]
+        for name, form in (
+            ("points", "{:.0f}".format),
+            *((f"rms_{name}", digits(2)) for name in ("inside", "outside", "outside_in_spread")),
+        ):
+            columns.append(Column(name, data[name].values, name.replace("_", " "), format=form))
+        columns.append(Column("why_not", data.why_not.values, "why not"))
+        return Table("held-out", columns, "The law at points that were left out")
+
+    def pictures(self) -> Iterator[Picture]:
+        yield Picture(
+            "measured_and_fitted",
+            fitted_figure(self.data),
+            "Measured friction with its spread, the hysteresis alone, and the fit with its band, "
+            "at each temperature.",
+            "A panel for each temperature with points and two curves over the speed.",
         )
+        yield Picture(
+            "profiles",
+            profiles_figure(self.data),
+            "Rise of the sum of squares if a parameter is held at another value.",
+            "A panel for each parameter with a valley around its best value.",
+        )
+
+
+def residual_table(data: xr.Dataset) -> Table:
+    """Return measured and predicted friction, their difference, and it over the spread.
+
+    `data` is what `gripscale.questions.residuals` answers; its root mean squares stand below.
+    """
+    speeds, pressures = (display_unit_of(data.attrs, name) for name in ("speed", "pressure"))
+    spread, kelvin = bool(np.isfinite(data.measured_spread).any()), data.measured_temperature.values
+    points = [
+        Column("speed", data.measured_speed.values, "v", speeds.unit, speeds.divisor),
+        Column("temperature", kelvin, "T", "°C", zero=ZERO_CELSIUS, format=fixed(1)),
+        Column("pressure", data.measured_pressure.values, "p", pressures.unit, pressures.divisor),
+        Column("measured_friction", data.measured_friction.values, "μ", format=fixed(3)),
+        Column("measured_spread", data.measured_spread.values, "spread", format=fixed(3)),
+    ]
+    points = [column for column in points if np.isfinite(column.values).any()]
+    columns, notes = [column.of(column.values, group="measured") for column in points], []
+    for name in data.model.values.tolist():
+        model = data.sel(model=name).transpose("measurement", ...)
+        group = str(name).replace("_", " ")
+        parts = [
+            Column("hysteresis", heading="μ hyst.", format=fixed(3)),
+            Column("friction", heading="μ", format=fixed(3)),
+            Column("difference", heading="Δμ", format=fixed(3, "+")),
+            Column("difference_in_spread", heading="Δμ / spread", format=fixed(1, "+")),
+        ]
+        wanted = {"hysteresis": "area_term" in data, "difference_in_spread": spread}
+        columns += [
+            part.of(model[part.name].values, name=f"{name}_{part.name}", group=group)
+            for part in parts
+            if wanted.get(part.name, True)
+        ]
+        rms = f"{float(model.rms_difference):.3f}"
+        if spread:
+            rms += f", {float(model.rms_difference_in_spread):.1f} times the spread"
+        notes.append(f"Root mean square of Δμ, {group}: {rms}.")
+    return Table("residuals", columns, "Measured and predicted friction", notes, keys=len(points))
+
+
+UNLIKELY = 0.01  # chance of the sum of squares below which something must be wrong
+
+
+def notes(calibration: AreaTermFit) -> Iterator[str]:
+    """Yield a sentence on each thing to know before the numbers are used."""
+    if not calibration.spread_known:
+        yield (
+            f"No spread is stated: the scatter of the residuals, {calibration.scatter:.2g}, "
+            "takes its place, whatever its cause."
+        )
+    elif calibration.chance < UNLIKELY:
+        yield (
+            f"The residuals are {calibration.scatter:.2g} times the stated spread: law, hysteresis "
+            "or spread is wrong, and the intervals are too narrow."
+        )
+    if (
+        calibration.law.kind == "gaussian"
+        and calibration.problem.held.get("activation_energy") == 0
+    ):
+        yield (
+            "No activation energy: the temperatures in the contact are only "
+            f"{calibration.problem.points.temperature_range:.2g} K apart and do not determine it. "
+            "The law holds at the measured temperature."
+        )
+    predicted = calibration.predicted
+    if without := int((~predicted.has_answer).sum()):
+        why = next(s for s, k in zip(predicted.status, predicted.has_answer, strict=True) if not k)
+        yield f"Measured points without a prediction, which do not count: {without}, as {why}."
+    if below := int((calibration.problem.points.difference < 0.0).sum()):
+        yield f"Measured points below the hysteresis alone: {below}."
+    if beyond := int((predicted.outside_band > WORTH_SAYING).sum()):
+        yield (
+            f"Points where more than {WORTH_SAYING:.0%} of the hysteresis rests on the rubber "
+            f"outside its measured frequencies: {beyond}."
+        )
+
+
+def shear_stress_table(calibration: AreaTermFit) -> str:
+    """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
+    law = shear_stress_to_dict(calibration.law)
+    points = law.pop("fitted_to")
+    estimates = {estimate.name: estimate for estimate in calibration.estimates}
+    source = Path(calibration.measured.source).name or "a measurement"
+    lines = [
+        f"# Fitted to {calibration.problem.points.speed.size} points of {source};",
+        f"# intervals of {LIKELIHOOD_LEVEL:.0%} by profile likelihood, for this rubber on this "
+        "surface.",
+        "[conditions.shear_stress]",
+        f'kind = "{law.pop("kind")}"',
+    ]
+    if calibration.law.kind == "gaussian" and law["activation_energy"] == 0.0:
+        del law["activation_energy"], law["reference_temperature"]
+        lines.insert(2, "# No activation energy: the law holds at the measured temperature.")
+    for name, value in law.items():
+        unit = PARAMETERS[name].unit
+        text = written(float(value), unit)
+        text = f'"{text}"' if unit else text
+        about = estimates[name].interval if name in estimates else "held"
+        lines.append(f"{name} = {text}  # {about}")
+    if points is not None:
+        if points["temperature"] is not None:
+            points["temperature"] = [f"{kelvin!r} K" for kelvin in points["temperature"]]
+        rows = ((key, value) for key, value in points.items() if value is not None)
+        lines += [
+            "# Without this table an answer has the whole error of its contact area.",
+            "[conditions.shear_stress.fitted_to]",
+            *(f"{key} = {json.dumps(value)}" for key, value in rows),
+        ]
+    return "\n".join(lines) + "\n"
 
 
 def calibrate(
@@ -210,9 +437,7 @@ def calibrate(
     fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
     if model != Chain.name:  # whose answers have no interval
         fit = replace(fit, fitted_to=_points_of(fit, case))
-    data = fit.to_dataset().assign_attrs(
-        case.attributes, model=model, notes="\n".join(page.notes(fit))
-    )
+    data = fit.to_dataset().assign_attrs(case.attributes, model=model, notes="\n".join(notes(fit)))
     if far := speed_doubts(friction, case.load.speed):
         data.attrs[INPUT_DOUBTS] = to_json(far)
     # its speeds have a doubt of their own

@@ -1,18 +1,16 @@
-"""Charts of a comparison: from model to model, down to each wavelength, over a varied input.
-
-Surfaces and compounds side by side are in `gripscale.questions.vary.charts_side_by_side`.
-"""
+"""Charts of a comparison: from model to model, down to each wavelength, over a varied input."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from gripscale.charts import chart, style
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series
@@ -24,12 +22,149 @@ from gripscale.experiment.measured_friction import MeasuredSeries, measured_seri
 from gripscale.half_space.model import DirectContact
 from gripscale.model import with_adhesive
 from gripscale.questions import view
-from gripscale.questions.answer.variables import AXIS_TITLES, believed
-from gripscale.questions.compare import charts_of_ladder as ladder
-from gripscale.questions.compare.charts_of_ladder import BEST, Row
+from gripscale.questions.answer.intervals import UPPER_LIMITS
+from gripscale.questions.answer.variables import AXIS_TITLES, answer_number, believed
+from gripscale.questions.view import STAR
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+ASIDE = ("windows",)  # groups of other surfaces, which only give factors of the answer
+# Share of friction or area from which on a wavelength is drawn: longer waves do nothing.
+SEEN = 0.01
+
+
+def flawed(comparison: xr.Dataset) -> NDArray[np.bool_]:
+    """Return whether a sample of each model failed."""
+    return np.asarray((comparison["converged_samples"] < comparison["samples"]).values)
+
+
+def varied(comparison: xr.Dataset) -> str:
+    """Return the axis of a comparison, or an empty text if nothing was varied."""
+    return next((str(dim) for dim in comparison.total_friction.dims if dim != "model"), "")
+
+
+def worth_drawing(comparison: xr.Dataset) -> NDArray[np.bool_]:
+    """Return for each octave whether a model has friction or lost area down to it."""
+    friction, area = comparison.running_friction, comparison.running_contact_fraction
+    if not friction.size:  # maps and windows at finite strain have no octaves
+        return np.zeros(0, dtype=np.bool_)
+    begun = np.abs(friction) > SEEN * np.abs(friction).max("wavelength")
+    return np.asarray((begun | (area < 1.0 - SEEN)).any("model").values)
+
+
+def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
+    """Return the comparison without the models of other surfaces, unless it has no others."""
+    chosen = [str(group) not in ASIDE for group in comparison.group.values]
+    return comparison.isel(model=chosen) if any(chosen) else comparison
+
+
+def by_label(comparison: xr.Dataset) -> xr.Dataset:
+    """Return the models called by what figures and texts call them."""
+    return comparison.assign_coords(model=("model", comparison["label"].values))
+
+
+MARKERS = "osD^v"  # of measurements at several temperatures or pressures
+
+
+def measured_points(data: xr.Dataset, speed_unit: DisplayUnit) -> Iterator[Series]:
+    """Yield the points of each measured series over speed, in `speed_unit`, with their spread."""
+    for number, series in enumerate(measured_series(data)):
+        spread = np.nan_to_num(series.spread)
+        ends: dict[str, Any] = {"low": series.friction - spread, "high": series.friction + spread}
+        yield Series(speed_unit.of(series.speed), series.friction, INK, series.label, "",
+                     marker=MARKERS[number % len(MARKERS)], size=5.5, filled=False, order=5.0,
+                     clip=False, **ends)  # fmt: skip
+
+
+BEST = "answer"
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of the figure: a number, and the bar from the number it follows."""
+
+    label: str
+    value: float
+    uncertainty: float = math.nan
+    before: float = math.nan  # where the bar begins; NaN for none
+    factor: float = math.nan
+    samples: tuple[float, ...] = ()
+    marker: str = "o"
+    colour: str = INK
+    filled: bool = True
+    note: str = ""  # said in place of a number there is not
+    most: float = math.inf  # upper limit of the number, where it has one
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The number less and plus one standard uncertainty; NaN where that is unknown."""
+        spread = math.exp(self.uncertainty)
+        return self.value / spread, min(self.value * spread, self.most)
+
+    @property
+    def numbers(self) -> list[float]:
+        """All that is drawn on the line."""
+        numbers = (self.value, self.before, *self.samples, *self.ends)
+        return [number for number in numbers if math.isfinite(number)]
+
+
+def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
+    """Yield the lines of one panel; both panels have the same."""
+    for row in _rows(comparison, name):
+        yield replace(row, most=UPPER_LIMITS.get(name, math.inf))
+
+
+def _rows(comparison: xr.Dataset, name: str) -> Iterator[Row]:
+    comparison = on_the_surface(comparison)
+    totals = comparison[f"total_{name}"].values.tolist()
+    values = dict(zip(comparison.model.values, totals, strict=True))
+    for at, (member, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
+        solved = comparison.isel(model=at)
+        theory, judge = str(solved.group.item()) == "theory", member == DirectContact.name
+        samples = solved[f"sample_{name}"].values
+        star = STAR if style.predictions_beyond(solved) else ""
+        yield Row(
+            f"{solved.label.item()}{star}",
+            values[member],
+            float(solved[f"{name}_uncertainty"]),
+            math.nan if theory else values.get(str(solved.follows.item()), math.nan),
+            float(solved[f"{name}_factor"]),
+            tuple(samples[np.isfinite(samples)].tolist()) if int(solved.samples) > 1 else (),
+            marker="D" if judge else "s" if theory else "o",
+            colour=GREY if theory else ORANGE if judge else INK,
+            filled=not bad,
+            note="failed" if math.isnan(values[member]) and not theory else "none",
+        )
+    yield from _best(comparison, name, values.get(DirectContact.name, math.nan))
+    for series in measured_series(comparison):
+        point = series.at(float(comparison.nominal_speed)) if name == "friction" else None
+        if point is None:
+            note = "not at this speed" if name == "friction" else "–"
+            yield Row(series.label, math.nan, note=note)
+        else:
+            friction, spread = point
+            yield Row(series.label, friction, spread / friction, marker="P", colour=INK)
+
+
+def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
+    """Yield the factors of the answer, and the answer itself where it has any."""
+    factors = comparison[f"answer_{name}_factor"].values
+    if not math.isfinite(float(comparison[f"answer_{name}"])):
+        return
+    for at, factor in enumerate(factors):
+        label = f"× {comparison.factor_label.values[at]}"
+        if not math.isfinite(factor):
+            yield Row(label, math.nan, note="not included")
+            continue
+        sigma = float(comparison[f"answer_{name}_factor_uncertainty"][at])
+        yield Row(label, value * factor, sigma, value, factor)
+        value *= factor
+    if np.isfinite(factors).any():
+        answer = answer_number(comparison, name)
+        width = math.log(answer.value / answer.low) if answer.value > 0.0 else math.nan
+        yield Row(BEST, answer.value, width, marker="*", colour=ORANGE)
+
 
 # Largest over smallest number of an axis, at least: less has no numbers of a log axis in it.
 _LEAST_RANGE = 3.0
@@ -63,14 +198,14 @@ def _quantities(comparison: xr.Dataset) -> list[str]:
 
 
 def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
-    rows = list(ladder.rows_of(comparison, name))
+    rows = list(rows_of(comparison, name))
     numbers = [end for row in rows for end in row.numbers if end > 0.0] or [0.1, 1.0]
     low, high = min(numbers), max(numbers)
     widen = max(_LEAST_RANGE * low / high, 1.0) ** 0.5
     low, high = low / widen, high * widen
     room = (high / low) ** 0.13
     theories = int((comparison.group == "theory").sum())
-    models = ladder.on_the_surface(comparison).sizes["model"]
+    models = on_the_surface(comparison).sizes["model"]
     borders = [models - theories - 0.5, models - 0.5] if theories else [models - 0.5]
     marks: list[Mark] = [chart.CrossLine(at, FAINT, order=0.0) for at in borders]
     for at, (row, follower) in enumerate(pairwise(rows)):
@@ -111,20 +246,14 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     yield chart.Note(max(row.numbers), at, text, offset=(5.0, 0.0))
 
 
-def _by_label(comparison: xr.Dataset) -> xr.Dataset:
-    """Return the models on the surface, called by what figures call them."""
-    data = ladder.on_the_surface(comparison)
-    return data.assign_coords(model=("model", data["label"].values))
-
-
 def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
     """Describe area or friction of each model down to each wavelength.
 
     Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
     contact do that. Their area is that of the contact without the shorter waves.
     """
-    data = _by_label(comparison)
-    data = data.isel(wavelength=ladder.worth_drawing(data))
+    data = by_label(on_the_surface(comparison))
+    data = data.isel(wavelength=worth_drawing(data))
     flags = xr.DataArray(False)
     if FLAG in data:
         flags = data[FLAG].copy(data=style.down_to(data[FLAG] == 1))
@@ -141,8 +270,8 @@ _MARGIN = 0.03  # room beside the values of an axis, over its extent
 
 
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
-    total, axis, area = f"total_{name}", ladder.varied(comparison), name == "contact_fraction"
-    data = _by_label(comparison)
+    total, axis, area = f"total_{name}", varied(comparison), name == "contact_fraction"
+    data = by_label(on_the_surface(comparison))
     spread = data[f"{name}_spread"]
     # a spread above the number itself has no end on a logarithmic axis
     low = np.maximum(data[total] - spread, 1e-3 * data[total])
@@ -169,7 +298,7 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         marks += [replace(mark, width=0.9, **look) for mark in curves if isinstance(mark, Series)]
     low, high = float(x.min()), float(x.max())
     if axis == "speed" and name == "friction":
-        points = list(ladder.measured_points(comparison, view.shown_unit(comparison[axis])))
+        points = list(measured_points(comparison, view.shown_unit(comparison[axis])))
         marks += points
         speeds = [speed for series in points for speed in np.asarray(series.x)]
         low, high = min([low, *speeds]), max([high, *speeds])
@@ -215,7 +344,7 @@ def measured_sheet(
     """
     speed_unit = display_unit_of(data.attrs, "speed")
     panels = []
-    series = zip(measured_series(data), ladder.measured_points(data, speed_unit), strict=True)
+    series = zip(measured_series(data), measured_points(data, speed_unit), strict=True)
     for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):
         points = replace(points, marker="o", size=4.5, label="measured")
         panels.append(Panel(
@@ -238,7 +367,7 @@ def measured_sheet(
 
 def comparison_pictures(data: xr.Dataset) -> Iterator[Picture]:
     """Yield the figures of a comparison: its ladder and wavelengths, or all over its axis."""
-    if axis := ladder.varied(data):
+    if axis := varied(data):
         yield Picture(
             f"over_{axis}",
             comparison_axis_figure(data),
@@ -255,7 +384,7 @@ def comparison_pictures(data: xr.Dataset) -> Iterator[Picture]:
         "friction partly beyond the measured band.",
         "Area and friction of each model, with the step from the one before.",
     )
-    if ladder.worth_drawing(ladder.on_the_surface(data)).any():
+    if worth_drawing(on_the_surface(data)).any():
         panels = [_wavelength_panel(data, name) for name in _quantities(data)]
         yield Picture(
             "by_wavelength",

@@ -57,7 +57,7 @@ def compare_command(
     from gripscale.io import netcdf
     from gripscale.questions.answer.page import answer_lines
     from gripscale.questions.answer.variables import has_answer
-    from gripscale.questions.calibration.page import residual_table
+    from gripscale.questions.calibration.question import residual_table
     from gripscale.questions.compare import charts, comparison, ladder, page, question
     from gripscale.questions.page_of_folder import write_report
     from gripscale.questions.result import warning_lines

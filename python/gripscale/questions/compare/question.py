@@ -10,13 +10,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import Any
 
 from gripscale.case import Case
+from gripscale.charts.page_elements import Picture
 from gripscale.core import InputError
-from gripscale.core.finding import Finding, from_json, ranked, to_json
+from gripscale.core.finding import Finding, Severity, Topic, from_json, ranked, to_json
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.measured_friction import (
     FRICTION_DOUBTS,
@@ -24,17 +23,18 @@ from gripscale.experiment.measured_friction import (
     friction_doubts,
 )
 from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.io.table import Table, significant
+from gripscale.io.table import Table, least_to_most
 from gripscale.model import INPUT_DOUBTS, input_doubts_of
+from gripscale.questions import view
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.estimate import DIRECT, Factor
 from gripscale.questions.answer.findings import answer_notices, measured_at_load
+from gripscale.questions.answer.page import answer_cards, answer_lines
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.answer.variables import SYMBOLS, believed, is_estimated
 from gripscale.questions.chain.findings import comparison_notices
 from gripscale.questions.compare import page
-from gripscale.questions.compare.charts import comparison_pictures
-from gripscale.questions.compare.charts_of_ladder import varied
+from gripscale.questions.compare.charts import by_label, comparison_pictures, varied
 from gripscale.questions.compare.comparison import (
     OnStage,
     SolvedLadder,
@@ -46,11 +46,9 @@ from gripscale.questions.compare.comparison import (
 from gripscale.questions.compare.ladder import chosen
 from gripscale.questions.cut_off.curve import continuation_doubts
 from gripscale.questions.result import Result
-from gripscale.report.elements import Page
-from gripscale.report.failures import first_of
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from gripscale.report.again import case_title
+from gripscale.report.elements import Card, Section
+from gripscale.report.failures import explained, failures_in, first_of
 
 
 class Comparison(Result):
@@ -59,6 +57,8 @@ class Comparison(Result):
     kind = "comparison"
     ladder: SolvedLadder | None = None
     """The models with all samples; None of a result that was loaded from a file."""
+    others: Sequence[Comparison] = ()
+    """Comparisons of the same case over a varied input, which its page has, too."""
 
     @property
     def axis(self) -> str:
@@ -71,41 +71,52 @@ class Comparison(Result):
 
     @property
     def lines(self) -> Sequence[str]:
+        data = self.data
         if not self.axis:
-            return tuple(page.comparison_lines(self.data))
-        ranges = []
-        for name, symbol in reversed(SYMBOLS.items()):
-            if is_estimated(self.data, name):
-                values = self.data[believed(self.data, name)].values
-                low, high = (significant(float(pick(values))) for pick in (np.nanmin, np.nanmax))
-                ranges.append(f"{symbol} = {low} to {high}")
+            lead, *basis = answer_lines(data)
+            return (lead, *(f"  {line}" for line in page.large_strain_lines(data)), *basis)
+        names = [name for name in reversed(SYMBOLS) if is_estimated(data, name)]
+        ranges = [f"{SYMBOLS[n]} = {least_to_most(data[believed(data, n)])}" for n in names]
         text = ", ".join(ranges) or "none"
         return (f"Answer: {text} over the {self.axis.replace('_', ' ')}",)
 
     @property
     def findings(self) -> Sequence[Finding]:
         doubts = from_json(str(self.data.attrs.get(FRICTION_DOUBTS, "")))
-        return tuple(doubts if self.axis else ranked([*doubts, *answer_notices(self.data)]))
+        if self.axis:
+            return (*self._failed, *doubts, *comparison_notices(self.data))
+        return tuple(ranked([*self._failed, *doubts, *answer_notices(self.data)]))
+
+    @property
+    def _failed(self) -> Iterator[Finding]:
+        """Models with samples that did not converge; the answer may stand without them."""
+        for where, solved in view.points(by_label(self.data)):
+            for failure in failures_in(solved, "status"):
+                text = f"{where}: {explained(failure)}"
+                yield Finding(Severity.WARNING, text, topic=Topic.SOLUTION)
 
     @property
     def failure(self) -> str:
         """Which models failed; empty if the answer stands without them."""
         if bool(self.data.answer_contact_fraction.notnull().all()):
             return ""
-        failed = [
-            replace(failure, sentence=f"{where} did not converge: {failure}")
-            for where, failure in page.comparison_failures(self.data)
-        ]
+        failed = failures_in(self.data, "status")
         return first_of(failed, self.data.status.size, "models with all their samples")
+
+    @property
+    def title(self) -> str:
+        return f"Models side by side: {case_title(self.data.attrs)}"
+
+    def cards(self) -> Iterator[Card]:
+        if not self.axis:
+            yield from answer_cards(self.data)
 
     def parts(self) -> Iterator[str | Table]:
         if self.axis:
             yield from (page.axis_table(self.data, self.axis, name) for name in SYMBOLS)
-            yield from (f"* {notice.sentence}" for notice in comparison_notices(self.data))
-            yield from page.temperature_only(self.data)
         else:
             yield page.comparison_table(self.data)
-            yield from page.remarks(self.data)
+        yield from page.temperature_only(self.data)
 
     def table(self) -> Table:
         """Return the models, one a row; over a varied input the friction of each."""
@@ -113,11 +124,13 @@ class Comparison(Result):
             return page.axis_table(self.data, self.axis, "friction")
         return page.comparison_table(self.data)
 
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        yield from ((picture.name, picture.figure) for picture in comparison_pictures(self.data))
+    def pictures(self) -> Iterator[Picture]:
+        yield from comparison_pictures(self.data)
 
-    def page_content(self) -> Page:
-        return page.comparison_page(page.Compared([self.data]))
+    def chapters(self) -> Iterator[Section]:
+        for other in self.others:
+            name = f"over-{other.axis.replace('_', '-')}"
+            yield Section(name, f"Over {other.axis.replace('_', ' ')}", other.elements())
 
 
 def compare(

@@ -8,25 +8,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.draw import Sheet, image
+from gripscale.charts import chart, draw
 from gripscale.charts.page_elements import Picture
-from gripscale.core import Finding, Severity
-from gripscale.core.units import MILLI, display_unit_of, in_mm, si_value
+from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
+from gripscale.core import Finding
+from gripscale.core.units import MILLI, in_mm, si_value
 from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.io.table import Column, Table, change, on_page, significant
+from gripscale.io.table import Column, Table, change, significant
 from gripscale.model import STATUS, OnProgress
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, AnswerNumber
-from gripscale.questions.cut_off.charts import cut_off_sheet
+from gripscale.questions.answer.variables import SYMBOLS, AnswerNumber
 from gripscale.questions.cut_off.curve import (
     AREA,
+    CONTACT_SLOPE,
     FRICTION,
     SLOPE_IN_CONTACT,
     at_cut_off,
@@ -36,9 +38,62 @@ from gripscale.questions.cut_off.curve import (
 )
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
-from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Element, Page, Section, Text
-from gripscale.report.failures import explained, failures_in
+from gripscale.questions.view import load_in_words
+
+_CURVES = {
+    FRICTION: ("friction $\\mu$ [-]", ORANGE),
+    AREA: ("contact area $A_r/A_0$ [-]", BLUE),
+    SLOPE_IN_CONTACT: ("rms slope in contact [-]", GREY),
+}
+_SAME = 0.01  # relative distance of two rules that lie on each other in a figure
+
+
+def cut_off_sheet(data: xr.Dataset) -> draw.Sheet:
+    """Describe friction, contact and the slope in contact over the same cut-offs.
+
+    Curves are solid where the roughness was measured and dotted where it is continued.
+    """
+    lengths, measured = data.cut_off.values / MILLI, data.curve_measured.values.astype(bool)
+    x = replace(
+        chart.wavelength_axis(lengths), label="cut-off: shortest wavelength of the surface [mm]"
+    )
+    below = ~measured | np.append(~measured[1:], False)  # from the last measured point on
+    parts = (measured, "solid", "measured roughness"), (below, "dotted", "continued roughness")
+    panels = []
+    for name, (label, colour) in _CURVES.items():
+        first, values = name == FRICTION, data[name].values
+        marks: list[chart.Mark] = [
+            chart.Series(lengths[where], values[where], colour, words * first, dash, marker="o",
+                         size=3.0)
+            for where, dash, words in parts
+            if where.any()
+        ]  # fmt: skip
+        if name == SLOPE_IN_CONTACT:
+            marks.append(chart.CrossLine(CONTACT_SLOPE))
+        else:
+            low, high = (data[f"{name}_{end}"].values for end in ("lower", "upper"))
+            words = "90 % band of the continuation" * first
+            marks.insert(0, chart.ShadedBand(lengths, low, high, colour, words))
+        area = name == AREA
+        y = chart.PlotAxis(label, log=area, low=None if area else 0.0)
+        panels.append(chart.Panel(x, y, [*marks, *_rules(data)]))
+    layout = {"sharex": True, "height_ratios": [1.2, 1.0, 0.8]}
+    return draw.Sheet(panels, 1, WIDE, 6.6, gap=0.03, legend_columns=2, layout=layout)
+
+
+def _rules(data: xr.Dataset) -> Iterator[chart.CrossLine]:
+    """Yield the rules of cut-off that lie on the axis; those at the same place are one line."""
+    first, last = data.cut_off.values[[0, -1]]
+    names: dict[float, list[str]] = {}
+    for name, at in zip(data.rule.values, data.rule_cut_off.values, strict=True):
+        if last <= at <= first:
+            length = next((other for other in names if abs(at / other - 1.0) < _SAME), float(at))
+            names.setdefault(length, []).append(str(name))
+    for i, (at, alike) in enumerate(names.items()):
+        colour = COLOURS[(i + 2) % len(COLOURS)]
+        label = f"{', '.join(alike)}: {at / MILLI:.2g} mm"
+        yield chart.CrossLine(at / MILLI, colour, label, "dashed", 0.9, upright=True)
+
 
 _LEVEL = f"{100.0 * LEVEL:.0f} %"
 
@@ -57,26 +112,19 @@ class CutOff(Result):
         level = "" if bool(data.curve_measured[-1]) else f" ({_LEVEL} bands)"
         if any(refusals(data)):
             level = ", where the measurement ends: it foretells no octave"
-        lead = f"Answer: {', '.join(numbers)} with {self._down_to}{level}"
-        return [lead, *(f"  {line}" for line in self.basis)]
-
-    @property
-    def basis(self) -> Sequence[str]:
-        """The load, the numbers of the measured roughness, and how it is continued."""
-        data, resolved = self.data, float(self.data.resolved)
-        load = " and ".join(
-            display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
-            for name in ("pressure", "speed")
-        )
-        lead = f"for {load}; direct contact of the measured surface, without factors"
-        if bool(data.curve_measured[-1]):
-            return [lead]
-        measured = ", ".join(
-            f"{SYMBOLS[name]} = {significant(at_cut_off(data, curve, resolved))}"
-            for name, curve in self._curves
-        )
-        source = f"below it continued {_source(data)}"
-        return [lead, f"measured down to {in_mm(resolved, 3)}: {measured}", source]
+        load = " and ".join(load_in_words(data))
+        lines = [
+            f"Answer: {', '.join(numbers)} with {self._down_to}{level}",
+            f"  for {load}; direct contact of the measured surface, without factors",
+        ]
+        if not bool(data.curve_measured[-1]):
+            resolved = float(data.resolved)
+            measured = ", ".join(
+                f"{SYMBOLS[name]} = {significant(at_cut_off(data, curve, resolved))}"
+                for name, curve in self._curves
+            )
+            lines.append(f"  measured down to {in_mm(resolved, 3)}: {measured}")
+        return lines
 
     @property
     def failure(self) -> str:
@@ -118,41 +166,19 @@ class CutOff(Result):
             ends[measured] = np.nan
             columns.append(Column(f"{name}_band", ends, f"{_LEVEL} band"))
         columns.append(Column("slope", data[SLOPE_IN_CONTACT].values, "slope in contact"))
-        return Table("curve", columns, "By octave of the cut-off", keys=1)
+        notes = [] if measured[-1] else [f"Continued {_source(data)}."]
+        return Table("curve", columns, "By octave of the cut-off", notes, keys=1)
 
-    def figures(self) -> Iterator[tuple[str, Sheet]]:
+    def pictures(self) -> Iterator[Picture]:
         if not self.failure:
-            yield "cut_off", cut_off_sheet(self.data)
-
-    def elements(self) -> list[Element]:
-        """Return curves, rules and tables for a page; nothing without a curve."""
-        if self.failure:
-            return []
-        curves = Picture(
-            "cut_off",
-            cut_off_sheet(self.data).on_paper(),
-            "Friction, area and the rms slope where the surface touches against the cut-off: "
-            "measured roughness solid, continued dotted, with its 90 % band. Upright lines are "
-            "rules of cut-off; small strain ends near a slope of 1.",
-            "Three panels of curves against the shortest wavelength of the surface.",
-        )
-        return [*map(Text, self.basis), image(curves), self.rules_table(), self.table()]
-
-    def page_content(self) -> Page:
-        case = case_title(self.data.attrs)
-        errors: list[Finding] = []
-        cards: list[Card] = []
-        if self.failure:
-            errors = [Finding(Severity.ERROR, explained(failures_in(self.data)[0]))]
-        else:
-            for name, curve in self._curves:
-                number = self._last(curve)
-                value, label = on_page(significant(number.value)), HEADINGS[name].capitalize()
-                cards.append(Card(label, value, self._down_to, interval=number.interval))
-        title = f"Contact and friction of {case} against the cut-off"
-        curves = Section("cut-off", "Against the cut-off", self.elements())
-        sections = [curves, rerun_section(self.data.attrs)]
-        return Page.of(title, self.lines[0], [*errors, *self.findings], cards, sections)
+            yield Picture(
+                "cut_off",
+                cut_off_sheet(self.data).on_paper(),
+                "Friction, area and the rms slope where the surface touches against the cut-off: "
+                "measured roughness solid, continued dotted, with its 90 % band. Upright lines are "
+                "rules of cut-off; small strain ends near a slope of 1.",
+                "Three panels of curves against the shortest wavelength of the surface.",
+            )
 
     @property
     def _down_to(self) -> str:

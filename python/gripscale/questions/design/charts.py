@@ -5,35 +5,29 @@ from __future__ import annotations
 from itertools import cycle
 from typing import TYPE_CHECKING
 
+import numpy as np
 import xarray as xr
 
-from gripscale.charts.chart import CrossLine, Mark, Note, Panel, PlotAxis, Series
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
-from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
+from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 from gripscale.core.units import MEGA
-from gripscale.questions.design.page import SAME, answering_point, changed_frequencies
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PERCENT = 100.0
+SAME = 5e-3  # relative difference of rolling resistances that is none
 _FREQUENCY = PlotAxis("frequency [Hz]", log=True, numbers=5)
 # Difference of rolling resistances over today's from which both curves can be told apart.
 _APART = 0.05
 COMPOUND_COLOURS = (PURPLE, YELLOW, SKY, GREY)
 
 
-def design_picture(data: xr.Dataset) -> Picture:
-    """Return the figure of a design with its caption."""
-    return Picture(
-        "design",
-        design_figure(data),
-        "Friction gained against rolling resistance, and the master curves of some points beside "
-        "today's.",
-        "A curve of friction over rolling resistance with points of compounds, and three panels of "
-        "curves over the frequency.",
-    )
+def answering_point(data: xr.Dataset) -> int:
+    """Return the last point whose rolling resistance is at most today's; without one the last."""
+    allowed = np.flatnonzero(data.rolling_ratio.values <= 1.0 + 1e-6)
+    return int(allowed[-1]) if allowed.size else data.sizes["point"] - 1
 
 
 def design_figure(data: xr.Dataset) -> Figure:
@@ -41,7 +35,7 @@ def design_figure(data: xr.Dataset) -> Figure:
 
     `data` is that of `gripscale.design`.
     """
-    ratio, (answer, _) = data.rolling_ratio.values, answering_point(data)
+    ratio, answer = data.rolling_ratio.values, answering_point(data)
     colours = {0: BLUE, data.sizes["point"] - 1: ORANGE, answer: GREEN}
     # The answer, and ends apart from it.
     drawn = {
@@ -49,7 +43,7 @@ def design_figure(data: xr.Dataset) -> Figure:
         for at in sorted(colours)
         if at == answer or abs(ratio[at] - ratio[answer]) > _APART
     }
-    panels = [_trade_off_panel(data, drawn), *_master_curve_panels(data, drawn, answer)]
+    panels = [_trade_off_panel(data, drawn), *_master_curve_panels(data, drawn)]
     return Sheet(panels, 2, height=5.6, legend_columns=4).on_paper()
 
 
@@ -85,40 +79,26 @@ def _trade_off_panel(data: xr.Dataset, drawn: dict[int, str]) -> Panel:
     )
 
 
-def _master_curve_panels(data: xr.Dataset, drawn: dict[int, str], answer: int) -> list[Panel]:
-    """Return moduli, loss factor, and moduli over today's.
-
-    Shaded are the frequencies that change at today's rolling resistance; dotted lines enclose those
-    excited.
-    """
-    shades: list[Mark] = [
-        CrossLine(low, FAINT, "changed by more than 20 %" if not at else "", upright=True, to=high)
-        for at, (low, high) in enumerate(changed_frequencies(data, data.isel(point=answer)))
+def _master_curve_panels(data: xr.Dataset, drawn: dict[int, str]) -> list[Panel]:
+    """Return moduli, loss factor, and moduli over today's; dotted lines enclose those excited."""
+    ends = ((data.excited_low, "98 % of the friction between"), (data.excited_high, ""))
+    excited: list[Mark] = [
+        CrossLine(float(end), GREY, label, "dotted", upright=True) for end, label in ends
     ]
-    for end, label in ((data.excited_low, "98 % of the friction between"), (data.excited_high, "")):
-        shades.append(CrossLine(float(end), GREY, label, "dotted", upright=True))
-    frequency = data.frequency.values
-
-    def curves(today: xr.DataArray, designed: xr.DataArray) -> list[Mark]:
-        series = [Series(frequency, today.values, INK, width=1.6)]
-        for at, colour in drawn.items():
-            series.append(Series(frequency, designed.values[at], colour, width=1.0, order=3.0))
-        return [*series]
-
-    moduli, change = [*shades], [CrossLine(1.0), *shades]
-    for name, symbol in (("storage", "$E'$"), ("loss", "$E''$")):
-        today = data[f"today_{name}"] / MEGA
-        moduli += curves(today, data[name] / MEGA)
-        moduli.append(Note(frequency[0], float(today[0]), symbol, offset=(3, 6)))
-    factor = [*shades, *curves(data.today_loss / data.today_storage, data.loss / data.storage)]
-    for at, colour in drawn.items():
-        for name, dash in (("storage", "dashdot"), ("loss", "solid")):
-            ratio = data[name].values[at] / data[f"today_{name}"].values
-            change.append(Series(frequency, ratio, colour, "", dash, width=1.2))
-    change += [
-        Series([], [], INK, "$E''$ over today's", width=1.2),
-        Series([], [], INK, "$E'$ over today's", "dashdot", width=1.2),
-    ]
+    frequency, (moduli, factor, change) = data.frequency.values, ([*excited] for _ in range(3))
+    today = data.today_storage, data.today_loss
+    for storage, loss, colour, width in (
+        (*today, INK, 1.6),
+        *((data.storage[at], data.loss[at], colour, 1.0) for at, colour in drawn.items()),
+    ):
+        for modulus, old, name, dash in (
+            (storage, today[0], "$E'$", "dashdot"),
+            (loss, today[1], "$E''$", "solid"),
+        ):
+            label = name if colour == INK else ""
+            moduli.append(Series(frequency, modulus / MEGA, colour, label, dash, width=width))
+            change.append(Series(frequency, modulus / old, colour, "", dash, width=width))
+        factor.append(Series(frequency, loss / storage, colour, width=width))
     return [
         Panel(_FREQUENCY, PlotAxis("modulus [MPa]", log=True), moduli),
         Panel(_FREQUENCY, PlotAxis("loss factor tan δ [-]", low=0.0), factor),

@@ -72,13 +72,13 @@ def design_command(
     from gripscale.case_file.named_inputs import names_of, read_rubber, read_surface
     from gripscale.questions.design.compound_limits import CompoundLimits
     from gripscale.questions.design.compound_search import default_goal
-    from gripscale.questions.design.design_text import (
+    from gripscale.questions.design.question import (
+        design,
         parse_goal,
         parse_levels,
         parse_limit,
         write_targets,
     )
-    from gripscale.questions.design.question import design
 
     work = terminal.CaseCommand(case)
     points = None if not limit else tuple(parse_limit(text) for text in limit)

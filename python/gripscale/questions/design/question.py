@@ -7,23 +7,24 @@ result.data.gain
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.draw import image
-from gripscale.core import checks, doubt
+from gripscale.charts.page_elements import Picture
+from gripscale.core import InputError, checks, doubt, parse_quantity
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask
 from gripscale.io import netcdf
-from gripscale.io.folders import make_folder
-from gripscale.io.table import Column, Table, change, fixed
-from gripscale.questions.design.charts import design_picture
+from gripscale.io.folders import make_folder, write_text
+from gripscale.io.table import Column, Table, change, fixed, percent, significant, write_csv
+from gripscale.questions.design.charts import SAME, answering_point, design_figure
 from gripscale.questions.design.compound_design import (
     DESIGN_FILE,
     FRUITLESS,
@@ -35,18 +36,19 @@ from gripscale.questions.design.compound_design import (
     todays_compound,
 )
 from gripscale.questions.design.compound_gain import SolvedCompound
-from gripscale.questions.design.compound_limits import CompoundLimits
+from gripscale.questions.design.compound_limits import (
+    LIMITED_QUANTITIES,
+    CompoundLimits,
+    PointLimit,
+    changed,
+)
 from gripscale.questions.design.compound_search import PRECISION, design_problem
 from gripscale.questions.design.goal_friction import CompoundGoal
-from gripscale.questions.design.page import design_cards, design_lines
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
+from gripscale.questions.vary.axis import values_by_name
 from gripscale.questions.vary.inputs import measured_rubber_of, reading_notes
-from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Page, Section, as_elements
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from gripscale.rubber import MasterCurve, Rubber, write_master_curve
 
 OnPoint = Callable[[xr.Dataset], object]
 
@@ -58,7 +60,43 @@ class CompoundDesign(Result):
 
     @property
     def lines(self) -> Sequence[str]:
-        return tuple(design_lines(self.data))
+        data, attrs = self.data, self.data.attrs
+        chosen = data.isel(point=answering_point(data))
+        now, then = data.today_answer_friction.values, chosen.answer_friction.values
+        goals = [f" at {goal}" for goal in data.goal.values] if now.size > 1 else [""]
+        pairs = ", ".join(
+            f"{old:.3f} now → {new:.3f}{at}" for old, new, at in zip(now, then, goals, strict=True)
+        )
+        without = f"; without {attrs['left_out']} of the case" if attrs.get("left_out") else ""
+        lines = [f"Answer: friction {pairs} with the design {_trade(chosen)}{without}."]
+        least = rolling_at_todays_friction(data)
+        if math.isfinite(least):
+            lines.append(f"  Or the same friction with rolling resistance {change(least - 1.0)}.")
+        elif float(data.gain[0]) >= 0.0 and data.sizes["point"] > 1:
+            lines.append(f"  Or friction {_trade(data.isel(point=0))}.")
+        if json.loads(attrs.get(FRUITLESS, "[]"))[-1:] > [float(data.rolling_level[-1])]:
+            last = change(float(data.rolling_ratio[-1]) - 1.0)
+            lines.append(f"  More rolling resistance than {last} gives no more friction.")
+        worth = zip(chosen.widened.values, np.expm1(chosen.limit_worth.values), strict=True)
+        relaxed = "; ".join(f"{name}, {change(float(gain))}" for name, gain in worth)
+        errors = ", ".join(
+            f"{words} {percent(error) if math.isfinite(error) else 'not known'}"
+            for words, error in (
+                ("pieces of the surface", float(chosen.gain_sampling_error)),
+                ("grids", float(chosen.gain_grid_error) / math.sqrt(3.0)),
+                ("measurement of the rubber", float(chosen.gain_rubber_error)),
+            )
+        )
+        return (
+            *lines,
+            f"  Rolling resistance is tan δ and loss compliance at {attrs['rolling_band']}, the "
+            f"worst of them; today tan δ is {significant(float(data.today_rolling_loss_factor))} "
+            f"at {attrs['rolling_condition']}.",
+            f"  A limit relaxed by a tenth gives, to first order: {relaxed}.",
+            f"  The interval holds (standard errors): {errors}; with twice the cut-off of the "
+            f"surface {change(float(chosen.gain_twice_cut_off))}.",
+            *(f"note: {note}" for note in attrs.get("notes", "").splitlines()),
+        )
 
     def parts(self) -> Iterator[str | Table]:
         yield self.table()
@@ -87,34 +125,23 @@ class CompoundDesign(Result):
             wet = data.attrs.get("wet_condition", "10 Hz and 0 °C")
             notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
 
-        def of_all(share: float) -> str:
-            return f"{100.0 * share:.0f} %"
-
         columns += [
-            Column("limited_share", data.limited_share.values, "at a limit", format=of_all),
+            Column(
+                "limited_share", data.limited_share.values, "at a limit", format="{:.0%}".format
+            ),
             Column("gap", data.gap.values, "left to gain", format=change),
         ]
         title = "Trade-off: each row is the admissible compound of most friction"
         return Table("design", columns, title, notes)
 
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        picture = design_picture(self.data)
-        yield picture.name, picture.figure
-
-    def page_content(self) -> Page:
-        answer, *basis = self.lines
-        curve = image(design_picture(self.data))
-        return Page.of(
-            f"Compound for {case_title(self.data.attrs)}",
-            answer,
-            self.findings,
-            design_cards(self.data),
-            [
-                Section("curve", "Friction over rolling resistance", [curve]),
-                Section("points", "Points of the curve", as_elements(self.parts())),
-                rerun_section(self.data.attrs),
-            ],
-            (line.strip() for line in basis),
+    def pictures(self) -> Iterator[Picture]:
+        yield Picture(
+            "design",
+            design_figure(self.data),
+            "Friction gained against rolling resistance, and the master curves of some points "
+            "beside today's.",
+            "A curve of friction over rolling resistance with points of compounds, and three "
+            "panels of curves over the frequency.",
         )
 
 
@@ -126,6 +153,30 @@ def _gain_columns(data: xr.Dataset, of: str, heading: str) -> list[Column]:
         Column("gain", data[f"{of}gain"].values, "friction gained", format=change),
         Column("gain_interval", ends, "90 % interval", format=change),
     ]
+
+
+def rolling_at_todays_friction(data: xr.Dataset) -> float:
+    """Return the least rolling resistance over today's with today's friction [-].
+
+    Linear between the points; NaN if the lowest point still has more friction than today's.
+    """
+    ratio, gain = data.rolling_ratio.values, data.gain.values
+    above = np.flatnonzero(gain >= 0.0)
+    if not above.size or above[0] == 0:
+        return math.nan
+    low, high = above[0] - 1, above[0]
+    share = -gain[low] / (gain[high] - gain[low])
+    return float(ratio[low] + share * (ratio[high] - ratio[low]))
+
+
+def _trade(point: xr.Dataset) -> str:
+    """Return the rolling resistance of a point and the friction gained with it."""
+    rolling, low, high = (float(point[n]) for n in ("rolling_ratio", "gain_low", "gain_high"))
+    at = f"with rolling resistance {change(rolling - 1.0)}"
+    if abs(rolling - 1.0) < SAME:
+        at = "at the same rolling resistance"
+    interval = f" ({change(low)} to {change(high)})" if math.isfinite(low) else ""
+    return f"{at}: {change(float(point.gain))}{interval}"
 
 
 def design(
@@ -230,3 +281,98 @@ def design(
     if target is not None:
         netcdf.save(data, target / DESIGN_FILE, {"inputs": inputs})
     return CompoundDesign(data, inputs)
+
+
+# What a goal may state beside `weight` and `road`.
+GOAL_QUANTITIES = ("speed", "pressure", "temperature")
+
+
+def parse_goal(text: str, default: CompoundGoal) -> CompoundGoal:
+    """Return a goal stated as "speed=3 m/s, temperature=20 C, weight=2, road=wet.toml".
+
+    What it does not state is that of `default`. Raises `InputError` if it cannot be understood.
+    """
+    values: dict[str, Any] = {name: getattr(default, name) for name in GOAL_QUANTITIES}
+    example = "speed=3 m/s, temperature=20 C, pressure=2 bar, weight=1, road=case"
+    for name, value in values_by_name(text.split(","), "goal", example).items():
+        checks.one_of("goal", name, (*GOAL_QUANTITIES, "weight", "road"))
+        if name == "road":
+            values[name] = value
+            continue
+        try:
+            values[name] = float(value) if name == "weight" else parse_quantity(value, name)
+        except ValueError as error:
+            raise InputError(f"goal {name} = {value!r}: {error}") from error
+    return CompoundGoal(**values)
+
+
+def parse_limit(text: str) -> PointLimit:
+    """Return a limit stated as "loss_factor, 10 Hz, 0 C, 0.9:1.2" (the range over today's value).
+
+    The temperature may be left out. Raises `InputError` if it cannot be understood.
+    """
+    parts = [part.strip() for part in text.split(",")]
+    low, sign, high = parts[-1].partition(":")
+    if len(parts) not in (3, 4) or not sign or parts[0] not in LIMITED_QUANTITIES:
+        raise InputError(
+            f'limit must be such as "{LIMITED_QUANTITIES[0]}, 10 Hz, 20 C, 0.9:1.1"; '
+            f"got {checks.short_repr(text)}"
+        )
+    try:
+        hertz = float(parts[1].removesuffix("Hz"))
+        kelvin = parse_quantity(parts[2], "temperature") if len(parts) == 4 else None
+        ends = float(low), float(high)
+    except ValueError as error:
+        raise InputError(f"limit {text!r}: {error}") from error
+    return PointLimit(parts[0], *ends, hertz, kelvin)
+
+
+def parse_levels(text: str) -> list[float]:
+    """Return levels stated as "0.8,1,1.2"; raise `InputError` if one is no number above zero."""
+    try:
+        numbers = [float(part) for part in text.split(",")]
+    except ValueError as error:
+        raise InputError(f'levels must be such as "0.8,1,1.2"; got {text!r}') from error
+    return [float(number) for number in checks.positive_vector("levels", numbers)]
+
+
+def designed_rubber(data: xr.Dataset, point: int) -> Rubber:
+    """Return the rubber that a point of a design asks for."""
+    today = Rubber.from_dict(json.loads(data.attrs["rubber_parameters"]))
+    chosen = data.isel(point=point)
+    name = f"target_{round(100.0 * float(chosen.rolling_ratio)):03d}"
+    return changed(today, np.asarray(chosen.modulus_ratio.values), name=name)
+
+
+def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
+    """Write master curve (CSV), Prony series (CSV) and rubber (JSON) of each point.
+
+    The number in the name is tan(delta) at the rolling condition in per cent of today's. The JSON
+    file is what `gripscale export rubber` takes. Returns the paths.
+    """
+    target = Path(folder)
+    make_folder(target)
+    paths = []
+    for at in range(data.sizes["point"]):
+        rubber, point = designed_rubber(data, at), data.isel(point=at)
+        curve = MasterCurve(
+            point.frequency.values,
+            point.storage.values,
+            point.loss.values,
+            rubber.reference_temperature,
+            rubber.name,
+            f"design of gripscale, not measured; from {data.attrs['rubber']}",
+        )
+        paths.append(write_master_curve(target / f"{rubber.name}.csv", curve))
+        series = Table(
+            "prony",
+            [
+                Column("relaxation_time", data.relaxation_time.values, unit="s"),
+                Column("modulus", point.modulus.values, unit="Pa"),
+                Column("modulus_over_today", point.modulus_ratio.values, unit="1"),
+            ],
+        )
+        paths.append(write_csv(series, target / f"{rubber.name}_prony.csv"))
+        text = json.dumps(rubber.to_dict(), indent=1)
+        paths.append(write_text(target / f"{rubber.name}.json", text))
+    return paths

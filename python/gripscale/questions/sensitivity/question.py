@@ -7,6 +7,7 @@ result.data.d_ln_friction_d_ln_loss.sum("frequency")
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
@@ -15,18 +16,27 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.charts import draw
-from gripscale.core import Array, Finding, InputError, Quantity, Severity, Topic, checks, doubt
-from gripscale.core.units import display_unit_of
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
+from gripscale.charts.draw import Sheet
+from gripscale.charts.page_elements import Picture
+from gripscale.charts.style import BLUE, GREEN, NARROW, ORANGE, PURPLE
+from gripscale.core import Array, InputError, Quantity, Topic, checks, doubt
+from gripscale.core.units import MEGA
 from gripscale.experiment.design import solve_design
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sensitivity import contact_sensitivity
-from gripscale.io.table import Column, Table, digits, fixed, least_to_most, on_page, percent
+from gripscale.io.table import Column, Table, digits, fixed, least_to_most, percent
 from gripscale.model import STATUS
-from gripscale.questions.answer.charts import height_figure, height_panels
+from gripscale.questions import view
+from gripscale.questions.answer.charts import (
+    NamedTrace,
+    height_figure,
+    height_panels,
+    named_traces,
+)
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
-from gripscale.questions.sensitivity import charts
 from gripscale.questions.sensitivity.friction_sensitivity import (
     FEEDBACK,
     LOSS,
@@ -39,13 +49,44 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
 from gripscale.questions.vary.axis import axes_of
 from gripscale.questions.vary.inputs import reading_notes
 from gripscale.questions.vary.study import Study, coordinates
-from gripscale.questions.view import points
-from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Page, Section, Text, as_elements
-from gripscale.report.failures import Failure, explained, failures_in, first_of
+from gripscale.questions.view import dimensions, load_in_words, points
+from gripscale.report.elements import Section
+from gripscale.report.failures import failures_in, first_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+_EFFECTS = {LOSS: "E''", STORAGE: "E'"}
+
+
+def sensitivity_figure(data: xr.Dataset) -> Figure:
+    """Draw the master curve, and an effect by decade of frequency below it for E'' and E'."""
+    omega = data.modulus_frequency.values
+    axis = PlotAxis("angular frequency $\\omega$ [rad/s]", True, float(omega[0]), float(omega[-1]))
+    rules: list[Mark] = []
+    if "rule" in data.dims:
+        colours = zip(data.rule.values, data.rule_frequency.values, (GREEN, PURPLE), strict=False)
+        rules = [
+            CrossLine(float(at), colour, f"tan δ, {name}", "dotted", 0.9, upright=True)
+            for name, at, colour in colours
+            if omega[0] <= at <= omega[-1]
+        ]
+    moduli: list[Mark] = [
+        Series(omega, data.storage_modulus.values / MEGA, BLUE, "$E'$"),
+        Series(omega, data.loss_modulus.values / MEGA, ORANGE, "$E''$"),
+    ]
+    low = float(data.loss_modulus.min()) / MEGA / 2.0
+    panels = [Panel(axis, PlotAxis("modulus [MPa]", log=True, low=low), [*moduli, *rules])]
+    for name, letter in _EFFECTS.items():
+        # bands that are not excited at a point have no derivative
+        by_decade = data[name].where(data[name] != 0.0) * int(data.attrs["bands_per_decade"])
+        flags = xr.DataArray(False)
+        panel = view.panel(data.assign({name: by_decade}), name, "frequency", flags=flags)
+        y = PlotAxis(f"friction by ${letter}$ [% for 1 %,\nper decade]")
+        panels.append(replace(panel.with_marks([*rules, CrossLine(0.0)]), x=axis, y=y))
+    layout = {"sharex": True, "height_ratios": [1.0, 0.9, 0.9]}
+    return Sheet(panels, 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
+
 
 # What may be varied: derivatives are taken at each value.
 DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
@@ -61,11 +102,6 @@ SCALARS = {
     "temperature": ("temperature", "1/K"),
 }
 _MOST_POINTS = 6  # points that the table by decade has columns for
-_CURVES = (
-    "Per cent of friction for a per cent of a modulus, by frequency. The direct contact of the "
-    "measured surface is solved once; one adjoint solution gives all derivatives. Factors on the "
-    "friction, such as that from lines to a surface, do not change them."
-)
 signed = fixed(2, "+")
 
 
@@ -94,14 +130,10 @@ class Sensitivity(Result):
     def lines(self) -> Sequence[str]:
         data = self.data
         if STORAGE not in data:
-            reasons = sorted({failure.sentence for failure in self.failures})
+            reasons = sorted({failure.sentence for failure in failures_in(self.data)})
             return [f"Answer: none. No contact was solved: {'; '.join(reasons)}"]
-        load = [
-            display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"].values.flat[0]))
-            for name in ("pressure", "speed")
-            if f"nominal_{name}" in data and np.ptp(data[f"nominal_{name}"].values) == 0.0
-        ]
-        where = f", at {' and '.join(load)}" if load else ""
+        load = " and ".join(load_in_words(data))
+        where = f", at {load}" if load else ""
         lines = [f"Answer: {effect_sentence(data)}{where}."]
         for text, point in points(data):
             if np.isfinite(point[LOSS].values).all():
@@ -112,13 +144,8 @@ class Sensitivity(Result):
         return lines
 
     @property
-    def failures(self) -> Sequence[Failure]:
-        """Each point without a solution."""
-        return failures_in(self.data)
-
-    @property
     def failure(self) -> str:
-        return first_of(self.failures, self.data[STATUS].size, "points")
+        return first_of(failures_in(self.data), self.data[STATUS].size, "points")
 
     def parts(self) -> Iterator[str | Table]:
         if STORAGE not in self.data:
@@ -177,37 +204,32 @@ class Sensitivity(Result):
         title = "What each decade of the master curve is worth"
         return Table("decades", columns, title, notes, keys=1)
 
-    def figures(self) -> Iterator[tuple[str, Figure]]:
+    def pictures(self) -> Iterator[Picture]:
         if STORAGE in self.data:
-            yield "sensitivity", charts.sensitivity_figure(self.data)
-            traces = charts.height_traces(self.data, self.inputs)
-            for number, (name, trace) in enumerate(traces, start=1):
-                yield f"height_{number}", height_figure(trace, name)
+            yield Picture(
+                "sensitivity",
+                sensitivity_figure(self.data),
+                "The master curve, and below it the per cent of friction for a per cent of E'' and "
+                "E' in a decade of frequency. Factors on the friction, such as that from lines to "
+                "a surface, do not change them.",
+                "Three panels of curves against angular frequency.",
+            )
 
-    def page_content(self) -> Page:
-        lead, *below = self.lines
-        solved = STORAGE in self.data
-        panels = charts.sensitivity_panels(self.data) if solved else []
-        cards = []
-        for _, name, symbol in _MODULI if solved else ():
-            value = least_to_most(self.data[name].sum("frequency"), digits(2))
-            detail = "of friction, at all frequencies"
-            cards.append(Card(f"1 % more {symbol}", on_page(f"{value} %"), detail))
-        traces = charts.height_traces(self.data, self.inputs)
-        heights = [panel for name, trace in traces for panel in height_panels(trace, name)]
-        failures = [Finding(Severity.ERROR, explained(failure)) for failure in self.failures]
-        elements = [*draw.panels_on_page(panels), *as_elements([*below, *self.parts()])]
-        return Page.of(
-            f"What decides the friction of {case_title(self.data.attrs)}",
-            lead,
-            [*failures, *self.findings],
-            cards,
-            [
-                Section("effects", "What the friction depends on", [Text(_CURVES), *elements]),
-                Section("heights", "Which heights count", draw.panels_on_page(heights)),
-                rerun_section(self.data.attrs),
-            ],
-        )
+    def figures(self) -> Iterator[tuple[str, Sheet | Figure]]:
+        yield from super().figures()
+        for number, (name, trace) in enumerate(self._traces, start=1):
+            yield f"height_{number}", height_figure(trace, name)
+
+    def chapters(self) -> Iterator[Section]:
+        panels = [panel for name, trace in self._traces for panel in height_panels(trace, name)]
+        yield Section("heights", "Which heights count", draw.panels_on_page(panels))
+
+    @property
+    def _traces(self) -> list[NamedTrace]:
+        """Traces at the first point, which show what heights of the surface are worth."""
+        if STORAGE not in self.data:
+            return []
+        return named_traces(self.data.isel(dict.fromkeys(dimensions(self.data), 0)), self.inputs)
 
 
 @overload

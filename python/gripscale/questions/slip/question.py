@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -20,21 +21,28 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from gripscale.case import Case
-from gripscale.charts.draw import Sheet, image
+from gripscale.charts import style
+from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
+from gripscale.charts.draw import Sheet
 from gripscale.charts.page_elements import Picture
+from gripscale.charts.style import WIDE
 from gripscale.core import Array, Finding, InputError, Severity, Topic, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm, si_value
 from gripscale.experiment.solve import OnTask, bench_in
-from gripscale.io.table import Column, Table, on_page, significant
+from gripscale.io.table import Column, Table, significant
 from gripscale.questions.answer.variables import AnswerNumber
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
-from gripscale.questions.slip.charts import slip_sheet
-from gripscale.questions.slip.friction_table import BOUNDS, TABLE, TableFriction, friction_table
-from gripscale.questions.slip.vehicle_formulas import FORMULAS, MISFIT, fitted_formulas
+from gripscale.questions.slip.friction_table import (
+    BOUNDS,
+    FORMULAS,
+    MISFIT,
+    TABLE,
+    TableFriction,
+    fitted_formulas,
+    friction_table,
+)
 from gripscale.questions.vary.axis import axes_of
-from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Page, Section
 from gripscale.theory.brush import Brush, brush_force
 
 # Of a bristle [Pa/m]: on 100 mm under 3 bar a slip stiffness of 25 loads; tyres have 15 to 30.
@@ -134,40 +142,44 @@ class SlipCurve(Result):
         fast, slow = (f"{3.6 * v:.3g}" for v in self.data.attrs["braking"])
         return f"{fast} to {slow} km/h"
 
-    def figures(self) -> Iterator[tuple[str, Sheet]]:
-        yield "slip", slip_sheet(self.data)
-
-    def page_content(self) -> Page:
-        lead, *basis = self.lines
-        first = self.data.isel(kind=-1, temperature=0, speed=0)
-        slip = 100.0 * float(first.peak_slip.sel(bound="value"))
-        cards = []
-        for force, title, detail in (
-            (first.peak, "Peak braking force", f"over the load, at {slip:.3g} % slip"),
-            (first.locked, "Locked", "over the load"),
-        ):
-            number = _number(force)
-            interval = f"{on_page(number.interval)} (90 %)" if number.interval else ""
-            value = on_page(significant(number.value))
-            cards.append(Card(title, value, detail, interval=interval))
-        chart = Picture(
+    def pictures(self) -> Iterator[Picture]:
+        yield Picture(
             "slip",
             slip_sheet(self.data).on_paper(),
             "Braking force over slip. Bands: 90 % interval of the friction.",
             "Braking force over load against slip.",
         )
-        sections = [
-            Section("curves", "Force over slip", [image(chart), self.table()]),
-            rerun_section(self.data.attrs),
-        ]
-        title = f"Braking force over slip of {case_title(self.data.attrs)}"
-        return Page.of(title, lead, self.findings, cards, sections, basis)
 
 
 def _number(values: xr.DataArray) -> AnswerNumber:
     """Return a number over `bound` with the ends of its interval."""
     low, value, high = (float(values.sel(bound=bound)) for bound in BOUNDS)
     return AnswerNumber(value, low, high)
+
+
+def slip_sheet(data: xr.Dataset) -> Sheet:
+    """Describe the braking force over slip, a panel for each kind of friction."""
+    highest = 1.08 * float(data.force.max())
+    each = [*product(range(data.sizes["temperature"]), range(data.sizes["speed"]))]
+    colours = style.colours(len(each), ordered=len(each) > 1)
+    slip = np.concatenate([[0.0], 100.0 * data.slip.values])
+    panels = []
+    for kind in data.kind.values:
+        bands: list[Mark] = []
+        curves: list[Mark] = []
+        for (i, j), colour in zip(each, colours, strict=True):
+            curve = data.sel(kind=kind).isel(temperature=i, speed=j)
+            low, value, high = (np.concatenate([[0.0], row]) for row in curve.force.values)
+            kelvin = float(curve.temperature)
+            words = [celsius(kelvin)] if math.isfinite(kelvin) else []
+            if data.sizes["speed"] > 1 or not words:
+                words.append(f"{3.6 * float(curve.speed):.3g} km/h")
+            bands.append(ShadedBand(slip, low, high, colour))
+            curves.append(Series(slip, value, colour, ", ".join(words)))
+        x = PlotAxis("slip [%]", low=0.0, high=100.0)
+        y = PlotAxis("braking force over load [-]", low=0.0, high=highest)
+        panels.append(Panel(x, y, [*bands, *curves], title=str(kind)))
+    return Sheet(panels, len(panels), WIDE, 3.6, legend_columns=4, layout={"sharey": True})
 
 
 def slip_curve(

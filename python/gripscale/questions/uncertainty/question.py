@@ -6,24 +6,46 @@ result.friction_interval
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
+import xarray as xr
 
 from gripscale.case import Case
-from gripscale.core.finding import Finding
+from gripscale.charts.page_elements import Picture
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.experiment.solve import OnTask
-from gripscale.io.table import Table
+from gripscale.io.table import Column, Table, percent
+from gripscale.questions import view
 from gripscale.questions.answer.answer import NumbersWithIntervals
-from gripscale.questions.answer.page import answer_lines
-from gripscale.questions.uncertainty import page
+from gripscale.questions.answer.estimate import DIRECT
+from gripscale.questions.answer.page import answer_cards, answer_lines
+from gripscale.questions.answer.reliance import is_measured, is_moving
+from gripscale.questions.answer.variables import SYMBOLS, has_answer, of_hysteresis
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
-from gripscale.questions.uncertainty.propagation import OnAnswer, Plan, propagate
-from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
-from gripscale.report.elements import Page
+from gripscale.questions.uncertainty.next_measurement import next_measurements
+from gripscale.questions.uncertainty.propagation import (
+    LEVELS,
+    PROPAGATED_QUANTITIES,
+    OnAnswer,
+    Plan,
+    Uncertainty,
+    propagate,
+    stated_options,
+)
+from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE
+from gripscale.questions.uncertainty.sources import SOURCES, STATED
+from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
+from gripscale.report.elements import Card
+from gripscale.report.failures import explained, failures_in
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+# Symbols of the quantities, in their order.
+HEADS = {name: SYMBOLS[name] for name in PROPAGATED_QUANTITIES}
+# Share of the samples of a model without an answer up to which the others stand for all.
+MOST_FAILED = 0.25
 
 
 class SampledAnswer(NumbersWithIntervals):
@@ -33,38 +55,154 @@ class SampledAnswer(NumbersWithIntervals):
 
     @property
     def lines(self) -> Sequence[str]:
-        held = page.interval_sentence(self.data)
+        held = _interval_sentence(self.data)
         if axis_of(self.data):
             return (held,)
         first, *below = answer_lines(self.data)
         return (first, f"  {held}", *below)
 
     @property
-    def findings(self) -> Sequence[Finding]:
-        return tuple(page.page_notices(self.data))
+    def failure(self) -> str:
+        """Samples without an answer, where the others do not stand for all of them."""
+        return _without_answer(self.data) if _too_many_failed(self.data) else ""
 
     @property
-    def failure(self) -> str:
-        return str(page.sampling_failure(self.data)) if page.too_many_failed(self.data) else ""
+    def findings(self) -> Sequence[Finding]:
+        text = "" if self.failure else _without_answer(self.data)
+        return (Finding(Severity.WARNING, text, topic=Topic.SOLUTION),) if text else ()
+
+    def cards(self) -> Iterator[Card]:
+        if not axis_of(self.data):
+            yield from answer_cards(self.data)
 
     def parts(self) -> Iterator[str | Table]:
-        if axis_of(self.data):
-            yield page.answer_table(self.data)
-        yield from page.part_tables(self.data)
-        yield page.quantile_table(self.data)
-        yield from page.share_parts(self.data)
-        yield from page.left_out_sentences(self.data)
-        yield from map(str, filter(None, [page.sampling_failure(self.data)]))
+        data = self.data
+        if axis := axis_of(data):
+            columns = view.number_columns(data, view.answers(data))
+            yield view.table(data, columns, "answers", f"Answer by {axis}")
+        yield from self._part_tables()
+        yield self._quantile_table()
+        shared = [(title, part) for title, part in _by_model(data) if part.model != DIRECT]
+        known = [np.isfinite(part.friction_share).any() for _, part in shared]
+        yield from (_share_table(*each) for each, tell in zip(shared, known, strict=True) if tell)
+        if not all(known):
+            yield f"{data.sizes['sample']} samples are too few to split the error between inputs."
+        yield from (f"Not sampled: {each}." for each in json.loads(data.attrs["left_out"]))
 
     def table(self) -> Table:
-        return next(page.part_tables(self.data))
+        """Return what the interval of the answer is made of."""
+        return next(self._part_tables())
 
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        for picture in uncertainty_pictures(self.data):
-            yield picture.name, picture.figure
+    def _part_tables(self) -> Iterator[Table]:
+        """Yield what the interval is made of at each load; of one load what to measure next."""
+        for label, part in view.points(self.data):
+            if has_answer(part) and part.sizes["part"]:
+                where = f" ({label})" if label else ""
+                yield _part_table(part, f"What matters most to the answer{where}")
+                if not label and is_moving(part) and (table := next_measurements(part)):
+                    yield table
 
-    def page_content(self) -> Page:
-        return page.uncertainty_page(self.data)
+    def _quantile_table(self) -> Table:
+        """Return the quantiles of friction and contact fraction of each model and load."""
+        rows = [(title, part, name) for title, part in _by_model(self.data) for name in HEADS]
+        quantiles = np.array([part[f"{name}_quantile"].values for _, part, name in rows])
+        columns = [
+            Column("model", [title for title, _, _ in rows]),
+            Column("quantity", [HEADS[name] for _, _, name in rows]),
+            Column("case", [float(part[f"{name}_case"]) for _, part, name in rows], "the case"),
+            *(
+                Column(f"quantile_{level:g}", quantiles[:, at], f"{level:.0%}")
+                for at, level in enumerate(LEVELS)
+            ),
+            Column("failed", [int(part.failed) for _, part, _ in rows], format="{:.0f}".format),
+        ]
+        title = "Quantiles of the samples, without the factors of the answer"
+        return Table("quantiles", columns, title, keys=2)
+
+    def pictures(self) -> Iterator[Picture]:
+        yield from uncertainty_pictures(self.data)
+
+
+def _by_model(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield what each model and load is called, with its part."""
+    for name in data.model.values:
+        for label, part in view.points(data.sel(model=name)):
+            yield f"{name}{f', {label}' if label else ''}", part
+
+
+def _interval_sentence(data: xr.Dataset) -> str:
+    """Return what the interval of an answer holds."""
+    count = data.sizes["sample"]
+    if not is_measured(data):
+        return (
+            f"interval: {count} samples of the chain with the errors of the inputs; no measured "
+            "surface judges it"
+        )
+    if DIRECT not in data.model.values:
+        return (
+            "interval: that of `gripscale run`, without errors of the inputs: the direct contact "
+            "was not sampled (model: direct or both)"
+        )
+    text = f"interval: with the errors of the inputs, from {count} samples"
+    # what only a case can state
+    missing = [SOURCES[name].label for name in STATED if name not in data.source]
+    return f"{text}, but for {', '.join(missing)}" if missing else text
+
+
+def _part_table(part: xr.Dataset, title: str) -> Table:
+    """Return the parts of the interval of an answer: standard errors and shares of variance."""
+    names = list(HEADS) if is_moving(part) else ["contact_fraction"]
+    ranked = np.argsort(-part[f"answer_{names[0]}_part_error"].values, kind="stable")
+    part = part.isel(part=ranked)
+    labels = part.part_label.values.tolist()
+    columns = [Column("part", labels, "not known")]
+    for name in names:
+        sigma = part[f"answer_{name}_part_error"].values
+        share = sigma**2 / float(part[f"answer_{of_hysteresis(part, name)}_uncertainty"]) ** 2
+        of_sum = of_hysteresis(part, name) != name
+        group = f"{HEADS[name]} of hysteresis" if of_sum else HEADS[name]
+        columns += [
+            Column(f"{name}_error", sigma, "±", group=group, format=percent),
+            Column(f"{name}_share", share, "share", group=group, format="{:.0%}".format),
+        ]
+    notes = ["±: standard error of the logarithm; share: its square over that of the interval."]
+    # NaN where no samples know the error of a share
+    error = part[f"answer_{names[0]}_part_share_error"].values
+    if unseen := [labels[k] for k in np.flatnonzero(columns[2].values < SIGNIFICANCE * error)]:
+        count = part.sizes["sample"]
+        notes.append(f"No significant effect with {count} samples: {', '.join(unseen)}.")
+    return Table("parts", columns, title, notes)
+
+
+def _share_table(title: str, part: xr.Dataset) -> Table:
+    """Return the share of each source in the samples of one model at one load, most first."""
+    part = part.isel(source=np.argsort(-part.friction_share.values, kind="stable"))
+    columns, whole = [Column("source", [*part.label.values.tolist(), NOT_ALONE])], "{:.0%}".format
+    for name, symbol in HEADS.items():
+        share = part[f"{name}_share"].values
+        every = np.maximum([*share, 1.0 - share.sum()], 0.0)
+        error = [*part[f"{name}_share_error"].values, np.nan]
+        columns += [
+            Column(f"{name}_share", every, "share of variance", group=symbol, format=whole),
+            Column(f"{name}_share_error", error, "±", group=symbol, format=whole),
+        ]
+    return Table("shares", columns, f"What matters most ({title})")
+
+
+def _without_answer(data: xr.Dataset) -> str:
+    """Return how many samples have no answer, and why the first; empty if all have one."""
+    failed, of_case = failures_in(data, "status"), failures_in(data, "status_case")
+    texts = [f"the case itself has no answer: {explained(failure)}" for failure in of_case[:1]]
+    if failed:
+        count = f"{len(failed)} of {data.status.size} samples have no answer and count in no"
+        texts.insert(0, f"{count} quantile; the first: {explained(failed[0])}")
+    return "; ".join(texts)
+
+
+def _too_many_failed(data: xr.Dataset) -> bool:
+    """Return whether the case has no answer, or too few samples have one to stand for all."""
+    most = MOST_FAILED * data.sizes["sample"]
+    return bool(failures_in(data, "status_case")) or bool((data.failed > most).any())
 
 
 def uncertainty(

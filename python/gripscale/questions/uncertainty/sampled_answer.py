@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -34,16 +34,20 @@ from gripscale.questions.answer.direct_contact import direct_contact_totals
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, SampledErrors
 from gripscale.questions.answer.intervals import LogError, combined
 from gripscale.questions.answer.samples import SAMPLED_QUANTITIES, running, usable
-from gripscale.questions.answer.variables import HYSTERESIS, of_hysteresis
+from gripscale.questions.answer.variables import (
+    FRICTION_BELOW_MEASUREMENT,
+    HYSTERESIS,
+    of_hysteresis,
+)
 from gripscale.questions.answer.waves import answer_of_waves
-from gripscale.questions.uncertainty.sampling import SampleSet
 from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES
 from gripscale.questions.uncertainty.variance_shares import shares
 
+if TYPE_CHECKING:
+    from gripscale.questions.uncertainty.propagation import SampleSet
+
 # End of the name of the half width without errors of the inputs, as `gripscale run` states it.
 OF_RUN = "half_width_of_run"
-# Name of the share of the friction in waves shorter than the `resolution_limit` [m].
-FRICTION_BELOW_MEASUREMENT = "friction_below_measurement"
 # Sources that are errors of the answer itself, too; and what no source does alone.
 ROAD, GRID, REST = "profile", "grid", "together"
 # What tables call `REST`: beside sources, and where the samples are too few to tell them apart.

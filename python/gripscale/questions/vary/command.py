@@ -66,12 +66,9 @@ def study_command(
     varied = read_named_inputs(axes, work.file, modulus)
     planned = Study(work.case, varied, model=model, tolerance=tolerance)
     work.open_results(output, "study")
-    opening = planned.description()
-    for line in opening:
-        terminal.print_wrapped(work.console, line)
     folder.save_case(work.file, work.target)
     data = planned.run(client=cluster, **work.solving(workers))
-    work.finish(Variation(data), "table and figures", opening=opening)
+    work.finish(Variation(data), "table and figures")
 
 
 CaseOfRest = Annotated[

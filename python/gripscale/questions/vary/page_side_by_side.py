@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -12,12 +11,10 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from gripscale.charts.draw import image
 from gripscale.charts.page_elements import Picture
 from gripscale.charts.style import power_of_ten
-from gripscale.core.arrays import Array
 from gripscale.core.finding import sentences
-from gripscale.core.units import MILLI, ZERO_CELSIUS, display_unit_of
+from gripscale.core.units import MILLI, ZERO_CELSIUS
 from gripscale.io.table import Column, Table, significant
 from gripscale.model import input_doubts_of
 from gripscale.questions import view
@@ -26,12 +23,10 @@ from gripscale.questions.inputs.page import rubbers_of, texture_table
 from gripscale.questions.vary.friction_ratio import RANKED
 from gripscale.questions.vary.inputs import READING_NOTES, TEMPERATURE
 from gripscale.questions.vary.question import Variation
-from gripscale.report.elements import Card, Page, Section, as_elements
+from gripscale.report.elements import Card
 from gripscale.surface.surface import SURFACE_KIND
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from gripscale.rubber import Rubber
 
 # Confidence from which one lies over another, as outside of a two-sided 90 % interval.
@@ -49,21 +44,17 @@ class SideBySide(Variation):
 
     dim: ClassVar[str]  # dimension of what stands side by side
 
-    @cached_property
+    @property
     def names(self) -> list[str]:
         """What stands side by side is called."""
         return [str(name) for name in self.data[self.dim].values]
 
     @cached_property
-    def friction(self) -> Array:
-        """Friction of each [-]."""
-        return np.asarray(self.data[view.answers(self.data)[0]].transpose(self.dim).values)
-
-    @cached_property
-    def order(self) -> list[int]:
-        """Numbers of what has friction, the largest first."""
-        by_size = np.argsort(-self.friction, kind="stable")
-        return [int(i) for i in by_size if self.friction[i] > 0.0]
+    def friction(self) -> dict[str, float]:
+        """Friction of each that has any [-], the largest first."""
+        values = self.data[view.answers(self.data)[0]].transpose(self.dim).values
+        each = {name: float(mu) for name, mu in zip(self.names, values, strict=True) if mu > 0.0}
+        return dict(sorted(each.items(), key=lambda item: -item[1]))
 
     @property
     def noun(self) -> str:
@@ -72,90 +63,88 @@ class SideBySide(Variation):
             return "compound"
         return str(self.data.attrs.get(SURFACE_KIND, "surface"))
 
-    def _of_pair(self, name: str, high: int, low: int) -> float:
-        """Return what is said of one over another, such as their `friction_ratio`."""
-        return float(self.data[name].transpose(self.dim, "over")[high, low])
+    @property
+    def title(self) -> str:
+        """What stands side by side."""
+        return f"{self.noun.capitalize()}s side by side: {', '.join(self.names)}"
 
-    def _confidence(self, high: int, low: int) -> str:
-        """Return how sure it is that one lies over another, in brackets; empty if unknown."""
+    def _of_pair(self, name: str, high: str, low: str) -> float:
+        """Return what is said of one over another, such as their `friction_ratio`."""
+        return float(self.data[name].sel({self.dim: high, "over": low}))
+
+    def _over(self, high: str, low: str) -> str:
+        """Return that one lies over another, and how surely."""
         confidence = self._of_pair("confidence", high, low)
-        if math.isnan(confidence):
-            return ""
+        sure = "" if math.isnan(confidence) else f" ({percent_sure(confidence)} sure)"
         if confidence < SIGNIFICANT:
-            return f" ({percent_sure(confidence)}: no significant difference)"
-        return f" ({percent_sure(confidence)} sure)"
+            sure = f" ({percent_sure(confidence)}: no significant difference)"
+        return f"over {low} {significant(self.friction[low])}{sure}"
 
     @property
     def lines(self) -> Sequence[str]:
         """The ranking by friction, with the confidence of each step and its causes."""
-        data, steps = self.data, list(pairwise(self.order))
+        steps = list(pairwise(self.friction))
         if not steps:
             return ("Answer: none; no two of them have a friction to be compared.",)
-        texts = {at: f"{self.names[at]} {significant(self.friction[at])}" for at in self.order}
-        over = [f" over {texts[low]}{self._confidence(high, low)}" for high, low in steps]
-        lines = [f"Answer: friction μ ranks {texts[self.order[0]]}{''.join(over)}."]
-        area = data[view.answers(data)[1]].values
+        first, mu = next(iter(self.friction.items()))
+        over = " ".join(self._over(*step) for step in steps)
+        lines = [f"Answer: friction μ ranks {first} {significant(mu)} {over}."]
+        area = self.data[view.answers(self.data)[1]]
         for high, low in steps:
             ratio, *ends = (
                 self._of_pair(f"friction_ratio{end}", high, low) for end in ("", "_low", "_high")
             )
             interval = f" ({' to '.join(map(significant, ends))})" if math.isfinite(ends[0]) else ""
+            areas = float(area.sel({self.dim: high}) / area.sel({self.dim: low}))
             lines.append(
-                f"  {self.names[high]} over {self.names[low]}: friction × {significant(ratio)}"
-                f"{interval}, contact area × {significant(area[high] / area[low])}"
-                f"{self._causes(high, low)}"
+                f"  {high} over {low}: friction × {significant(ratio)}{interval}, contact area × "
+                f"{significant(areas)}{self._causes(high, low)}"
             )
-        if doubts := input_doubts_of(data):
+        if doubts := input_doubts_of(self.data):
             lines.append(f"  not to be relied on: {sentences(doubts)}")
-        pressure, speed = (
-            display_unit_of(data.attrs, name).text(float(data.attrs[f"nominal_{name}"]))
-            for name in ("pressure", "speed")
-        )
-        kelvin = data.attrs.get(TEMPERATURE)
+        kelvin = self.data.attrs.get(TEMPERATURE)
         at = "" if kelvin is None else f", all at {kelvin - ZERO_CELSIUS:.4g} °C"
-        return (*lines, f"  for {pressure} and {speed}{at}; {self._basis()}")
+        load = " and ".join(view.load_in_words(self.data))
+        return (*lines, f"  for {load}{at}; {self._basis()}")
 
-    def _causes(self, high: int, low: int) -> str:
+    def _causes(self, high: str, low: str) -> str:
         """Return at which wavelengths and relaxation times most of a difference arises."""
         texts = []
         for name, dim in (("octave_friction", "octave"), ("friction_by_decade", "decade")):
             if name not in self.data or (self.dim, dim) == ("surface", "decade"):
                 continue
-            rows = np.nan_to_num(self.data[name].values)
-            differences = rows[high] - rows[low]
-            at = int(np.argmax(np.abs(differences)))
-            end = float(self.data[dim][at])
+            parts = self.data[name].fillna(0.0)
+            apart = parts.sel({self.dim: high}) - parts.sel({self.dim: low})
+            most = apart[int(np.abs(apart).argmax())]
+            end = float(most[dim])
             where = f"waves of {significant(end / MILLI)} to {significant(2.0 * end / MILLI)} mm"
             if dim == "decade":
                 power = round(math.log10(end))
                 where = f"relaxation times of {power_of_ten(power)} to {power_of_ten(power + 1)} s"
-            texts.append(f"{differences[at]:+.3f} by {where}")
+            texts.append(f"{float(most):+.3f} by {where}")
         return f"; most of μ: {', '.join(texts)}" if texts else ""
 
     def _basis(self) -> str:
         """Return which model the ranking is from, and what its confidence holds."""
-        data = self.data
-        if not is_estimated(data, "friction"):
+        if not is_estimated(self.data, "friction"):
             return "chain of sine waves, without an interval: not all of the surfaces were measured"
         answer = "direct contact of the measured surface × its factors"
-        if not np.isfinite(data["friction_ratio_low"].values).any():
-            return (
-                f"{answer}; no interval: a surface is too short to tell whether it stands for the "
-                "whole"
-            )
+        if not np.isfinite(self.data["friction_ratio_low"].values).any():
+            return f"{answer}; no interval: a surface is too short to stand for the whole"
         if self.dim == "surface":
             return f"{answer}; the errors of the surfaces are independent"
-        has_moduli = "series_change" in data and bool(data["series_change"].notnull().any())
-        moduli = "measured moduli, " if has_moduli else ""
-        return (
-            f"{answer}; what all share of the surface and its factors cancels, what is left comes "
-            f"from {moduli}pieces of the surface and grids"
-        )
+        return f"{answer}; errors that all have in common cancel"
+
+    def cards(self) -> Iterator[Card]:
+        """Yield the friction of each by rank."""
+        details = [*(self._over(*step) for step in pairwise(self.friction)), ""]
+        for (name, mu), detail in zip(self.friction.items(), details, strict=True):
+            yield Card(f"μ of {name}", significant(mu), detail)
 
     def table(self) -> Table:
         """Return the answers by rank, each with its friction over that of the next."""
-        order = self.order + [at for at in range(len(self.names)) if at not in self.order]
-        ranked, about = self.data.isel({self.dim: order}), {"symbol": "μ over the next"}
+        order = [*self.friction, *(name for name in self.names if name not in self.friction)]
+        ranked, about = self.data.sel({self.dim: order}), {"symbol": "μ over the next"}
         for name in RANKED:
             values = [*(self._of_pair(name, *pair) for pair in pairwise(order)), math.nan]
             ranked[f"{name}_over_next"] = (self.dim, values, about)
@@ -182,38 +171,6 @@ class SideBySide(Variation):
             yield texture_table(self.data, self.dim, self.noun)
         yield from (f"note: {note}" for note in self.notes)
 
-    @abstractmethod
-    def pictures(self) -> Iterator[Picture]:
-        """Yield friction by wavelength, and statistics of surfaces or moduli of compounds."""
-
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        """Yield the pictures, with their names."""
-        yield from ((picture.name, picture.figure) for picture in self.pictures())
-
-    def page_content(self) -> Page:
-        """Return the friction of each by rank, tables and pictures, then the inputs."""
-        data = self.data
-        cards = [
-            Card(
-                f"μ of {self.names[high]}",
-                significant(self.friction[high]),
-                "" if low is None else f"over {self.names[low]}{self._confidence(high, low)}",
-            )
-            for high, low in zip(self.order, [*self.order[1:], None], strict=True)
-        ]
-        ranking = [*as_elements(self.parts()), *map(image, self.pictures())]
-        return view.page(
-            data,
-            (
-                f"{self.noun.capitalize()}s side by side: {', '.join(self.names)}",
-                str(data.attrs.get("title", "")),
-            ),
-            self.findings,
-            cards,
-            [Section(f"{self.dim}s", "Ranking", ranking)],
-            self.lines,
-        )
-
 
 class Surfaces(SideBySide):
     """Several surfaces under the rubber and the load of a case."""
@@ -223,7 +180,7 @@ class Surfaces(SideBySide):
 
     def pictures(self) -> Iterator[Picture]:
         """Yield friction by wavelength, and correlation and spectrum."""
-        from gripscale.questions.vary.charts_side_by_side import road_pictures
+        from gripscale.questions.vary.charts import road_pictures
 
         yield from road_pictures(self.data)
 
@@ -243,6 +200,6 @@ class Compounds(SideBySide):
 
     def pictures(self) -> Iterator[Picture]:
         """Yield friction by wavelength and relaxation time, and the moduli."""
-        from gripscale.questions.vary.charts_side_by_side import compound_pictures
+        from gripscale.questions.vary.charts import compound_pictures
 
         yield from compound_pictures(self.data, self.rubbers)

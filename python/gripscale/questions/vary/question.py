@@ -6,27 +6,49 @@ result.data.answer_friction
 
 from __future__ import annotations
 
+import json
+import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import xarray as xr
 
 from gripscale.case import Case
-from gripscale.core.finding import Finding
+from gripscale.charts.page_elements import Picture
+from gripscale.core.finding import Finding, Severity, Topic, sentences
+from gripscale.core.units import display_unit_of
+from gripscale.experiment.design import CONVERGED
 from gripscale.experiment.solve import OnTask
 from gripscale.half_space.model import JUDGED_TO
-from gripscale.io.table import Table
-from gripscale.model import STATUS, Model
+from gripscale.io.table import Column, Table, least_to_most, percent, significant
+from gripscale.model import (
+    ADHESIVE_FRICTION,
+    FRICTION_OUTSIDE_BAND,
+    METHOD,
+    STATUS,
+    Model,
+    input_doubts_of,
+    with_adhesive,
+)
 from gripscale.questions import view
+from gripscale.questions.answer.estimate import ISOTROPY_ASSUMED, LINES_TO_SURFACE
+from gripscale.questions.answer.reliance import WORTH_NAMING
+from gripscale.questions.answer.variables import HYSTERESIS, INTERFACE, SYMBOLS, is_estimated
+from gripscale.questions.chain.findings import study_sentence
+from gripscale.questions.cut_off.curve import CONTINUED_TO
+from gripscale.questions.inputs.page import input_sections
 from gripscale.questions.result import Result
-from gripscale.questions.vary import page
-from gripscale.questions.vary.study import Study
-from gripscale.report.elements import Page
+from gripscale.questions.vary.charts import study_pictures
+from gripscale.questions.vary.inputs import OF_THE_CHAIN
+from gripscale.questions.vary.study import BEYOND_SHIFT, Study
+from gripscale.report.again import case_title
+from gripscale.report.elements import Card, Section, percent_text
+from gripscale.report.equations import method_section
 from gripscale.report.failures import failures_in, first_of
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-MOST_PRINTED = 200  # predictions in the terminal; a page has all of them
+MOST_PRINTED = 200  # predictions in the terminal; a file has all of them
 
 
 class Variation(Result):
@@ -40,31 +62,137 @@ class Variation(Result):
         return "prediction"
 
     @property
+    def title(self) -> str:
+        return f"Study: {case_title(self.data.attrs)}"
+
+    @property
     def lines(self) -> Sequence[str]:
-        return tuple(page.study_lines(self.data))
+        data, (friction, area) = self.data, view.answers(self.data)
+        texts = [text for name in (friction, area) if (text := view.course(data, name))]
+        if not texts:
+            return ("Answer: none; no prediction has a result.",)
+        level = " (90 % intervals)" if view.interval_ends_of(data, area) else ""
+        estimated = is_estimated(data, "contact_fraction")
+        by = "" if estimated else f" by the {view.model_in_words(data)}, without an interval"
+        basis = [f"for {', '.join(_held(data))}"]
+        if doubts := input_doubts_of(data):
+            basis.insert(0, f"not to be relied on: {sentences(doubts)}")
+        if estimated:
+            basis += [f"from {' × '.join(_factors(data))}", "; ".join(_rests_on(data))]
+        else:
+            basis.append(_why_no_interval(data))
+        answer = f"Answer{by}: {'; '.join(texts)}{level}."
+        return (answer, *(f"  {line}" for line in basis))
 
     @property
     def findings(self) -> Sequence[Finding]:
-        return tuple(page.study_findings(self.data))
+        findings = []
+        if beyond := study_sentence(self.data):
+            share = float(self.data[FRICTION_OUTSIDE_BAND].max())
+            text = f"{beyond} There the Prony series is an extrapolation."
+            findings.append(Finding(Severity.WARNING, text, share, topic=Topic.RUBBER))
+        if BEYOND_SHIFT in self.data and bool(self.data[BEYOND_SHIFT].any()):
+            flags = self.data[BEYOND_SHIFT]
+            count = f"{int(flags.sum())} of {flags.size} predictions"
+            text = f"{count} lie beyond the temperatures of the shift of the rubber."
+            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
+        notes = str(self.data.attrs.get("notes", "")).splitlines()
+        return (*findings, *(Finding(Severity.WARNING, n, topic=Topic.SURFACE) for n in notes))
 
     @property
     def failure(self) -> str:
         failed = failures_in(self.data, STATUS)
         return first_of(failed, self.data[STATUS].size, f"{self.noun}s")
 
+    def cards(self) -> Iterator[Card]:
+        yield from view.cards(self.data)
+
     def parts(self) -> Iterator[str | Table]:
-        yield view.first_rows(page.study_table(self.data), MOST_PRINTED)
+        yield view.first_rows(self.table(), MOST_PRINTED)
 
     def table(self) -> Table:
-        return page.study_table(self.data)
+        """Return friction, area and status of each prediction, over what was varied."""
+        data = self.data
+        estimated, names = is_estimated(data, "friction"), view.answers(data)
+        names += [] if estimated else ["total_friction_from_dissipation"]
+        names += [name for name in (HYSTERESIS, INTERFACE) if name in data]
+        both = with_adhesive(data)
+        if not estimated and both is not None:
+            about = {"symbol": "μ with it", "long_name": "friction of hysteresis and area term"}
+            data = data.assign(friction_with_area_term=both.assign_attrs(about))
+            names += [ADHESIVE_FRICTION, "friction_with_area_term"]
+        columns = list(view.number_columns(data, [name for name in names if name in data]))
+        if study_sentence(data):
+            share = view.at_places(data, FRICTION_OUTSIDE_BAND)
+            columns.append(Column("outside_band", share, "μ", "beyond band", format=percent))
+        table = view.table(data, columns, "study", "Predictions of the study")
+        if BEYOND_SHIFT in data:
+            marks = [" *" if beyond else "" for beyond in view.at_places(data, BEYOND_SHIFT)]
+            marked = [*table.columns]
+            marked[table.keys - 1] = replace(marked[table.keys - 1], marks=marks)
+            table = replace(table, columns=marked)
+        return table
 
-    def figures(self) -> Iterator[tuple[str, Figure]]:
-        from gripscale.questions.vary.charts import study_pictures
+    def pictures(self) -> Iterator[Picture]:
+        yield from study_pictures(self.data)
 
-        yield from ((picture.name, picture.figure) for picture in study_pictures(self.data))
+    def chapters(self) -> Iterator[Section]:
+        yield from input_sections(self.data)
+        yield method_section(json.loads(self.data.attrs.get(METHOD, "[]")))
 
-    def page_content(self) -> Page:
-        return page.study_page(self.data)
+
+def _held(data: xr.Dataset) -> Iterator[str]:
+    """Yield what was not varied, and how many predictions there are."""
+    yield from view.load_in_words(data)
+    ends = [float(data[name]) for name in ("cutoff_wavelength", CONTINUED_TO) if name in data]
+    if ends:
+        yield f"roughness down to {1e3 * min(ends):.3g} mm"
+    if "thickness" in data.attrs and "thickness" not in data.dims:
+        thickness = display_unit_of(data.attrs, "thickness").text(data.attrs["thickness"])
+        yield f"rubber {thickness} thick on a rigid base"
+    failed = int((data[STATUS] != CONVERGED).sum())
+    yield f"{data[STATUS].size} predictions, {failed or 'none'} without a result"
+
+
+def _why_no_interval(data: xr.Dataset) -> str:
+    """Return why the numbers of a study are no answer with an interval."""
+    if data.attrs.get("model") == "direct":
+        return "no interval: the direct contact alone has none; leave the model out"
+    if not data.attrs.get("surface_measured"):
+        return "no interval: no surface was measured that could judge it"
+    if set(view.dimensions(data)) & set(OF_THE_CHAIN):
+        return "the varied input belongs to the chain only: `gripscale run` has the answer"
+    return "the surface was measured: `--model direct`, the default, gives the answer"
+
+
+def _factors(data: xr.Dataset) -> Iterator[str]:
+    """Yield the direct contact and each factor on it, friction first; ranges where they vary."""
+    yield view.model_in_words(data)
+    for at, label in enumerate(data.factor_label.values):
+        ranges = []
+        for name in reversed(SYMBOLS):
+            values = data[f"answer_{name}_factor"].isel(factor=at).values
+            ranges.append(f"{SYMBOLS[name]} × {least_to_most(values)}")
+        error = data["answer_friction_factor_uncertainty"].isel(factor=at)
+        same = all(text.endswith(f"× {significant(1.0)}") for text in ranges)
+        factor = f"1 ± {percent_text(float(error.max()))}" if same else ", ".join(ranges)
+        yield f"{label} ({factor})"
+
+
+def _rests_on(data: xr.Dataset) -> Iterator[str]:
+    """Yield the largest shares of the answers that rest on what was not measured well."""
+    sampling = float(data["answer_friction_sampling_error"].max())
+    if math.isfinite(sampling):
+        yield f"sampling of the surface up to ± {percent_text(sampling)} of it (standard error)"
+    else:
+        yield "no interval: the surface is too short to tell whether it stands for the whole"
+    steep = float(data["answer_steep_share"].max())
+    if steep > WORTH_NAMING:
+        yield f"up to {percent_text(steep)} of the friction on slopes above 1"
+    if LINES_TO_SURFACE in data.factor_label.values:
+        yield ISOTROPY_ASSUMED
+    if math.isfinite(sampling):
+        yield "intervals leave out errors of the master curve"
 
 
 def vary(

@@ -10,7 +10,7 @@ where it was when it is run again, and ends in the same Dataset to the last bit.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -48,7 +48,6 @@ from gripscale.questions.vary.friction_parts import (
     waves_by_octave,
     with_decades,
 )
-from gripscale.questions.vary.speed_and_temperature import beyond_shift, with_master_curve
 from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import Surface
@@ -96,8 +95,45 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
     return coords
 
 
+BEYOND_SHIFT = "rubber_temperature_extrapolated"
+REDUCED_SPEED = "reduced_speed"
+
+
+def beyond_shift(tasks: Sequence[Task], axes: Sequence[Axis]) -> dict[str, xr.DataArray]:
+    """Return where the temperature before the contact lies beyond those the shift rests on.
+
+    Of the tasks of all points, last axis fastest. Empty where no temperature is stated.
+    """
+    pairs = [(task.rubber, task.model.conditions) for task in tasks]
+    if all(conditions is None or conditions.temperature is None for _, conditions in pairs):
+        return {}
+    before = [rubber if c is None else c.before(rubber) for rubber, c in pairs]
+    sizes = {axis.name: len(axis.values) for axis in axes}
+    flags = np.reshape([rubber.shift_extrapolated for rubber in before], [*sizes.values()])
+    text = "whether the temperature lies beyond those the shift of the rubber rests on"
+    return {BEYOND_SHIFT: xr.DataArray(flags, dims=[*sizes], attrs=variable_attributes(text))}
+
+
+def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
+    """Return a study over speed and temperature with the reduced speed a_T v.
+
+    The shift factors are those to the reference temperature of `rubber`.
+    """
+    assert rubber.shift is not None
+    assert rubber.reference_temperature is not None
+    kelvin, reference = result.temperature.values, rubber.reference_temperature
+    horizontal = variable_attributes(f"horizontal shift factor a_T to {reference:g} K")
+    vertical = variable_attributes(f"vertical factor b_T to {reference:g} K")
+    result = result.assign_coords(
+        shift_factor=("temperature", rubber.shift.a(kelvin, reference), horizontal),
+        vertical_shift_factor=("temperature", rubber.shift.b(kelvin, reference), vertical),
+    )
+    about = variable_attributes("reduced speed", "m/s") | {"symbol": "a_T v"}
+    speed = (result.speed * result.shift_factor).assign_attrs(result.speed.attrs | about)
+    return result.assign_coords({REDUCED_SPEED: speed})
+
+
 OF_THE_LOAD = ("pressure", "speed", "thickness")  # inputs that vary the load
-_STEEPEST = 3.0  # slope of a wave beyond which its block hardly converges
 # Inputs that vary the waves of a surface.
 OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
 STUDY_FILE = "study.nc"  # the Dataset, in the folder of the study
@@ -171,33 +207,6 @@ class Study:
 
     def _values(self, name: str) -> tuple[Any, ...]:
         return next((axis.values for axis in self.axes if axis.name == name), ())
-
-    def description(self) -> list[str]:
-        """Return in words what is varied, and on what."""
-        count = len({point.task.key for point in self.points})
-        names = " x ".join(f"{axis.name} ({len(axis.values)})" for axis in self.axes)
-        return [
-            f"Study of {self.case.name}",
-            f"  varied: {names}; {count} different predictions",
-            *(f"  surface: {s.source}, {len(s.sines)} sine waves" for s in self.surfaces),
-            *(f"  rubber: {rubber.name}, {rubber.source}" for rubber in self.rubbers),
-            *self._steep_waves(),
-        ]
-
-    def _steep_waves(self) -> Iterator[str]:
-        """Yield which varied factors make waves that take minutes, or have no solution."""
-        for (number, *changes), surface in self._varied.items():
-            factors, sines = dict(changes).get("factors"), self.surfaces[number].sines
-            steepest = float(surface.sines.slope.max()) if factors else 0.0
-            if factors and steepest > _STEEPEST:
-                fitted = ""
-                if sines.s_wavelength is not None and sines.s_amplitude is not None:
-                    fitted = f"; fitted are {sines.s_wavelength:.3g} and {sines.s_amplitude:.3g}"
-                yield (
-                    f"  factors {factors[0]:.3g} and {factors[1]:.3g} make waves of slope "
-                    f"{steepest:.2g}: steeper than {_STEEPEST:g} they take minutes or have no "
-                    f"solution{fitted}"
-                )
 
     @cached_property
     def design(self) -> Design:

@@ -1,0 +1,66 @@
+"""`gripscale reproduce`: the paper's figures, and its statements judged by number."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+from gripscale.questions import terminal
+from gripscale.questions.terminal import argument, command, option
+
+Two = tuple[str, str] | None
+
+
+@command
+def reproduce(
+    figures: Annotated[
+        list[str] | None, argument("Such as fig5a fig9b; all by default.", "FIGURE...")
+    ] = None,
+    output: Annotated[Path, option("Folder for the results.", metavar="DIR")] = Path(
+        "results/reproduction"
+    ),
+    surface: Annotated[
+        Two, option("Two surfaces of your own, files or cases; most figures show the first.")
+    ] = None,
+    rubber: Annotated[
+        Two, option("Two rubbers of your own, files or cases; most figures show the first.")
+    ] = None,
+    factors: Annotated[
+        str | None, option("Magnification of wavelength and amplitude: 3.5/2.4,3/2.2,6/3.")
+    ] = None,
+    smallest_wavelength: Annotated[
+        str | None, option("Of files of profiles; by default where the measurement ends.")
+    ] = None,
+    x_unit: terminal.SurfaceUnit = None,
+    z_unit: terminal.SurfaceUnit = None,
+    channel: terminal.SurfaceChannel = None,
+    crop: terminal.SurfaceCrop = None,
+    modulus: terminal.Modulus = None,
+    temperature: Annotated[str | None, option('Of your rubbers, such as "20 C".')] = None,
+    workers: terminal.Workers = None,
+    cluster: terminal.Cluster = None,
+) -> None:
+    """Reproduce figures of Lind & Wangenheim 2014 and judge the paper's statements."""
+    from gripscale.core import si_value
+    from gripscale.questions.vary.axis import axis_value
+    from gripscale.reproduction.inputs import read_inputs
+    from gripscale.reproduction.run import reproduce_paper
+    from gripscale.reproduction.statement import number_holding, verdict_table
+
+    units = {"x_unit": x_unit, "z_unit": z_unit, "smallest_wavelength": smallest_wavelength}
+    inputs = read_inputs(
+        surface or (),
+        rubber or (),
+        [axis_value("factors", pair) for pair in (factors.split(",") if factors else ())],
+        surface_keys=terminal.surface_keys(channel=channel, crop=crop, **units),
+        rubber_keys={"modulus": modulus} if modulus else {},
+        temperature=si_value("--temperature", temperature, "K"),
+    )
+    console = terminal.screen()
+    show = terminal.progress_printer(console)
+    options: Any = {"workers": workers, "client": cluster, "on_task": show}
+    statements = reproduce_paper(inputs, output, figures or (), **options)
+    terminal.end_steps()
+    closing = f"Figures, data, and statements.md with all numbers and reasons are in {output}"
+    holding = f"{number_holding(statements)}."
+    terminal.print_parts(console, [verdict_table(statements), "", holding, closing])
