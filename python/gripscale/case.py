@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -42,7 +43,6 @@ from gripscale.model import FOOTPRINT, Load, LoadTime, Model, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import (
-    HeightDifference,
     HeightMap,
     Measured,
     Profile,
@@ -550,23 +550,28 @@ def excitation(
 
 
 def described_surface(
-    measured: Measured,
+    measured: Measured | Spectrum,
     *,
     counted: Mapping[str, Any],
     fit: Mapping[str, Any],
     cut_off: CutOffRule | None,
     source: str,
     footprint: float | None = None,
-    correlation: HeightDifference | None = None,
 ) -> Surface:
-    """Return a measured surface with its correlation and the sine waves that follow it.
+    """Return a measured surface, or lines of its spectrum, with correlation and sine waves.
 
     `counted` and `fit` are arguments of `height_difference` and `fit_sines`, `cut_off` says where
     the roughness ends; None: where `fit` does. Profiles lose waves that a `footprint` [m] does not
     hold, if these are most of their heights. Raises `InputError` if the heights have no
-    correlation, or no waves fit it. A `correlation` that is known is not computed.
+    correlation, or no waves fit it.
     """
-    if footprint is not None and measured.map is None and measured.longest is None:
+    spectrum, correlation = None, None
+    if isinstance(measured, Spectrum):
+        spectrum, end = measured, fit.get("smallest_wavelength") or cut_off
+        end = end if isinstance(end, float) else None
+        lines, correlation = spectrum.lines(footprint or math.inf, end)
+        measured = Measured.of(lines)
+    elif footprint is not None and measured.map is None and measured.longest is None:
         longest = longest_held(measured.cleaned, footprint)
         measured = measured if longest is None else measured.without_long_waves(longest)
     try:
@@ -581,23 +586,8 @@ def described_surface(
     if not (cut_off is None or isinstance(cut_off, float)):
         options["cut_off"] = find_cut_off(measured.slopes, cut_off).wavelength
     sines = fit_sines(correlation, **options)
-    return Surface(sines, source, correlation, options, measured, counted, cut_off)
-
-
-def surface_of_spectrum(
-    spectrum: Spectrum, footprint: float, longest: float | None, **description: Any
-) -> Surface:
-    """Return a surface known by its spectrum: `measured` are lines of it with random phases.
-
-    It has no waves beyond `longest` [m], or those that a `footprint` [m] does not hold; the
-    `description` is `fit` and `cut_off` of `described_surface`.
-    """
-    stated = description["fit"].get("smallest_wavelength") or description["cut_off"]
-    end = stated if isinstance(stated, float) else None
-    lines, correlation = spectrum.held_by(footprint, longest).lines(footprint, end)
-    description |= {"counted": {}, "source": spectrum.source, "correlation": correlation}
-    surface = described_surface(replace(Measured.of(lines), longest=longest), **description)
-    return replace(surface, spectrum=spectrum)
+    fitted = Surface(sines, source, correlation, options, measured, counted, cut_off)
+    return fitted if spectrum is None else replace(fitted, spectrum=spectrum)
 
 
 def _surface(
@@ -613,13 +603,13 @@ def _surface(
         return surface
     if isinstance(surface, SineStack):
         return Surface(surface, "sine waves")
-    rule: CutOffRule | None = "instrument" if end is None else None
-    fit = {"scales": waves, "smallest_wavelength": end}
+    measured: Measured | Spectrum
     if isinstance(surface, Spectrum):
         if cleaning:
             raise InputError("cleaning must be left out for a spectrum, which has no heights")
-        return surface_of_spectrum(surface, footprint, longest, fit=fit, cut_off=rule)
-    if isinstance(surface, HeightMap):
+        measured = surface if longest is None else surface.without_long_waves(longest)
+        sources = [surface.source]
+    elif isinstance(surface, HeightMap):
         if cleaning or longest is not None:
             name = "cleaning" if cleaning else "longest_wavelength"
             raise InputError(f"{name} must be left out for a map: use gripscale.clean_map; got it")
@@ -635,6 +625,8 @@ def _surface(
         if longest is not None:
             measured = measured.without_long_waves(longest)
         sources = [line.source for line in lines]
+    rule: CutOffRule | None = "instrument" if end is None else None
+    fit = {"scales": waves, "smallest_wavelength": end}
     source = ", ".join(filter(None, sources))
     return described_surface(
         measured, counted={}, fit=fit, cut_off=rule, source=source, footprint=footprint

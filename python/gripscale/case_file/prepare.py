@@ -14,14 +14,7 @@ from typing import Any
 import numpy as np
 
 from gripscale import surface as surfaces
-from gripscale.case import (
-    BelowMeasurement,
-    Case,
-    NamedFile,
-    Origin,
-    described_surface,
-    surface_of_spectrum,
-)
+from gripscale.case import BelowMeasurement, Case, NamedFile, Origin, described_surface
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.rubber_tables import (
     OF_ANY_RUBBER,
@@ -99,21 +92,21 @@ def prepare_surface(
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     if surface.spectrum is not None:
-        path, options = resolve(surface.spectrum), _options(surface, surfaces.read_spectrum)
-        spectrum, fit = (
-            surfaces.read_spectrum(path, **options),
-            _options(surface, surfaces.fit_sines),
-        )
-        held = footprint, surface.longest_wavelength
-        return surface_of_spectrum(spectrum, *held, fit=fit, cut_off=surface.cut_off)
+        options, longest = _options(surface, surfaces.read_spectrum), surface.longest_wavelength
+        known = surfaces.read_spectrum(resolve(surface.spectrum), **options)
+        known = known if longest is None else known.without_long_waves(longest)
+        return _described(surface, known, resolve, footprint)
     raw = raw_surface(surface, resolve) if raw is None else raw
     return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
 
 
 def _described(
-    surface: SurfaceTable, measured: surfaces.Measured, resolve: Resolve, footprint: float
+    surface: SurfaceTable,
+    measured: surfaces.Measured | surfaces.Spectrum,
+    resolve: Resolve,
+    footprint: float,
 ) -> surfaces.Surface:
-    """Return a cleaned measurement with its correlation and waves, as the keys of `surface` ask."""
+    """Return a cleaned measurement, or a spectrum, with its waves, as the keys of `surface` ask."""
     paths = [resolve(name) for name in surface.measured_files]
     where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
     by_rule = not (surface.cut_off is None or isinstance(surface.cut_off, float))

@@ -176,7 +176,7 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
     reliable: set[float | None] = {None}
     if (spectrum := surface.spectrum) is not None:
         columns = {"q [1/m]": spectrum.wavenumber, "C(q) [m^4]": spectrum.density}
-        keys = {"phases": spectrum.phases, "longest_wavelength": measured.longest}
+        keys["phases"] = spectrum.phases
         keys["spectrum"] = inputs.add_table(spectrum.name or "spectrum", columns)
     elif measured.map is not None:
         reliable = {measured.map.reliable}

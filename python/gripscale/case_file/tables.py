@@ -258,12 +258,13 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SpectrumKeys, SourceKeys
                 "expected either files (measured profiles), map (a measured map), spectrum (of a "
                 "surface without heights) or sines (waves by hand)"
             )
-        of_heights = {*CleaningKeys.model_fields, *ReadingKeys.model_fields, "top_height_fraction"}
-        of_heights -= {"clean", "longest_wavelength", "assumed"}
-        wrong = of_heights if self.spectrum is not None else SpectrumKeys.model_fields.keys()
-        if self.sines is None and (stated := self.model_fields_set & wrong):
-            owner = "files or map" if self.spectrum is not None else "spectrum"
-            raise ValueError(f"{min(stated)} belongs to a surface from {owner}")
+        of_heights = {*CleaningKeys.model_fields, *ReadingKeys.model_fields} - {
+            "longest_wavelength"
+        }
+        keys = set(SpectrumKeys.model_fields) if self.spectrum is None else of_heights
+        if self.sines is None and (stated := self.model_fields_set & keys - {"assumed"}):
+            other = "heights" if self.spectrum is not None else "spectrum"
+            raise ValueError(f"{min(stated)} belongs to a surface from {other}")
         if self.sines is not None:
             if self.cut_off is not None:
                 raise ValueError("cut_off belongs to a measured surface, not to waves by hand")

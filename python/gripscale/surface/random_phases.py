@@ -30,13 +30,12 @@ from gripscale.surface.profile import MOST_PROFILE_POINTS, Profile
 from gripscale.surface.spectrum import ArealSpectrum
 
 PHASES_OF = "phases_of_spectrum"  # attribute of a result of a spectrum: the phases it is for
-# Of what the phases of a surface are, ln(its number / that with random ones), over 1 - A: the mean
-# over families of surfaces, and the standard deviation of one surface, with degrees of freedom.
+# Area and friction over those with random phases, each with the standard deviation of its logarithm
+# from surface to surface, both logarithms over 1 - A; and degrees of freedom.
 REAL_PHASES = {
-    "real": {"contact_fraction": (0.29, 1.07), "friction": (-0.21, 1.16)},
-    "worn": {"contact_fraction": (1.08, 0.63), "friction": (-1.12, 0.68)},
+    "real": ((1.34, 1.07), (0.81, 1.16), 33.0),
+    "worn": ((2.9, 0.63), (0.33, 0.68), 21.0),
 }
-PHASES_FREEDOM = {"real": 33.0, "worn": 21.0}
 _LINES, _WAVES = 4, 16  # lines that are drawn, and longest waves in each
 _ENOUGH_POINTS = 2**17  # of a line: with more it holds fewer of its longest waves, at least one
 _POINTS_IN_WAVE = 8  # steps in the smallest wave
@@ -61,11 +60,6 @@ class Spectrum(ArealSpectrum, eq=False):
     with "worn" or flat tops, as most roads (negative skewness of the heights), both with their
     scatter; or "random" ones, those of a Gaussian surface."""
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not self.density.any():
-            raise InputError("density must be above zero somewhere; got zeros")
-
     def of_lines(self, wavenumber: ArrayLike) -> Array:
         """Return C_1 [m^3] of its lines at wavenumbers above zero [rad/m], shape (points,)."""
         k, last = np.asarray(wavenumber, dtype=float), float(self.wavenumber[-1])
@@ -85,16 +79,10 @@ class Spectrum(ArealSpectrum, eq=False):
         value = np.array([power @ (1.0 - j0(q * each)) for each in lags])
         return HeightDifference(lags, value, resolution_limit=2.0 * np.pi / last)
 
-    def held_by(self, footprint: float, longest: float | None = None) -> Spectrum:
-        """Return it without the waves beyond `longest` [m], which a block rides over.
-
-        By default 1.5 footprints [m] where longer waves hold most of the mean square height, as of
-        profiles (`gripscale.surface.long_waves`).
-        """
-        kept = 1.0 - transmission(self.wavenumber, longest or PER_FOOTPRINT * footprint)
-        shorter = replace(self, density=self.density * kept**2)
-        decide = shorter.rms_height**2 < (1.0 - MOST_SHARE) * self.rms_height**2
-        return shorter if decide or longest is not None else self
+    def without_long_waves(self, longest: float) -> Spectrum:
+        """Return it without the waves beyond the cut-off `longest` [m] (`surface.long_waves`)."""
+        kept = 1.0 - transmission(self.wavenumber, longest)
+        return replace(self, density=self.density * kept**2)
 
     def lines(
         self, footprint: float, smallest_wavelength: float | None = None
@@ -103,10 +91,15 @@ class Spectrum(ArealSpectrum, eq=False):
 
         Each line has the whole variance, waves to a quarter of the smallest wavelength [m], by
         default that of the spectrum, and sixteen of the longest or of 1.5 footprints [m]; fewer
-        where these are too many points. Raises `InputError` if one has too many.
+        where these are too many points. As of profiles, waves that the footprint does not hold are
+        left out if they are most of the mean square height. Raises `InputError` if one has too many
+        points.
         """
         shortest, longest = (2.0 * np.pi / self.wavenumber[[-1, 0]]).tolist()
         longest = min(longest, PER_FOOTPRINT * footprint)
+        held = self.without_long_waves(longest)
+        decide = held.rms_height**2 < (1.0 - MOST_SHARE) * self.rms_height**2
+        known = held if decide and longest == PER_FOOTPRINT * footprint else self
         step = max(smallest_wavelength or shortest, shortest) / _POINTS_IN_WAVE
         if longest > MOST_PROFILE_POINTS * step:
             end = _POINTS_IN_WAVE * longest / MOST_PROFILE_POINTS
@@ -115,7 +108,7 @@ class Spectrum(ArealSpectrum, eq=False):
             0.5 * max(min(_WAVES * longest / step, _ENOUGH_POINTS), longest / step)
         )
         x, first = step * np.arange(points), 2.0 * np.pi / (points * step)
-        amplitude = np.sqrt(2.0 * first * self.of_lines(first * np.arange(1, points // 2)))
+        amplitude = np.sqrt(2.0 * first * known.of_lines(first * np.arange(1, points // 2)))
         lines = []
         for number in range(_LINES):
             phase = np.random.default_rng(number).uniform(0.0, 2.0 * np.pi, amplitude.size)
@@ -123,21 +116,18 @@ class Spectrum(ArealSpectrum, eq=False):
             name = f"{self.name or 'spectrum'} {number + 1}"
             lines.append(Profile(x, np.fft.irfft(waves, points), name, self.source, shortest))
         lags = np.geomspace(step, 0.25 * x[-1], int(_LAGS_PER_DECADE * math.log10(points)))
-        return lines, self.height_difference(lags)
+        return lines, known.height_difference(lags)
 
     @property
     def finding(self) -> Finding:
         """What an answer from it rests on."""
         shortest = in_mm(2.0 * np.pi / float(self.wavenumber[-1]), 2)
-        area, friction = (math.exp(mean) for mean, _ in REAL_PHASES["worn"].values())
-        mean, scatter = REAL_PHASES["real"]["contact_fraction"]
+        (area, _), (friction, _), _ = REAL_PHASES["worn"]
         text = (
             f"The surface is known by its spectrum (rms height {in_mm(self.rms_height, 3)}, rms "
             f"slope {self.rms_gradient():.2g} down to {shortest}), which does not tell its phases: "
-            f'surfaces with worn or flat tops, as most roads (phases = "worn" in [surface]), have '
-            f"{area:.2g} times the area and {friction:.2g} times the friction of random phases, "
-            f"all surfaces {math.exp(mean - scatter):.2g} to {math.exp(mean + scatter):.2g} times "
-            "the area."
+            f'with worn or flat tops, as of most roads (phases = "worn" in [surface]), they make '
+            f"{area:.2g} times the area and {friction:.2g} times the friction of random phases."
         )
         changes = (friction - 1.0, area - 1.0) if self.phases == "random" else (math.nan, math.nan)
         return Finding(Severity.WARNING, text, *changes, Topic.SURFACE)

@@ -97,29 +97,23 @@ def holds_spectrum(path: Path) -> bool:
 
 
 def _size(path: Path, title: ColumnTitle, key: str, stated: str | None) -> tuple[float, int]:
-    """Return size [m^n] and n of the unit of a column; `InputError` if it is no power of lengths.
-
-    The key is that of a case which states the unit where the file does not.
-    """
+    """Return size [m^n] and n of a unit of powers of lengths, stated with a key or by the title."""
     unit, expected = stated or title.unit, _UNITS[key]
     if unit is None:
         why = f" must be given ({expected}): nothing states it of {title.name}"
         raise unstated(f"{path}: ", key, why)
     text = re.sub(r"^(rad|cycles?|1) ?/ ?\(?", "/", unit.translate(_DIGITS).replace("**", "^"))
-    sign, size, power = -1 if text.startswith("/") else 1, 1.0, 0
-    for part in re.split(r"[\s·*.]+", text.strip("/() ")):
-        factor = _FACTOR.fullmatch(part)
-        length = spelled(factor[1], "length") if factor else None
-        if factor is None or length is None:
-            power = 0
-            break
-        exponent = sign * int(factor[2] or 1)
-        size, power = size * UNITS["length"][length] ** exponent, power + exponent
-    axis = 1 if kind_of(title.name) == "wavelength" else -1
-    if power not in ((3, 4) if key == "density_unit" else (axis,)):
+    sign = -1 if text.startswith("/") else 1
+    parts = [_FACTOR.fullmatch(part) for part in re.split(r"[\s·*.]+", text.strip("/() "))]
+    factors = [(spelled(p[1], "length"), sign * int(p[2] or 1)) for p in parts if p is not None]
+    power = sum(exponent for _, exponent in factors)
+    powers = (
+        (3, 4) if key == "density_unit" else (1 if kind_of(title.name) == "wavelength" else -1,)
+    )
+    if None in (*parts, *(length for length, _ in factors)) or power not in powers:
         problem = f"{path}: {title.name} is in {checks.short_repr(unit)}, which is no unit of it ("
         raise InputError(Words(f"{problem}{expected}); give ", CaseKey(key)))
-    return size, power
+    return math.prod(UNITS["length"][str(length)] ** n for length, n in factors), power
 
 
 def read_spectrum(
@@ -149,8 +143,8 @@ def read_spectrum(
     file = file_path(path)
     table = _table(file)
     if not is_spectrum(table):
-        titles = table.titles or "no titles"
-        raise InputError(f"{file}: expected columns titled q and C(q), or alike; got {titles}")
+        got = table.titles or "no titles"
+        raise InputError(f"{file}: expected columns titled q and C(q), or alike; got {got}")
     columns: dict[bool, tuple[ColumnTitle, Array]] = {}
     for at, column in enumerate(table.columns):
         title, base = _bare(column)
@@ -167,9 +161,9 @@ def read_spectrum(
     rule = normalization or next((r for r, t in _RULES.items() if t.match(title.name)), None)
     if rule is None:
         why = (
-            f"{', '.join(NORMALIZATIONS)}): {checks.short_repr(title.name)} may mean any, and they"
+            f"{', '.join(NORMALIZATIONS)}): {title.name} may mean any, and they differ by up to 40"
         )
-        raise unstated(f"{file}: ", "normalization", f" must be given ({why} differ by up to 40")
+        raise unstated(f"{file}: ", "normalization", f" must be given ({why}")
     line, areal = NORMALIZATIONS[checks.one_of("normalization", rule, NORMALIZATIONS)]
     if re.match("q ?/ ?π", title.name):
         density, power = np.pi * density / q, 4

@@ -46,20 +46,7 @@ from gripscale.questions.cut_off.curve import (
     refusals,
 )
 from gripscale.questions.inputs.record import in_words
-from gripscale.surface.random_phases import PHASES_FREEDOM, REAL_PHASES
-
-
-def _real_phases(case: Case) -> list[Factor]:
-    """Return the factor from random phases to those of a surface known by its spectrum only."""
-    spectrum = case.surface.spectrum
-    if spectrum is None or spectrum.phases == "random":
-        return []
-    area, friction = (
-        LogNormalValue(math.exp(mean), scatter)
-        for mean, scatter in REAL_PHASES[spectrum.phases].values()
-    )
-    freedom = PHASES_FREEDOM[spectrum.phases]
-    return [Factor("real_phases", "random to real phases", area, friction, freedom, True)]
+from gripscale.surface.random_phases import REAL_PHASES
 
 
 def direct_contact_design(
@@ -176,7 +163,11 @@ def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
     Its error is that of the continuation; none without a curve, or one that was refused. Of a
     surface known by its spectrum also that from random to real phases.
     """
-    phases = _real_phases(case)
+    spectrum, phases = case.surface.spectrum, list[Factor]()
+    if spectrum is not None and spectrum.phases in REAL_PHASES:
+        area, friction, freedom = REAL_PHASES[spectrum.phases]
+        ratios = LogNormalValue(*area), LogNormalValue(*friction)
+        phases = [Factor("real_phases", "random to real phases", *ratios, freedom, True)]
     if curve is None or any(refusals(curve)):
         return phases
     cut_off = resolved_wavelength(case.surface)

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -76,7 +76,7 @@ class Factor(Described):
     freedom: float = math.inf
     """Degrees of freedom of its uncertainties."""
     of_small_contact: bool = False
-    """Whether its logarithm and their errors fall to nothing at full contact, as 1 - A."""
+    """Whether its logarithms fall to nothing at full contact, as 1 - A."""
 
 
 # Models whose ratio is the factor of finite strain.
@@ -344,10 +344,7 @@ def _stress_error(conditions: Conditions | None) -> float:
     return STRESS_SCATTER if typical else 0.0
 
 
-def _numbers_of(
-    factor: Factor, unknown: xr.DataArray, share: xr.DataArray | float = 1.0
-) -> FactorNumbers:
-    """Return a factor and its errors, of their logarithms a share."""
+def _numbers_of(factor: Factor, unknown: xr.DataArray, share: Any = 1.0) -> FactorNumbers:
     numbers = {}
     for name in ESTIMATED:
         number: LogNormalValue = getattr(factor, name)
