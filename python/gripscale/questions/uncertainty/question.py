@@ -31,11 +31,10 @@ from gripscale.questions.uncertainty.propagation import (
     PROPAGATED_QUANTITIES,
     OnAnswer,
     Plan,
-    Uncertainty,
     propagate,
-    stated_options,
 )
 from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, next_measurements
+from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.report.elements import Card
