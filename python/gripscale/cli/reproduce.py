@@ -9,7 +9,8 @@ from gripscale.questions import terminal
 from gripscale.questions.terminal import argument, command, option
 
 TwoOfYours = Annotated[
-    tuple[str, str] | None, option("Two of your own, files or cases; most figures show the first.")
+    tuple[str, str] | None,
+    option("Two of your own, files or cases; most figures show the first.", metavar="A B"),
 ]
 
 
