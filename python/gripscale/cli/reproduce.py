@@ -61,4 +61,5 @@ def reproduce(
     statements = reproduce_paper(inputs, output, figures or (), **options)
     terminal.end_steps()
     closing = f"Figures, data, and statements.md with all numbers and reasons are in {output}"
-    terminal.print_parts(console, [verdict_table(statements), closing])
+    tables = [verdict_table(statements)] if statements else []
+    terminal.print_parts(console, [*tables, closing])
