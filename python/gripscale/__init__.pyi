@@ -54,6 +54,7 @@ from .surface import HeightMap as HeightMap
 from .surface import Profile as Profile
 from .surface import SelfAffineFit as SelfAffineFit
 from .surface import SineStack as SineStack
+from .surface import Spectrum as Spectrum
 from .surface import clean as clean
 from .surface import clean_map as clean_map
 from .surface import fit_self_affine as fit_self_affine
@@ -61,6 +62,7 @@ from .surface import fit_sines as fit_sines
 from .surface import height_difference as height_difference
 from .surface import read_map as read_map
 from .surface import read_profile as read_profile
+from .surface import read_spectrum as read_spectrum
 from .theory.layers import Layers as Layers
 from .wave.block import solve_profile as solve_profile
 from .wave.block import solve_scale as solve_scale

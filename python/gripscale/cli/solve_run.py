@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gripscale.case_file import folder
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.core.provenance import version_of
 from gripscale.io import netcdf
 from gripscale.io.folders import make_folder

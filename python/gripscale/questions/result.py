@@ -32,8 +32,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from gripscale.charts.draw import Sheet
-    from gripscale.charts.page_elements import Picture
+    from gripscale.charts.draw import Picture, Sheet
     from gripscale.report.elements import Card, Element, Page, Section
 
 NO_WIDTHS: Mapping[str, float] = MappingProxyType({})

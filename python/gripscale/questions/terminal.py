@@ -433,7 +433,7 @@ class CaseCommand:
         `contents` is what the folder holds beside the result, `text` the file of what is printed
         where it has another name, and `drawings` the folder of the figures.
         """
-        from gripscale.charts.figure_folder import FigureFolder
+        from gripscale.charts.draw import FigureFolder
         from gripscale.io.folders import make_folder
 
         target = self.target

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.core import checks
 from gripscale.core.provenance import software
 from gripscale.experiment import Bench, Progress, Store

@@ -9,8 +9,8 @@ from .master_curve import write_master_curve as write_master_curve
 from .material import Rubber as Rubber
 from .material import temperature_doubts as temperature_doubts
 from .maxwell_fit import Candidate as Candidate
-from .named import springpot_modulus as springpot_modulus
-from .named import styrene_butadiene as styrene_butadiene
+from .measured_rubber import springpot_modulus as springpot_modulus
+from .measured_rubber import styrene_butadiene as styrene_butadiene
 from .prony import fit_prony as fit_prony
 from .prony import fit_prony_report as fit_prony_report
 from .prony_report import Misfit as Misfit

@@ -19,8 +19,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.charts.style import BLUE, FAINT, GREY, ORANGE, WIDE
 from gripscale.conditions import Conditions
 from gripscale.conditions.area_term import (

@@ -19,7 +19,7 @@ import xarray as xr
 
 from gripscale import model
 from gripscale.case import Case
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.core import InputError
 from gripscale.core.finding import Finding, Severity, Topic, from_json, ranked, to_json
 from gripscale.experiment.design import solve_design

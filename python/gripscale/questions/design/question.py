@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.core import InputError, checks, doubt, parse_quantity
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask

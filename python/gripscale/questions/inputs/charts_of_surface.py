@@ -26,8 +26,7 @@ from gripscale.charts.chart import (
     ValueMap,
     wavelength_axis,
 )
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Chart
+from gripscale.charts.draw import Chart, Sheet
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, NARROW, ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
@@ -38,7 +37,7 @@ from gripscale.surface.profile import HeightMap, Profile
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gripscale.charts.figure_folder import FigureFolder
+    from gripscale.charts.draw import FigureFolder
     from gripscale.surface import Surface
 
 DISTANCE, _HEIGHT = PlotAxis("distance $x$ [mm]"), PlotAxis("height $z$ [mm]")

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.experiment.solve import OnTask
 from gripscale.io.table import Column, Table, percent

@@ -27,7 +27,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.conditions.alternatives import TENSION_OR_SHEAR, THERMAL_CONSTANTS, TREADS
+from gripscale.conditions.conditions import TENSION_OR_SHEAR, THERMAL_CONSTANTS, TREADS
 from gripscale.core.arrays import Array
 from gripscale.half_space.model import resolved_wavelength
 from gripscale.io.table import Column, Table, percent
