@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gripscale.case_file import folder
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.core.provenance import version_of
 from gripscale.io import netcdf
 from gripscale.io.folders import make_folder
@@ -61,9 +61,7 @@ def solve_run(
     result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
     findings = warning_lines(result.findings, TEXT, result.half_widths)
-    terminal.print_parts(
-        console, ["", *result.lines, *findings, *(["", *inputs] if verbose else [])]
-    )
+    terminal.print_parts(console, ["", *result.lines, *findings, *["", *inputs] * verbose])
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
@@ -93,8 +91,8 @@ def _conclude(
     assert result.chain is not None
     parts: list[str | Table] = [*chain_tables(result.chain), LEGEND, *_tables(result)]
     if case.surface.measured is not None:
-        shown = parts if verbose else [waves_in_brief(result.chain)]
-        terminal.print_parts(work.console, ["", *shown])
+        tables = parts if verbose else [waves_in_brief(result.chain)]
+        terminal.print_parts(work.console, ["", *tables])
         opening, parts = [*opening, "", *parts], [judgement(result.chain, result.data)]
 
     def draw() -> None:

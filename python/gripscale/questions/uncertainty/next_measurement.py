@@ -11,7 +11,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from gripscale.conditions.alternatives import TENSION_OR_SHEAR, THERMAL_CONSTANTS, TREADS
+from gripscale.conditions.conditions import TENSION_OR_SHEAR, THERMAL_CONSTANTS, TREADS
 from gripscale.core.arrays import Array
 from gripscale.io.table import Column, Table, percent
 from gripscale.questions.answer.estimate import LINES_TO_SURFACE
