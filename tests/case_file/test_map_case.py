@@ -11,7 +11,7 @@ import gripscale as gs
 from gripscale.case_file import prepare_surface, read_case, read_case_file
 from gripscale.case_file.named_inputs import read_surface
 from gripscale.chain import Chain
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.core.errors import InputError
 from gripscale.experiment.task import Task
 from gripscale.half_space import DirectContact

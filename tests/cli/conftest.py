@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from tests.samples import (
     HALF_PLANE,
     blank_figures,

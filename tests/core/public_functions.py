@@ -13,11 +13,11 @@ from gripscale import conditions as interface
 from gripscale import half_space as rough
 from gripscale import questions as measured
 from gripscale import rubber, surface, theory, wave
-from gripscale.conditions import Conditions, dry_road
+from gripscale.conditions import Conditions, area_term
 from gripscale.experiment import MeasuredFriction
 from gripscale.model import Load
 from gripscale.questions import fit_area_term
-from gripscale.rubber import softening, typical_tread
+from gripscale.rubber import softening
 
 SOLID = gs.Rubber(1e6, [4e6], [1e-2], name="solid")
 FREQUENCY = np.geomspace(1e-2, 1e6, 30)
@@ -34,7 +34,6 @@ SINES = surface.SineStack([8e-3, 2e-3], [5e-4, 1e-4])
 SPECTRUM = surface.profile_spectrum(LONG)
 SLOPES = surface.slope_by_wavelength(LONG)
 FIT = gs.fit_self_affine(CORRELATION)
-TEST = rubber.UniaxialTest("test", [0.0, 1.0, 2.0], [1.0, 1.1, 1.2], [0.0, 1e5, 2e5])
 WAVE = {"wavelength": 1e-3, "amplitude": 1e-4}
 PRESSED = {"pressure": 1e5, "speed": 0.1}
 MESH = {"columns": 8, "rows": 4, "depth": 1.5, "element_order": 1}
@@ -119,12 +118,6 @@ def _rubber() -> Iterator[PublicFunction]:
     yield PublicFunction(rubber.Isihara, {"share": 0.2, "second": 0.1})
     yield PublicFunction(rubber.KrausEnergy, {"ratio": 0.2, "critical": 0.1, "measured_at": 1e-3})
     yield PublicFunction(rubber.strain_energy, {"kind": "yeoh", "second": -0.1, "third": 0.02})
-    test = {"time": [0.0, 1.0], "stretch": [1.0, 1.1], "stress": [0.0, 1e5]}
-    yield PublicFunction(rubber.UniaxialTest, {"name": "test", **test})
-    finite = {"tests": [TEST], "energy": "neo_hookean", "terms": 1, "band": None}
-    yield PublicFunction(rubber.fit_finite_strain, finite)
-    yield PublicFunction(rubber.rms_error, {"rubber": SOLID, "test": TEST})
-    yield PublicFunction(rubber.work_error, {"rubber": SOLID, "test": TEST})
     shear = {"rubber": SOLID, "time": [0.0, 1.0], "shear": [0.0, 0.1]}
     yield PublicFunction(rubber.simple_shear_stress, shear)
     bar = {"rubber": SOLID, "time": [0.0, 1.0], "stretch": [1.0, 1.1]}
@@ -141,7 +134,7 @@ def _conditions() -> Iterator[PublicFunction]:
     table = {name: [values] for name, values in sweep.items()}
     known = {"measured_at": 2e-3, "deformation": "tension", "temperature": [293.0]}
     yield PublicFunction(softening.SofteningTable, {**table, **known})
-    yield PublicFunction(typical_tread.TypicalTread, {"deviation": 0.5, "deformation": "shear"})
+    yield PublicFunction(softening.TypicalTread, {"deviation": 0.5, "deformation": "shear"})
     words = {"temperature": 293.0, "frequency": 10.0, "name": "", "source": ""}
     yield PublicFunction(rubber.StrainSweep, {**sweep, "deformation": "shear", **words})
     one = rubber.StrainSweep(**sweep, deformation="shear")
@@ -155,8 +148,8 @@ def _conditions() -> Iterator[PublicFunction]:
     yield PublicFunction(
         interface.GaussianStress(**bell, **warm).stress, {"speed": 0.1, "temperature": 300.0}
     )
-    yield PublicFunction(dry_road.DryTread, {"deviation": 0.5})
-    yield PublicFunction(dry_road.DryTread().stress, {"speed": 0.1})
+    yield PublicFunction(area_term.DryTread, {"deviation": 0.5})
+    yield PublicFunction(area_term.DryTread().stress, {"speed": 0.1})
     step = {"stress_0": 1e6, "ratio": 10.0, "critical_speed": 0.1, "exponent": 0.5}
     yield PublicFunction(interface.LeGalKlueppelStress, step)
     yield PublicFunction(interface.TableStress, {"speed": [0.1, 1.0], "stress_at": [1e6, 2e6]})

@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.conditions import Conditions
 from gripscale.conditions.area_term import ConstantStress
 from gripscale.io.table import significant

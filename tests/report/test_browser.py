@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from gripscale.charts.chart import Panel, PlotAxis, Series
-from gripscale.charts.draw import Sheet, image
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet, image
 from gripscale.questions.page_of_folder import write_report
 from gripscale.report import write_page
 from gripscale.report.elements import Page, Section

@@ -9,7 +9,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.core.errors import FileError, GripscaleError, InputError
-from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
+from gripscale.rubber.prony import holds_prony_table, read_prony_table
 
 HERTZ = np.geomspace(0.1, 100.0, 16)
 STORAGE, LOSS = 5e6 * HERTZ**0.1, 8e5 * HERTZ**0.12

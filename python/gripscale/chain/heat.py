@@ -12,7 +12,7 @@ each from `gripscale.conditions.flash_temperature`: for l < i averaged over the 
 its pressure; for l = i averaged over the loss of wave i. An area term, less what a counterface
 takes up of all heat, counts as a further wave below the last, at the surface: it is distributed as
 the pressure on each wave. The strain of a wave, for the softening, is that of
-`gripscale.conditions.strain_rule`.
+`gripscale.conditions.conditions`.
 """
 
 from __future__ import annotations
@@ -25,8 +25,7 @@ from functools import partial
 import numpy as np
 
 from gripscale.conditions import flash_temperature as rise
-from gripscale.conditions.conditions import Conditions, StrainNorm
-from gripscale.conditions.strain_rule import SLOPE_FACTOR
+from gripscale.conditions.conditions import SLOPE_FACTOR, Conditions, StrainNorm
 from gripscale.core import Array, ComplexArray, InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.result import ScaleResult

@@ -8,13 +8,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gripscale.case_file import folder
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.core.provenance import version_of
 from gripscale.io import netcdf
 from gripscale.io.folders import make_folder
 from gripscale.io.table import Table, as_text
 from gripscale.questions import terminal
-from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, bench_of, solved_chain
+from gripscale.questions.answer.answer import (
+    ANSWER_FILE,
+    CHAIN_FILE,
+    CURVE_FILE,
+    Answer,
+    answer,
+    bench_of,
+    solved_chain,
+)
 from gripscale.questions.answer.page import slopes_table
 from gripscale.questions.answer.variables import OF_THE_PAPER
 from gripscale.questions.chain.page import LEGEND, chain_tables, judgement, waves_in_brief
@@ -23,7 +31,6 @@ from gripscale.questions.inputs.charts_of_rubber import rubber_figures
 from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
 from gripscale.questions.inputs.record import excited
-from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE
 from gripscale.questions.result import warning_lines
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.material import require_load_bearing
@@ -54,9 +61,7 @@ def solve_run(
     result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
     findings = warning_lines(result.findings, TEXT, result.half_widths)
-    terminal.print_parts(
-        console, ["", *result.lines, *findings, *(["", *inputs] if verbose else [])]
-    )
+    terminal.print_parts(console, ["", *result.lines, *findings, *["", *inputs] * verbose])
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
@@ -86,8 +91,8 @@ def _conclude(
     assert result.chain is not None
     parts: list[str | Table] = [*chain_tables(result.chain), LEGEND, *_tables(result)]
     if case.surface.measured is not None:
-        shown = parts if verbose else [waves_in_brief(result.chain)]
-        terminal.print_parts(work.console, ["", *shown])
+        tables = parts if verbose else [waves_in_brief(result.chain)]
+        terminal.print_parts(work.console, ["", *tables])
         opening, parts = [*opening, "", *parts], [judgement(result.chain, result.data)]
 
     def draw() -> None:

@@ -3,6 +3,7 @@ from .arrays import ComplexArray as ComplexArray
 from .arrays import Mask as Mask
 from .arrays import Quantity as Quantity
 from .arrays import Vector as Vector
+from .arrays import labelled as labelled
 from .checks import Checked as Checked
 from .checks import checked as checked
 from .described import Described as Described
@@ -22,7 +23,6 @@ from .finding import Finding as Finding
 from .finding import Severity as Severity
 from .finding import Topic as Topic
 from .finding import doubt as doubt
-from .labels import labelled as labelled
 from .parallel import in_threads as in_threads
 from .parallel import worker_count as worker_count
 from .status import Status as Status

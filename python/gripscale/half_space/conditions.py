@@ -4,7 +4,7 @@ An evaluation of the fixed point (`gripscale.conditions.fixed_point`) solves the
 the rubber that a state of temperatures and strains, one of each an octave of wavelengths, makes of
 it. Each contact starts from the last one.
 
-The strain of a scale is that of `gripscale.conditions.strain_rule` in the contact.
+The strain of a scale is that of `gripscale.conditions.conditions` in the contact.
 
 The harmonics of an octave lose mu_b p_0 v per nominal area, and the pattern of
 `gripscale.conditions.flash_temperature` distributes this heat along the surface. Summed over
@@ -25,7 +25,13 @@ import numpy as np
 import scipy
 
 from gripscale.conditions import flash_temperature as rise
-from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
+from gripscale.conditions.conditions import (
+    DEPTH_FACTOR,
+    Conditions,
+    RubberByScale,
+    StateByScale,
+    state_by_scale,
+)
 from gripscale.conditions.fixed_point import (
     STATE_TOLERANCE,
     Iteration,
@@ -34,7 +40,6 @@ from gripscale.conditions.fixed_point import (
     unpack_state,
 )
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
-from gripscale.conditions.strain_rule import DEPTH_FACTOR
 from gripscale.core import Array, ComplexArray, Mask, Status
 from gripscale.half_space.grid import Grid, PeriodicHeights
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels, levels

@@ -17,8 +17,10 @@ from .height_difference import height_difference as height_difference
 from .plausibility import profile_warnings as profile_warnings
 from .profile import HeightMap as HeightMap
 from .profile import Profile as Profile
+from .random_phases import Spectrum as Spectrum
 from .read import read_map as read_map
 from .read import read_profile as read_profile
+from .read_spectrum import read_spectrum as read_spectrum
 from .resampling import resample as resample
 from .sine_fit import SineAmbiguity as SineAmbiguity
 from .sine_fit import fit_sines as fit_sines
@@ -35,4 +37,4 @@ from .surface import SurfacePart as SurfacePart
 from .synthetic import self_affine_profile as self_affine_profile
 from .synthetic import sine_profile as sine_profile
 from .texture import texture as texture
-from .texture_levels import texture_levels as texture_levels
+from .texture import texture_levels as texture_levels

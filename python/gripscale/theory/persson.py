@@ -106,7 +106,7 @@ class TheoryResult(Described):
         """Return everything over `scale`, the wavelengths; totals are NaN unless it converged."""
         import xarray as xr
 
-        from gripscale.core.labels import labelled
+        from gripscale.core.arrays import labelled
 
         data = {
             variable: labelled(dims, getattr(self, variable), unit, text, self.source)

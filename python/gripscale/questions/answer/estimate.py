@@ -3,7 +3,7 @@
     A/A_0 = (direct contact) x (finite strain/small strain) x (isotropic surface/its lines)
 
 and friction likewise. The first factor is a law measured on windows of other roads
-(`gripscale.half_space.large_strain`). A comparison also solves it, as a ratio of two models on the
+(`gripscale.half_space.line_to_map`). A comparison also solves it, as a ratio of two models on the
 same windows, and says what the answer becomes with it. The second is a law measured on synthetic
 surfaces (`gripscale.half_space.line_to_map`). The interval (`intervals`) is for the mean over the
 road with the roughness down to the cut-off, from the sampling of the road and the errors of grids
@@ -15,19 +15,18 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from gripscale.conditions.conditions import Conditions
-from gripscale.conditions.dry_road import DRY_TREAD, STRESS_SCATTER
-from gripscale.conditions.strain_rule import LOG_AREA, LOG_FRICTION
+from gripscale.conditions.area_term import DRY_TREAD, STRESS_SCATTER
+from gripscale.conditions.conditions import LOG_AREA, LOG_FRICTION, Conditions
 from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
-from gripscale.half_space.large_strain import finite_over_small
+from gripscale.half_space.line_to_map import finite_over_small
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import LINE_UNDER_LOAD
@@ -75,6 +74,8 @@ class Factor(Described):
     friction: LogNormalValue = UNKNOWN_VALUE
     freedom: float = math.inf
     """Degrees of freedom of its uncertainties."""
+    of_small_contact: bool = False
+    """Whether its logarithms fall to nothing at full contact, as 1 - A."""
 
 
 # Models whose ratio is the factor of finite strain.
@@ -139,7 +140,8 @@ def answer_of_samples(
             factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
         factors |= _of_conditions(direct, conditions, unknown)
         for factor in supplied:
-            factors[factor.name] = factor.label, _numbers_of(factor, unknown)
+            free = 1.0 - reduce.mean(direct, "contact_fraction") if factor.of_small_contact else 1.0
+            factors[factor.name] = factor.label, _numbers_of(factor, unknown, free)
     labels, solved = [label for label, _ in factors.values()], [n for _, n in factors.values()]
 
     def over_factors(values: Sequence[xr.DataArray]) -> xr.DataArray:
@@ -341,11 +343,11 @@ def _stress_error(conditions: Conditions | None) -> float:
     return STRESS_SCATTER if typical else 0.0
 
 
-def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
+def _numbers_of(factor: Factor, unknown: xr.DataArray, share: Any = 1.0) -> FactorNumbers:
     numbers = {}
     for name in ESTIMATED:
         number: LogNormalValue = getattr(factor, name)
-        sigma = xr.full_like(unknown, number.uncertainty)
+        sigma = xr.full_like(unknown, number.uncertainty) * share
         error = LogError(sigma, xr.full_like(unknown, factor.freedom))
-        numbers[name] = xr.full_like(unknown, number.value), error
+        numbers[name] = xr.full_like(unknown, number.value) ** share, error
     return numbers

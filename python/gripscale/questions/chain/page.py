@@ -68,10 +68,6 @@ _HEAT = [
     Column("temperature", (), "temperature", "where lost, °C", **_CELSIUS),
     Column("contact_temperature", (), "temperature", "in contact, °C", **_CELSIUS),
 ]
-BRIEF = {
-    *("wavelength", "amplitude", "pressure_received", "modulus", "loss_factor"),
-    *("contact_fraction", "running_contact_fraction", "friction", "running_friction"),
-}
 # Columns that say nothing of rubber at rest.
 MOVING_ONLY = {"loss_factor", "friction", "running_friction", "friction_from_dissipation"}
 # Columns in the unit of a key of the case.
@@ -163,8 +159,9 @@ def chain_tables(chain: xr.Dataset) -> list[Table]:
 def waves_in_brief(chain: xr.Dataset) -> Table:
     """Return the waves of a chain with the columns that a screen has room for."""
     view = PredictionView(chain)
-    shown = (replace(column, group="") for column in OF_WAVES if column.name in BRIEF)
-    columns = [filled(view, column) for column in shown]
+    dropped = ("slope", "friction_from_dissipation")
+    kept = (replace(column, group="") for column in OF_WAVES if column.name not in dropped)
+    columns = [filled(view, column) for column in kept]
     title = f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}"
     return Table("waves", [numbers("wave", view.waves, "#"), *columns], title, bad=~view.converged)
 

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.experiment.solve import OnTask
 from gripscale.io.table import Column, Table, percent
@@ -26,7 +26,6 @@ from gripscale.questions.answer.page import answer_cards, answer_lines
 from gripscale.questions.answer.reliance import is_measured, is_moving
 from gripscale.questions.answer.variables import SYMBOLS, has_answer, of_hysteresis
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
-from gripscale.questions.uncertainty.next_measurement import next_measurements
 from gripscale.questions.uncertainty.propagation import (
     LEVELS,
     PROPAGATED_QUANTITIES,
@@ -36,7 +35,7 @@ from gripscale.questions.uncertainty.propagation import (
     propagate,
     stated_options,
 )
-from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE
+from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, next_measurements
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.report.elements import Card

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.charts.style import power_of_ten
 from gripscale.core.finding import sentences
 from gripscale.core.units import MILLI, ZERO_CELSIUS
