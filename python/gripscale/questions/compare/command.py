@@ -88,10 +88,10 @@ def compare_command(
     )
     if axes is None:
         assert result.ladder is not None
-        beside = comparison.at_measured(result.ladder, target / PREDICTIONS, **bench)
-        if beside is not None:
-            netcdf.save(beside, target / "at_measured.nc")
-            result.at_measured = beside
+        residuals = comparison.at_measured(result.ladder, target / PREDICTIONS, **bench)
+        if residuals is not None:
+            netcdf.save(residuals, target / "at_measured.nc")
+            result.at_measured = residuals
     work.finish(
         result,
         "tables and figures",

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -43,11 +43,9 @@ from gripscale.questions.answer.variables import (
     of_hysteresis,
 )
 from gripscale.questions.answer.waves import answer_of_waves
+from gripscale.questions.uncertainty.sampling import SampleSet
 from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES
 from gripscale.questions.uncertainty.variance_shares import shares
-
-if TYPE_CHECKING:
-    from gripscale.questions.uncertainty.propagation import SampleSet
 
 # End of the name of the half width without errors of the inputs, as `gripscale run` states it.
 OF_RUN = "half_width_of_run"
