@@ -92,9 +92,9 @@ def prepare_surface(
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     if surface.spectrum is not None:
         options, longest = _options(surface, surfaces.read_spectrum), surface.longest_wavelength
-        known = surfaces.read_spectrum(resolve(surface.spectrum), **options)
-        known = known if longest is None else known.without_long_waves(longest)
-        return _described(surface, known, resolve, footprint)
+        spectrum = surfaces.read_spectrum(resolve(surface.spectrum), **options)
+        spectrum = spectrum if longest is None else spectrum.without_long_waves(longest)
+        return _described(surface, spectrum, resolve, footprint)
     raw = raw_surface(surface, resolve) if raw is None else raw
     return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
 
