@@ -21,10 +21,7 @@ from tests.samples import (
 )
 
 pytestmark = pytest.mark.usefixtures("undrawn")
-SURFACE = (
-    'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "0.8 mm"\n'
-    'spikes = "iso13473"\nacross_gaps = true'
-)
+SURFACE = 'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "0.8 mm"\nspikes = "iso13473"'
 CASE = case_text(
     SURFACE,
     'file = "dma.txt"\nterms = 6',

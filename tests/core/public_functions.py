@@ -65,7 +65,7 @@ def public_functions() -> Iterator[PublicFunction]:
     yield from _conditions()
     yield from _calibration()
     chain = {"solver": "half_plane", "footprint": 0.1, "points": 64, "pressure_classes": 1}
-    more = {"smallest_wavelength": None, "max_scales": None, "load_time": "passage"}
+    more = {"smallest_wavelength": None, "load_time": "passage"}
     yield PublicFunction(
         gs.solve_chain, {"rubber": SOLID, "sines": SINES, **PRESSED, **chain, **more}
     )
@@ -83,14 +83,12 @@ def _theory() -> Iterator[PublicFunction]:
     yield PublicFunction(
         theory.HalfPlane, {"points": 64, "poisson_ratio": 0.5, "most_iterations": 20}
     )
-    limits = {"smallest_wavelength": 1e-3, "gamma": 0.5, "footprint": None}
+    limits = {"smallest_wavelength": 1e-3, "gamma": 0.5}
     persson = {"rubber": SOLID, "spectrum": SPECTRUM, **PRESSED, **limits}
     yield PublicFunction(theory.persson, persson, slow=True)
-    yield PublicFunction(
-        theory.Persson, {"smallest_wavelength": 1e-3, "gamma": 0.5, "window": None}
-    )
+    yield PublicFunction(theory.Persson, limits)
     yield PublicFunction(theory.KlueppelHeinrich, {**LAYER, "smallest_wavelength": 1e-3})
-    layer = {**LAYER, "smallest_wavelength": 1e-3, "footprint": None}
+    layer = {**LAYER, "smallest_wavelength": 1e-3}
     yield PublicFunction(
         theory.klueppel_heinrich, {"rubber": SOLID, "surface": FIT, **PRESSED, **layer}
     )
@@ -204,15 +202,13 @@ def _surface() -> Iterator[PublicFunction]:
     yield PublicFunction(MAP.line, {"number": 1, "direction": "x"})
     yield PublicFunction(MAP.lines, {"direction": "x"})
     cleaning = {"crop": (0.0, 1.0), "valid_range": (-1.0, 1.0), "spikes": "isolated"}
-    more = {"spike_slope": 3.0, "across_gaps": False, "detrend": "linear"}
+    more = {"spike_slope": 3.0, "detrend": "linear"}
     yield PublicFunction(gs.clean, {"profile": LINE, **cleaning, **more})
     across = {"crop": None, "valid_range": (-1.0, 1.0), "trim": 0.5, "spikes": "isolated"}
     yield PublicFunction(gs.clean_map, {"surface": MAP, **across, "spike_slope": 3.0, "form": 1})
-    lags = {"top_height_fraction": 1.0, "max_lag": None, "lags_per_decade": 20, "band_blocks": 16}
+    lags = {"top_height_fraction": 1.0, "max_lag": None}
     yield PublicFunction(gs.height_difference, {"profile": LINE, **lags})
-    yield PublicFunction(
-        gs.fit_self_affine, {"hdc": CORRELATION, "tolerance": 0.02, "shortest_range": 0.5}
-    )
+    yield PublicFunction(gs.fit_self_affine, {"hdc": CORRELATION, "tolerance": 0.02})
     law = (0.8, 1e-2, 1e-3, 1e-3, 1e-2, 0.0)
     yield PublicFunction(surface.SelfAffineFit, dict(zip(FITTED, law, strict=True)))
     waves = {"scales": 2, "smallest_wavelength": None, "cut_off": None, "s_wavelength": 3.0}

@@ -26,7 +26,6 @@ from gripscale.case_file.schema import CaseTable
 from gripscale.case_file.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
-from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
 from gripscale.core import (
     CaseKey,
@@ -37,7 +36,7 @@ from gripscale.core import (
     about_keys,
     unstated,
 )
-from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.half_space.grid import MOST_POINTS
 from gripscale.io.text_table import lines_by_size, read_bytes
@@ -93,9 +92,9 @@ def prepare_surface(
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
     if surface.spectrum is not None:
         options, longest = _options(surface, surfaces.read_spectrum), surface.longest_wavelength
-        known = surfaces.read_spectrum(resolve(surface.spectrum), **options)
-        known = known if longest is None else known.without_long_waves(longest)
-        return _described(surface, known, resolve, footprint)
+        spectrum = surfaces.read_spectrum(resolve(surface.spectrum), **options)
+        spectrum = spectrum if longest is None else spectrum.without_long_waves(longest)
+        return _described(surface, spectrum, resolve, footprint)
     raw = raw_surface(surface, resolve) if raw is None else raw
     return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
 
@@ -122,39 +121,9 @@ def _described(
 
 
 def case_surface(file: CaseFile) -> surfaces.Surface:
-    """Return the surface of a case, its cut-off by the slope in contact solved."""
-    table = file.case.surface
-    rule = table.cut_off
-    load = file.case.load
-    if not isinstance(rule, surfaces.ContactSlope):
-        return prepare_surface(table, file.resolve, footprint=load.footprint)
-    if table.files is None:
-        raise InputError(f"cut_off = {rule} needs measured profiles; got a map or spectrum")
-    measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
-    lines = measured.cleaned
-    curve = contact_by_cut_off(
-        prepare_rubber(file.case.rubber, file.resolve).rubber,
-        lines,
-        pressure=load.pressure,
-        speed=load.speed,
-        down_to=max(line.resolution_limit for line in lines),
-        conditions=prepare_conditions(file.case.conditions, file.resolve),
-        footprint=load.footprint,
-        thickness=file.case.rubber.thickness,
-    )
-    slopes = curve.values("slope_in_contact")
-    wavelength = cut_off_at(rule.contact_slope, curve.wavelength, slopes)
-    if not wavelength > 0.0:
-        raise InputError(
-            f"{file.path}: [surface] cut_off must be a slope in contact that the measurement "
-            f"reaches, from {slopes[0]:.3g} to {slopes[-1]:.3g} at "
-            f"{in_mm(curve.wavelength[-1], 3)}; got {rule.contact_slope:g} (`gripscale cut-off` "
-            "continues the roughness below it)"
-        )
-    solved = replace(rule, wavelength=wavelength)
-    with about_keys("surface"):
-        table = table.model_copy(update={"cut_off": solved})
-        return _described(table, measured, file.resolve, load.footprint)
+    """Return the surface of a case."""
+    footprint = file.case.load.footprint
+    return prepare_surface(file.case.surface, file.resolve, footprint=footprint)
 
 
 def _require_few_points(file: CaseFile) -> None:

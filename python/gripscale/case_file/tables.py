@@ -42,7 +42,7 @@ from gripscale.uncertainty_options import (
     pressure_error,
 )
 
-_CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
+_CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 }'
 
 
 def _cut_off(value: Any) -> Any:
@@ -181,8 +181,6 @@ class CleaningKeys(CaseTable):
     every steep step of a profile (ISO 13473-1)."""
     spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)
     """Change of height per step at which a spike stands off, or a step is steep."""
-    across_gaps: bool = False
-    """Hold the points on both sides of a gap to that slope, too, with "iso13473"."""
     detrend: Literal["linear", "mean", "none"] = "linear"
     """Trend subtracted from a profile."""
     longest_wavelength: Length | None = None
@@ -262,9 +260,9 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SpectrumKeys, SourceKeys
             "longest_wavelength"
         }
         keys = set(SpectrumKeys.model_fields) if self.spectrum is None else of_heights
-        if self.sines is None and (stated := self.model_fields_set & keys - {"assumed"}):
-            other = "heights" if self.spectrum is not None else "spectrum"
-            raise ValueError(f"{min(stated)} belongs to a surface from {other}")
+        if self.sines is None and (others := self.model_fields_set & keys - {"assumed"}):
+            source = "heights" if self.spectrum is not None else "spectrum"
+            raise ValueError(f"{min(others)} belongs to a surface from {source}")
         if self.sines is not None:
             if self.cut_off is not None:
                 raise ValueError("cut_off belongs to a measured surface, not to waves by hand")
@@ -281,7 +279,7 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SpectrumKeys, SourceKeys
         foreign, owner = (
             (("crop_across", "trim", "form"), "map")
             if self.map is None
-            else (("across_gaps", "detrend", "longest_wavelength", "sheet"), "files")
+            else (("detrend", "longest_wavelength", "sheet"), "files")
         )
         for name in foreign:
             if getattr(self, name) != type(self).model_fields[name].default:

@@ -65,7 +65,7 @@ DASHES: dict[str, Any] = {
     "dashdot": (0, (6, 1.5, 1, 1.5)),
 }
 
-BEYOND_LABEL = "beyond the measured band"  # what a dashed line and a hatched band mean, in legends
+BEYOND_LABEL = "beyond the measured band"  # what a dashed line means, in legends
 FLAG = "outside_band"
 
 RowFlags = NDArray[np.bool_]

@@ -15,7 +15,6 @@ from .flash_temperature import COUNTERFACES as COUNTERFACES
 from .flash_temperature import GLASS as GLASS
 from .flash_temperature import STEEL as STEEL
 from .flash_temperature import STONE as STONE
-from .flash_temperature import THERMAL_SCATTER as THERMAL_SCATTER
 from .flash_temperature import LossDepth as LossDepth
 from .flash_temperature import ThermalProperties as ThermalProperties
 from .flash_temperature import harmonic_at_surface as harmonic_at_surface

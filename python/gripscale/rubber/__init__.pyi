@@ -8,7 +8,6 @@ from .master_curve import read_master_curve as read_master_curve
 from .master_curve import write_master_curve as write_master_curve
 from .material import Rubber as Rubber
 from .material import temperature_doubts as temperature_doubts
-from .maxwell_fit import Candidate as Candidate
 from .measured_rubber import springpot_modulus as springpot_modulus
 from .measured_rubber import styrene_butadiene as styrene_butadiene
 from .prony import fit_prony as fit_prony

@@ -2,7 +2,6 @@ from .cleaning import CleaningReport as CleaningReport
 from .cleaning import StepReport as StepReport
 from .cleaning import clean as clean
 from .cleaning import clean_map as clean_map
-from .cut_off import ContactSlope as ContactSlope
 from .cut_off import CutOffRule as CutOffRule
 from .cut_off import PowerLaw as PowerLaw
 from .cut_off import RmsSlope as RmsSlope

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale import surface as surfaces
 from gripscale.case import BelowMeasurement
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.prepare import case_surface
@@ -146,29 +145,6 @@ def test_a_road_that_is_measured_coarsely_hides_its_microtexture(data):
     assert not list(continuation_doubts(data))
     coarse = data.assign(resolved=1.2e-3)
     assert ["below 0.5 mm" in doubt.sentence for doubt in continuation_doubts(coarse)] == [True]
-
-
-def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data, monkeypatch):
-    """The slope is interpolated between octaves; the contact there has it within a few per cent."""
-    cleaned = []
-    clean = surfaces.clean
-    monkeypatch.setattr(
-        surfaces, "clean", lambda line, **given: cleaned.append(line.name) or clean(line, **given)
-    )
-    text = (folder / "case.toml").read_text()
-    wanted = float(np.sqrt(data.curve_slope_in_contact[3] * data.curve_slope_in_contact[4]))
-    path = folder / "slope.toml"
-    path.write_text(text.replace('"0.5 mm"', f"{{ contact_slope = {wanted:.4f} }}"))
-    surface = case_surface(read_case_file(path))
-    assert cleaned == ["road"]
-    assert str(surface.rule) == f"rms slope {wanted:.4g} in the contact"
-    assert data.cut_off[4] < surface.cutoff_wavelength < data.cut_off[3]
-    assert surface.cut_off.rule == str(surface.rule)
-    path.write_text(text.replace('"0.5 mm"', "{ contact_slope = 9.0 }"))
-    with pytest.raises(
-        InputError, match=r"a slope in contact that the measurement reaches, .*got 9"
-    ):
-        case_surface(read_case_file(path))
 
 
 @pytest.mark.parametrize(
