@@ -34,12 +34,12 @@ from .questions.cut_off.question import CutOff as CutOff
 from .questions.cut_off.question import cut_off as cut_off
 from .questions.design.question import CompoundDesign as CompoundDesign
 from .questions.design.question import design as design
+from .questions.page_of_folder import load as load
 from .questions.result import Result as Result
 from .questions.sensitivity.question import Sensitivity as Sensitivity
 from .questions.sensitivity.question import sensitivity as sensitivity
 from .questions.slip.question import SlipCurve as SlipCurve
 from .questions.slip.question import slip_curve as slip_curve
-from .questions.stored import load as load
 from .questions.uncertainty.question import uncertainty as uncertainty
 from .questions.vary.question import Variation as Variation
 from .questions.vary.question import vary as vary
@@ -54,6 +54,7 @@ from .surface import HeightMap as HeightMap
 from .surface import Profile as Profile
 from .surface import SelfAffineFit as SelfAffineFit
 from .surface import SineStack as SineStack
+from .surface import Spectrum as Spectrum
 from .surface import clean as clean
 from .surface import clean_map as clean_map
 from .surface import fit_self_affine as fit_self_affine
@@ -61,6 +62,7 @@ from .surface import fit_sines as fit_sines
 from .surface import height_difference as height_difference
 from .surface import read_map as read_map
 from .surface import read_profile as read_profile
+from .surface import read_spectrum as read_spectrum
 from .theory.layers import Layers as Layers
 from .wave.block import solve_profile as solve_profile
 from .wave.block import solve_scale as solve_scale

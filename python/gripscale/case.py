@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -46,6 +47,7 @@ from gripscale.surface import (
     Measured,
     Profile,
     SineStack,
+    Spectrum,
     Surface,
     clean,
     fit_self_affine,
@@ -54,12 +56,13 @@ from gripscale.surface import (
 )
 from gripscale.surface.cut_off import CutOffRule, find_cut_off
 from gripscale.surface.long_waves import longest_held
+from gripscale.surface.random_phases import PHASES_OF
 from gripscale.surface.surface import SURFACE_KIND, SURFACE_KINDS, SurfaceKind
 from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
 SHEAR_STRESS = "shear_stress"  # attribute of a result: kind of the law of its area term
-SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | SineStack
+SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | Spectrum | SineStack
 # Arguments of `gripscale.clean` where a case states none.
 _CLEANED_AS_USUAL: dict[str, Any] = {
     name: parameter.default
@@ -123,8 +126,9 @@ class Case(Described):
 
     Parameters
     ----------
-    surface : Profile, sequence of Profile, HeightMap, SineStack or Surface
-        Measured heights, or sine waves. Heights are taken as they are, unless `cleaning` is given.
+    surface : Profile, sequence of Profile, HeightMap, Spectrum, SineStack or Surface
+        Measured heights, their spectrum, or sine waves. Heights are taken as they are, unless
+        `cleaning` is given.
     rubber : Rubber, MasterCurve or MeasuredRubber
         A master curve is fitted by a Prony series, each row with the weight it has for friction and
         contact area of this case. The series of a `Rubber` is taken as it is.
@@ -388,6 +392,8 @@ class Case(Described):
         command |= {TESTER: self.tester} if self.tester else {}
         law = None if self.conditions is None else self.conditions.shear_stress
         command |= {} if law is None else {SHEAR_STRESS: law.kind}
+        spectrum = self.surface.spectrum
+        command |= {} if spectrum is None else {PHASES_OF: spectrum.phases}
         command |= {SURFACE_KIND: self.kind} if self.kind != "surface" else {}
         text = {"case": self.origin.text, "case_file": self.origin.name, CASE_TITLE: self.title}
         units = {DISPLAY_UNITS: json.dumps(self.units)}
@@ -544,7 +550,7 @@ def excitation(
 
 
 def described_surface(
-    measured: Measured,
+    measured: Measured | Spectrum,
     *,
     counted: Mapping[str, Any],
     fit: Mapping[str, Any],
@@ -552,18 +558,24 @@ def described_surface(
     source: str,
     footprint: float | None = None,
 ) -> Surface:
-    """Return a measured surface with its correlation and the sine waves that follow it.
+    """Return a measured surface, or lines of its spectrum, with correlation and sine waves.
 
     `counted` and `fit` are arguments of `height_difference` and `fit_sines`, `cut_off` says where
     the roughness ends; None: where `fit` does. Profiles lose waves that a `footprint` [m] does not
     hold, if these are most of their heights. Raises `InputError` if the heights have no
     correlation, or no waves fit it.
     """
-    if footprint is not None and measured.map is None and measured.longest is None:
+    spectrum, correlation = None, None
+    if isinstance(measured, Spectrum):
+        spectrum, end = measured, fit.get("smallest_wavelength") or cut_off
+        end = end if isinstance(end, float) else None
+        lines, correlation = spectrum.lines(footprint or math.inf, end)
+        measured = Measured.of(lines)
+    elif footprint is not None and measured.map is None and measured.longest is None:
         longest = longest_held(measured.cleaned, footprint)
         measured = measured if longest is None else measured.without_long_waves(longest)
     try:
-        correlation = height_difference(measured.followed, **counted)
+        correlation = correlation or height_difference(measured.followed, **counted)
     except InputError as error:  # a wrong unit may leave no heights
         raise InputError(" ".join([*map(str, measured.doubts), str(error)])) from error
     try:
@@ -574,7 +586,8 @@ def described_surface(
     if not (cut_off is None or isinstance(cut_off, float)):
         options["cut_off"] = find_cut_off(measured.slopes, cut_off).wavelength
     sines = fit_sines(correlation, **options)
-    return Surface(sines, source, correlation, options, measured, counted, cut_off)
+    fitted = Surface(sines, source, correlation, options, measured, counted, cut_off)
+    return fitted if spectrum is None else replace(fitted, spectrum=spectrum)
 
 
 def _surface(
@@ -590,7 +603,13 @@ def _surface(
         return surface
     if isinstance(surface, SineStack):
         return Surface(surface, "sine waves")
-    if isinstance(surface, HeightMap):
+    measured: Measured | Spectrum
+    if isinstance(surface, Spectrum):
+        if cleaning:
+            raise InputError("cleaning must be left out for a spectrum, which has no heights")
+        measured = surface if longest is None else surface.without_long_waves(longest)
+        sources = [surface.source]
+    elif isinstance(surface, HeightMap):
         if cleaning or longest is not None:
             name = "cleaning" if cleaning else "longest_wavelength"
             raise InputError(f"{name} must be left out for a map: use gripscale.clean_map; got it")

@@ -195,7 +195,7 @@ WRONG = [
     (
         'files = ["road.dat"]',
         "",
-        "[surface]: expected either files (measured profiles), map (a measured map) or sines",
+        "[surface]: expected either files (measured profiles), map (a measured map), spectrum",
     ),
     (
         'files = ["road.dat"]\nscales = 8',

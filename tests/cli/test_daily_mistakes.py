@@ -151,7 +151,7 @@ def test_a_mistake_is_one_sentence(
 
 
 GOOD: list[tuple[Callable[[Place], list[str]], str]] = [
-    (lambda at: at.say('"3 bar"', '"32 psi"'), "Results, report and figures are in"),
+    (lambda at: at.say('"3 bar"', '"32 psi"'), "Results and report are in"),
     (lambda at: at.say('"100 mm"', '"1 mm"'), "  The footprint, 1 mm, is shorter than the"),
     (lambda at: at.fit("--columns", "frequency=1,storage=2,loss=3", "--outlier-threshold", "inf"),
      "Maxwell elements"),

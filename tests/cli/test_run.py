@@ -41,14 +41,22 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
     kept = {name for name in written if name.startswith("predictions/")}
     assert len(kept) == 2, "the direct contact and the chain"
-    of_others = {"cut_off.nc"} | {
-        name for name in RESULT_FILES if any(f"/{figure}." in name for figure in AT_TIMES)
-    }
-    of_others |= {name for name in RESULT_FILES if name.endswith((".pdf", ".svg"))}
+    of_others = {"cut_off.nc"} | {name for name in RESULT_FILES if name.startswith("figures/")}
     assert (
         written
         == {*RESULT_FILES, CASE_NOTE, "inputs/road.txt", "inputs/dma.txt"} - of_others | kept
     )
+
+
+def test_figures_are_files_where_the_case_asks_for_them(
+    shell: Shell, changed: Callable[..., Path]
+) -> None:
+    case = changed("[output]", '[output]\nfigures = ["svg"]')
+    result = shell("run", case)
+    assert "Results, report and figures are in" in result.output
+    written = {f"figures/{path.name}" for path in (case.parent / "results/figures").iterdir()}
+    of_others = {name for name in RESULT_FILES if any(f"/{figure}." in name for figure in AT_TIMES)}
+    assert written == {name for name in RESULT_FILES if name.endswith(".svg")} - of_others
 
 
 def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -> None:

@@ -34,7 +34,6 @@ SINES = surface.SineStack([8e-3, 2e-3], [5e-4, 1e-4])
 SPECTRUM = surface.profile_spectrum(LONG)
 SLOPES = surface.slope_by_wavelength(LONG)
 FIT = gs.fit_self_affine(CORRELATION)
-TEST = rubber.UniaxialTest("test", [0.0, 1.0, 2.0], [1.0, 1.1, 1.2], [0.0, 1e5, 2e5])
 WAVE = {"wavelength": 1e-3, "amplitude": 1e-4}
 PRESSED = {"pressure": 1e5, "speed": 0.1}
 MESH = {"columns": 8, "rows": 4, "depth": 1.5, "element_order": 1}
@@ -117,12 +116,6 @@ def _rubber() -> Iterator[PublicFunction]:
     yield PublicFunction(rubber.Isihara, {"share": 0.2, "second": 0.1})
     yield PublicFunction(rubber.KrausEnergy, {"ratio": 0.2, "critical": 0.1, "measured_at": 1e-3})
     yield PublicFunction(rubber.strain_energy, {"kind": "yeoh", "second": -0.1, "third": 0.02})
-    test = {"time": [0.0, 1.0], "stretch": [1.0, 1.1], "stress": [0.0, 1e5]}
-    yield PublicFunction(rubber.UniaxialTest, {"name": "test", **test})
-    finite = {"tests": [TEST], "energy": "neo_hookean", "terms": 1, "band": None}
-    yield PublicFunction(rubber.fit_finite_strain, finite)
-    yield PublicFunction(rubber.rms_error, {"rubber": SOLID, "test": TEST})
-    yield PublicFunction(rubber.work_error, {"rubber": SOLID, "test": TEST})
     shear = {"rubber": SOLID, "time": [0.0, 1.0], "shear": [0.0, 0.1]}
     yield PublicFunction(rubber.simple_shear_stress, shear)
     bar = {"rubber": SOLID, "time": [0.0, 1.0], "stretch": [1.0, 1.1]}

@@ -36,10 +36,11 @@ from gripscale.rubber.blocks import read_blocks, with_named_temperature
 from gripscale.rubber.columns import FileLayout, other_content, quantity
 from gripscale.rubber.prony import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_sweeps import holds_strain_sweeps
-from gripscale.surface import HeightMap, Profile
+from gripscale.surface import HeightMap, Profile, Spectrum, read_spectrum
+from gripscale.surface.read_spectrum import holds_spectrum
 
 UNUSED = "unused"
-SURFACES = ("profile", "map")
+SURFACES = ("profile", "map", "spectrum")
 RUBBERS = ("sweeps", "master-curve", "ramp", "prony")
 """Kinds of moduli, those first that are taken before others of one folder."""
 _MOST_TITLES = 6  # columns that are listed one by one
@@ -92,11 +93,12 @@ READERS: dict[str, Callable[[Path, FileKeys], tuple[Any, dict[str, Any]]]] = {
     "moduli": lambda path, keys: open_rubber([path], keys.layout),
     "shift": lambda path, _: open_shift(path),
     "friction": lambda path, _: (read_measured_friction(path), {}),
+    "spectrum": lambda path, _: (read_spectrum(path), {}),
     "surface": lambda path, keys: open_surface(
         path, keys.step, UNITS_OF_SURFACE, **reading_keys(keys.surface)
     ),
 }
-_READER_OF = {**dict.fromkeys(SURFACES, "surface"), **dict.fromkeys(RUBBERS[:3], "moduli")}
+_READER_OF = {**dict.fromkeys(SURFACES[:2], "surface"), **dict.fromkeys(RUBBERS[:3], "moduli")}
 NAMES = (*SURFACES, *RUBBERS, "strain-sweep", "shift", "friction", UNUSED)
 """Kinds that a caller may state."""
 
@@ -125,7 +127,7 @@ def take(path: Path, keys: FileKeys, name: str | None = None) -> Taken:
         return Taken(path, _kind_of(kind, measured), _about(measured), measured, missing, columns)
     refusal = refusals[-1]
     why = str(refusal).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
-    kind = {"moduli": RUBBERS[1], "prony": "prony"}.get(seems[0], UNUSED)
+    kind = {"moduli": RUBBERS[1]}.get(seems[0], seems[0] if len(seems) == 1 else UNUSED)
     return Taken(path, kind, why, refusal=refusal)
 
 
@@ -134,6 +136,8 @@ def _seems(path: Path, keys: FileKeys) -> list[str]:
     layout = FileLayout(**keys.layout)
     if holds_prony_table(path):
         return ["prony"]
+    if holds_spectrum(path):
+        return ["spectrum"]
     titled: set[str | None] = set()
     with suppress(GripscaleError):
         of_titles = replace(layout, frequency=None)
@@ -178,6 +182,9 @@ def _about(measured: Any) -> str:
         case HeightMap():
             size = " x ".join(in_mm(length, 4) for length in measured.length)
             return f"{' x '.join(map(str, measured.z.shape))} heights over {size}"
+        case Spectrum():
+            height, slope = in_mm(measured.rms_height, 3), measured.rms_gradient()
+            return f"{len(measured.density)} points, rms height {height}, rms slope {slope:.3g}"
         case Sweeps():
             return measured.summary()
         case MasterCurve():

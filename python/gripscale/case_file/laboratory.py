@@ -61,7 +61,7 @@ class Laboratory:
                 self.leave_out(group, f"the {what} is {names[kept[0]]}; {cure}")
 
     def choose_surface(self) -> None:
-        """Keep one map, or the profiles, of which all state their units or none does."""
+        """Keep one map or spectrum, or the profiles, of which all state their units, or none."""
         profiles = self.of("profile")
         with_units = [
             file for file in profiles if file.by_caller or not file.missing.keys() - {"channel"}
@@ -69,6 +69,7 @@ class Laboratory:
         bare = [file for file in profiles if with_units and file not in with_units]
         self.leave_out(bare, "it names no unit, unlike others; --as profile takes it")
         groups = [*([file] for file in self.of("map")), self.of("profile")]
+        groups += [[file] for file in self.of("spectrum")]  # heights know more
         self.choose("surface", [group for group in groups if group], OF_ANOTHER_CASE)
 
     def choose_rubber(self, keys: FileKeys) -> None:

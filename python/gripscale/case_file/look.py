@@ -14,7 +14,7 @@ from gripscale.core import ZERO_CELSIUS, Array
 from gripscale.experiment.measured_friction import MeasuredFriction
 from gripscale.io.table import Column, Table, least_to_most
 from gripscale.rubber import MasterCurve, ShiftTable, StrainSweep, Sweeps
-from gripscale.surface import HeightMap, Profile
+from gripscale.surface import HeightMap, Profile, Spectrum
 
 _ROWS = 5  # first rows that are shown
 _WIDTH, _BARS = 60, "▁▂▃▄▅▆▇█"  # letters of a picture
@@ -26,6 +26,7 @@ _HERTZ = Column("frequency", unit="Hz")
 # Attributes of what was read, as they are shown.
 _SHOWN: dict[type, tuple[Column, ...]] = {
     Profile: _HEIGHTS,
+    Spectrum: (Column("wavenumber", unit="rad/m"), Column("density", unit="m^4")),
     MasterCurve: (_HERTZ, *_MODULI),
     Sweeps: (_KELVIN, _HERTZ, *_MODULI),
     StrainSweep: (Column("strain", unit="%", size=1e-2), *_MODULI),

@@ -12,7 +12,7 @@ from typing import Any
 from gripscale.case_file.prepare import case_surface, prepare_rubber, prepare_surface
 from gripscale.case_file.read import CaseFile, read_case_file, validate
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS, RubberSource
-from gripscale.case_file.tables import SurfaceTable
+from gripscale.case_file.tables import SpectrumKeys, SurfaceTable
 from gripscale.core import ZERO_CELSIUS, FileError
 from gripscale.experiment.design import OF_THE_CASE, named_values
 from gripscale.io.text_table import is_excel
@@ -20,9 +20,10 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.sweeps import states_temperature
 from gripscale.surface import SineStack, Surface
+from gripscale.surface.read_spectrum import holds_spectrum
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES
 
-SOURCES_OF_SURFACE = {"files", "map", "sines", "assumed"}
+SOURCES_OF_SURFACE = {"files", "map", "spectrum", "sines", "assumed", *SpectrumKeys.model_fields}
 # Keys of the case's [surface] that belong to its own files.
 OF_ONE_ROAD = ("crop", "crop_across", "z_axis")
 _NO_KEYS: Mapping[str, Any] = MappingProxyType({})
@@ -68,7 +69,8 @@ def read_surface(value: Any, file: CaseFile, options: Mapping[str, Any] = _NO_KE
     settings = table.model_dump(exclude_unset=True, exclude=SOURCES_OF_SURFACE | outside)
     if table.sines is not None:
         settings["scales"] = len(table.sines)
-    source = {"files": [str(path)]} if table.map is None else {"map": str(path)}
+    source: dict[str, Any] = {"files": [str(path)]} if table.map is None else {"map": str(path)}
+    source = {"spectrum": str(path)} if holds_spectrum(path) else source
     settings |= {**source, **options}
     surface = prepare_surface(
         validate(SurfaceTable, settings, "vary surface"), footprint=file.case.load.footprint

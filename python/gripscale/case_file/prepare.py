@@ -39,7 +39,7 @@ from gripscale.core import (
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.half_space.grid import MOST_POINTS
-from gripscale.io.text_table import lines_by_start, read_bytes
+from gripscale.io.text_table import lines_by_size, read_bytes
 from gripscale.model import FOOTPRINT
 from gripscale.rubber import (
     MasterCurve,
@@ -90,10 +90,24 @@ def prepare_surface(
     if surface.sines is not None:
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
+    if surface.spectrum is not None:
+        options, longest = _options(surface, surfaces.read_spectrum), surface.longest_wavelength
+        known = surfaces.read_spectrum(resolve(surface.spectrum), **options)
+        known = known if longest is None else known.without_long_waves(longest)
+        return _described(surface, known, resolve, footprint)
     raw = raw_surface(surface, resolve) if raw is None else raw
+    return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
+
+
+def _described(
+    surface: SurfaceTable,
+    measured: surfaces.Measured | surfaces.Spectrum,
+    resolve: Resolve,
+    footprint: float,
+) -> surfaces.Surface:
+    """Return a cleaned measurement, or a spectrum, with its waves, as the keys of `surface` ask."""
     paths = [resolve(name) for name in surface.measured_files]
     where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
-    measured = _cleaned(surface, raw, resolve)
     by_rule = not (surface.cut_off is None or isinstance(surface.cut_off, float))
     with about_file(where, InputError) if by_rule else nullcontext():
         return described_surface(
@@ -115,11 +129,11 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
 def _require_few_points(file: CaseFile) -> None:
     """Raise `InputError` for a text of more points than a contact takes, before it is read."""
     table = file.case.surface
-    ends = (table.smallest_wavelength, table.crop, table.map)
+    ends = (table.smallest_wavelength, table.crop, table.map, table.spectrum)
     if any(end is not None for end in ends) or table.cut_off not in (None, "instrument"):
         return
     for path in map(file.resolve, table.measured_files):
-        points = lines_by_start(path) if path.is_file() else 0.0
+        points = lines_by_size(path) if path.is_file() else 0.0
         if points > MOST_POINTS:
             words = (
                 f" must be a length, at least {points / MOST_POINTS:.2g} times what the "
@@ -442,7 +456,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
     table = file.case.surface
-    cleaned = table.clean and surface.measured is not None
+    cleaned = table.clean and surface.measured is not None and surface.spectrum is None
     with about_keys("rubber.shift"):
         try:
             return Case(

@@ -50,6 +50,7 @@ from gripscale.surface import HeightMap, Profile, read_map, read_profile
 from gripscale.surface.low_pass import POINTS_IN_CUT_OFF
 from gripscale.surface.plausibility import has_likely_units, road_between, support_plates
 from gripscale.surface.read import POINT_SUFFIXES, is_text_surface
+from gripscale.surface.read_spectrum import holds_spectrum
 
 _Measurement = TypeVar("_Measurement")
 
@@ -129,6 +130,9 @@ def surface_proposal(
     `InputError` as reading does.
     """
     proposal = Proposal()
+    if holds_spectrum(paths[0]):
+        proposal.keys = {"spectrum": names[0], **keys, "scales": _SCALES, "cut_off": _CUT_OFF}
+        return proposal
     reading = reading_keys(keys)
     options: dict[str, Any] = _step_option(step) | reading
     surface, missing = open_surface(paths[0], step, UNITS_OF_SURFACE, **reading)

@@ -173,7 +173,12 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
     ):
         raise InputError("a case file cannot state waves that are not fitted to the heights")
     keys: dict[str, Any] = {}
-    if measured.map is not None:
+    reliable: set[float | None] = {None}
+    if (spectrum := surface.spectrum) is not None:
+        columns = {"q [1/m]": spectrum.wavenumber, "C(q) [m^4]": spectrum.density}
+        keys["phases"] = spectrum.phases
+        keys["spectrum"] = inputs.add_table(spectrum.name or "spectrum", columns)
+    elif measured.map is not None:
         reliable = {measured.map.reliable}
         keys["map"] = inputs.add_heights(measured.map.name or "map", measured.map)
     else:
@@ -185,7 +190,7 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
         keys["files"] = [inputs.add_heights(line.name or "profile", line) for line in lines]
     if len(reliable) > 1:
         raise InputError("a case file cannot state profiles of unlike reliable wavelengths")
-    keys |= {"reliable": reliable.pop(), "clean": bool(case.cleaning)}
+    keys |= {"reliable": reliable.pop(), "clean": bool(case.cleaning)} if not spectrum else {}
     numbers = {**case.cleaning, **surface.counted, **surface.fit}
     rule = surface.rule
     numbers["cut_off"] = asdict(rule) if isinstance(rule, RmsSlope) else rule

@@ -102,6 +102,8 @@ class SourceKeys(CaseTable):
     whether the surface has ridges, and no more."""
     map: str | None = None
     """A measured map, in place of files."""
+    spectrum: str | None = None
+    """The power spectrum of a surface of which no heights are known, in place of files."""
     sines: list[WaveTable] | None = Field(default=None, min_length=1)
     """Waves stated by hand, in place of files; longest first."""
     kind: SurfaceKind = "surface"
@@ -110,7 +112,22 @@ class SourceKeys(CaseTable):
     @property
     def measured_files(self) -> list[str]:
         """Names of the files it was measured in."""
-        return [self.map] if self.map is not None else self.files or []
+        single = self.map or self.spectrum
+        return [single] if single is not None else self.files or []
+
+
+class SpectrumKeys(CaseTable):
+    """What a file of a spectrum does not state."""
+
+    wavenumber_unit: str | None = None
+    """Unit of its wavenumbers or wavelengths, such as 1/um, cycles/m or mm."""
+    density_unit: str | None = None
+    """Unit of its density: such as um^4 of a surface, um^3 of a line."""
+    normalization: Literal["q", "1/wavelength", "contact.engineering"] | None = None
+    """What its density is: over q, over 1/wavelength, or that of contact.engineering."""
+    phases: Literal["real", "worn", "random"] = "real"
+    """Phases of the waves that an answer is for: those of any surface, of one with worn or flat
+    tops as most roads have, or random ones."""
 
 
 class UnitKeys(CaseTable):
@@ -225,7 +242,7 @@ class WaveKeys(CaseTable):
         return self
 
 
-class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SourceKeys):
+class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SpectrumKeys, SourceKeys):
     """Measured profiles or a map and how they become sine waves, or the waves themselves.
 
     Waves by hand may stand with keys of a measured surface: other surfaces are read with these.
@@ -233,11 +250,19 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SourceKeys):
 
     @model_validator(mode="after")
     def _one_source(self) -> SurfaceTable:
-        if sum(source is not None for source in (self.files, self.map, self.sines)) != 1:
+        sources = (self.files, self.map, self.spectrum, self.sines)
+        if sum(source is not None for source in sources) != 1:
             raise ValueError(
-                "expected either files (measured profiles), map (a measured map) or "
-                "sines (waves by hand)"
+                "expected either files (measured profiles), map (a measured map), spectrum (of a "
+                "surface without heights) or sines (waves by hand)"
             )
+        of_heights = {*CleaningKeys.model_fields, *ReadingKeys.model_fields} - {
+            "longest_wavelength"
+        }
+        keys = set(SpectrumKeys.model_fields) if self.spectrum is None else of_heights
+        if self.sines is None and (stated := self.model_fields_set & keys - {"assumed"}):
+            other = "heights" if self.spectrum is not None else "spectrum"
+            raise ValueError(f"{min(stated)} belongs to a surface from {other}")
         if self.sines is not None:
             if self.cut_off is not None:
                 raise ValueError("cut_off belongs to a measured surface, not to waves by hand")
@@ -421,8 +446,8 @@ class OutputTable(CaseTable):
 
     folder: str = "results"
     """Folder of the results, from the case file."""
-    figures: list[FigureKind] = Field(default=["png"], min_length=1)
-    """What each figure is written as."""
+    figures: list[FigureKind] | None = Field(default=None, min_length=1)
+    """What each figure is written as: by default png, and no files of a run, whose page has all."""
 
 
 class MeasuredTable(CaseTable):

@@ -95,12 +95,12 @@ class FigureFolder:
     """A folder of figures and what they are written as."""
 
     path: Path
-    kinds: Sequence[str] = ("png",)  # out of `gripscale.charts.paper.KINDS`
+    kinds: Sequence[str] | None = None  # out of `gripscale.charts.paper.KINDS`; png by default
 
     def save(self, figure: Sheet | Figure, name: str) -> None:
         """Write a figure or what describes it; `FileError` if that fails."""
         from gripscale.charts.paper import figure_file
 
         drawn = figure.on_paper() if isinstance(figure, Sheet) else figure
-        for kind in self.kinds:
+        for kind in self.kinds or ("png",):
             write_bytes(self.path / f"{name}.{kind}", figure_file(drawn, kind))

@@ -498,15 +498,17 @@ def _wide(raw: bytes) -> str:
     return ""
 
 
-_START = 2**16  # bytes by which the lines of a file are counted
+_PART = 2**16  # bytes by which the lines of a file are counted
 
 
-def lines_by_start(path: Path) -> float:
-    """Return about how many lines a text has, by its size and its first ones; 0 of other files."""
+def lines_by_size(path: Path) -> float:
+    """Return about how many lines a text has, by its size and its middle; 0 of other files."""
     size = path.stat().st_size
     with path.open("rb") as file:
-        start = file.read(_START)
-    return start.count(b"\n") * size / len(start) if start and is_text(start) else 0.0
+        text = is_text(file.read(_PART))
+        file.seek(max(0, (size - _PART) // 2))  # numbers grow: first lines are shorter
+        part = file.read(_PART)
+    return part.count(b"\n") * size / len(part) if text and part else 0.0
 
 
 _BEYOND_ASCII = re.compile(rb"[\x80-\xff]+")

@@ -4,8 +4,8 @@
     result.save("answer.nc")
     gs.load("answer.nc").page("answer.html")
 
-A file knows its question by the attribute `kind`, from which `gripscale.questions.stored` finds its
-class.
+A file knows its question by the attribute `kind`, from which
+`gripscale.questions.page_of_folder` finds its class.
 """
 
 from __future__ import annotations

@@ -425,8 +425,8 @@ class CaseCommand:
         contents: str,
         *,
         text: str = "",
-        opening: Sequence[str | Table] = (),
         drawings: str = "figures",
+        page: Callable[[Path], Path] | None = None,
     ) -> None:
         """End the command with the result of its question: save, print and draw it.
 
@@ -450,8 +450,8 @@ class CaseCommand:
             list(result.parts()),
             text=text or self._text,
             closing=f"Result ({result.file}), {contents} are in",
-            opening=opening,
             draw=draw,
+            page=page,
         )
 
     def conclude(

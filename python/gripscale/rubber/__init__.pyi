@@ -1,14 +1,8 @@
 from .admissible import AdmissibleSeries as AdmissibleSeries
 from .columns import FileLayout as FileLayout
 from .extrapolation import Extrapolation as Extrapolation
-from .finite_strain import FiniteStrainFit as FiniteStrainFit
-from .finite_strain import UniaxialTest as UniaxialTest
-from .finite_strain import fit_finite_strain as fit_finite_strain
-from .finite_strain import read_uniaxial_test as read_uniaxial_test
-from .finite_strain import rms_error as rms_error
 from .finite_strain import simple_shear_stress as simple_shear_stress
 from .finite_strain import uniaxial_stress as uniaxial_stress
-from .finite_strain import work_error as work_error
 from .master_curve import MasterCurve as MasterCurve
 from .master_curve import read_master_curve as read_master_curve
 from .master_curve import write_master_curve as write_master_curve

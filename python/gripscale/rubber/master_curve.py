@@ -198,8 +198,8 @@ def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:
     """Return the temperature of a column in which all rows have the same [K], or None."""
     column = layout.column(table, "temperature")
     unit = None if column is None else columns.unit_in(table.columns[column], "temperature")
-    stated = None if column is None else table.columns[column].unit
-    if column is not None and stated and not any(spelled(stated, kind) for kind in UNITS):
+    word = None if column is None else table.columns[column].unit
+    if column is not None and word and not any(spelled(word, kind) for kind in UNITS):
         layout.unit(table, column, "temperature")  # refuses a unit that is not known
     unit = layout.temperature_unit or unit
     if column is None or unit is None:

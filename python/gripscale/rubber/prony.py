@@ -49,7 +49,7 @@ from gripscale.rubber.admissible import AdmissibleSeries, loss_shape, storage_sh
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BULK_MODULUS, Rubber
-from gripscale.rubber.maxwell_fit import Curve, Prior, Spectrum
+from gripscale.rubber.maxwell_fit import Curve, MaxwellSpectrum, Prior
 from gripscale.rubber.prony_report import PronyFit, likely_reading, root_mean_square
 
 _RISE = 9.0  # allowed rise of the sum of squares in units of the scatter
@@ -240,7 +240,7 @@ def fit_prony_report(
     limit = largest_modulus(float(rows.storage.max()), bulk)
     prior = Prior(smoothing, _SHRINKAGE * smoothing, limit)
 
-    def fit(part: Curve, terms: int) -> Spectrum:
+    def fit(part: Curve, terms: int) -> MaxwellSpectrum:
         times = maxwell_fit.relaxation_times(curve.omega, terms, beyond)
         return maxwell_fit.fit_spectrum(part, times, maxwell_fit.prior_for(terms, rows, prior))
 

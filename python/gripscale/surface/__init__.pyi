@@ -16,8 +16,10 @@ from .height_difference import height_difference as height_difference
 from .plausibility import profile_warnings as profile_warnings
 from .profile import HeightMap as HeightMap
 from .profile import Profile as Profile
+from .random_phases import Spectrum as Spectrum
 from .read import read_map as read_map
 from .read import read_profile as read_profile
+from .read_spectrum import read_spectrum as read_spectrum
 from .resampling import resample as resample
 from .sine_fit import SineAmbiguity as SineAmbiguity
 from .sine_fit import fit_sines as fit_sines

@@ -34,6 +34,7 @@ from gripscale.surface.height_difference import HeightDifference, SelfAffineFit,
 from gripscale.surface.low_pass import followed, followed_lines
 from gripscale.surface.noise import noise_finding
 from gripscale.surface.profile import HeightMap, Profile
+from gripscale.surface.random_phases import Spectrum
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
 from gripscale.surface.texture import Heights, texture_levels, textures
@@ -246,6 +247,8 @@ class Surface(Described):
     """Shortest wavelength of the roughness [m]; None: where the waves end."""
     note: str = ""
     """Assumption made while reading the file, as a sentence; empty if none was made."""
+    spectrum: Spectrum | None = None
+    """All that is known of it, if it is known by its spectrum: `measured` are lines drawn of it."""
 
     @property
     def sines(self) -> SineStack:
@@ -288,6 +291,7 @@ class Surface(Described):
     def findings(self) -> tuple[Finding, ...]:
         """What may change the answer: of the measurement, and of the end of the waves."""
         of_measurement = () if self.measured is None else (*self.measured.findings, *self.noise)
+        of_measurement = of_measurement if self.spectrum is None else (self.spectrum.finding,)
         if self.correlation is None:
             return of_measurement
         ridges = [f for f in self.direction if f.severity != Severity.GOOD]
@@ -297,7 +301,7 @@ class Surface(Described):
     @cached_property
     def direction(self) -> tuple[Finding, ...]:
         """What profiles across sliding, or a map, tell of ridges; nothing of other surfaces."""
-        if self.measured is None:
+        if self.measured is None or self.spectrum is not None:
             return ()
         if self.measured.map is not None:
             finding = direction_of_map(self.measured.map)
@@ -309,7 +313,8 @@ class Surface(Described):
     @cached_property
     def noise(self) -> tuple[Finding, ...]:
         """What white noise of the measured heights changes; nothing without a cut-off."""
-        if self.measured is None or (self.end is None and self.waves is None):
+        ends = self.end is not None or self.waves is not None
+        if self.measured is None or self.spectrum is not None or not ends:
             return ()
         lines, whole = self.measured.cleaned, self.measured.map
         across = None if whole is None else whole.step[1]
@@ -321,7 +326,8 @@ class Surface(Described):
     def doubts(self) -> tuple[Finding, ...]:
         """Findings that make the answer unreliable."""
         of_noise = (f for f in self.noise if f.severity == Severity.DOUBT)
-        return () if self.measured is None else (*self.measured.doubts, *of_noise)
+        drawn = self.measured is None or self.spectrum is not None
+        return () if drawn or self.measured is None else (*self.measured.doubts, *of_noise)
 
     @property
     def extrapolated(self) -> tuple[Finding, ...]:
@@ -377,7 +383,7 @@ class Surface(Described):
         return find_cut_off(self.measured.slopes, rule).wavelength
 
     def _of_upper(self, share: float) -> Surface:
-        if self.measured is None or not self.fit:
+        if self.measured is None or self.spectrum is not None or not self.fit:
             raise InputError(f"top_height_fraction varies a measured surface; got {self.source}")
         counted = {**self.counted, "top_height_fraction": share}
         correlation = height_difference(self.measured.followed, **counted)

@@ -41,6 +41,7 @@ from gripscale.surface.profile import (
     Profile,
     even_grid,
 )
+from gripscale.surface.read_spectrum import is_spectrum, kind_of
 from gripscale.surface.resampling import printed_grid, resample
 
 _NINES = [float(f"{'9' * n}.{'9' * d}") for n in range(2, 10) for d in range(5) if n + d > 2]
@@ -126,22 +127,16 @@ NO_HEIGHT = re.compile(
     r"|waviness|^\W*roughness (profile|component)|welligkeit|rauheitsprofil|ondulation|iri\b|mpd\b",
     re.IGNORECASE,
 )
-_WAVENUMBER = re.compile(
-    r"^\W*(q|k|wave ?(number|vector|length)|wellen(zahl|länge)|spatial freq\w*|ortsfrequenz)\b",
-    re.IGNORECASE,
-)
-_SPECTRUM = re.compile(r"^\W*(c\b|c_|c\(|.*(psd|power|spectr|leistungsdichte))", re.IGNORECASE)
-
 # Most points of a grid, in points of the file: with fewer on it, the file is not on a grid.
 _MOST_TIMES = 100
 
 
 def _read_table(path: Path, lines: list[Line], expected: str) -> TextTable:
-    titles = [_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE, _WAVENUMBER]
+    titles = [_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE]
 
     def read() -> TextTable:
         def named(name: str) -> bool:
-            return any(title.match(name) for title in titles)
+            return bool(kind_of(name)) or any(title.match(name) for title in titles)
 
         return table_in(path, lines, expected, kinds=("length",), named=named)
 
@@ -149,10 +144,10 @@ def _read_table(path: Path, lines: list[Line], expected: str) -> TextTable:
     if not table.names:  # times alone: beside other titles they may be words, such as 12:03
         titles.append(_TIME_TITLE)
         table = read()
-    if _titled(table, _WAVENUMBER) and _titled(table, _SPECTRUM):
+    if is_spectrum(table):
         raise FileError(
             f"{path}: expected heights; got the power spectrum of a surface, titled "
-            f"{table.titles}, which is not read: the profiles or the map it was computed of are"
+            f"{table.titles}: gripscale.read_spectrum, or spectrum in [surface], reads it"
         )
     return table
 

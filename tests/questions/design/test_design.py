@@ -28,10 +28,9 @@ from gripscale.model import Load
 from gripscale.questions import designed_rubber
 from gripscale.questions.design import compound_design
 from gripscale.questions.design.charts import design_figure
-from gripscale.questions.design.compound_gain import Gain, gain
 from gripscale.questions.design.compound_limits import CompoundLimits, PointLimit, changed
 from gripscale.questions.design.compound_search import design_problem
-from gripscale.questions.design.goal_friction import CompoundGoal
+from gripscale.questions.design.goal_friction import CompoundGoal, Gain, gain
 from gripscale.questions.design.question import (
     CompoundDesign,
     parse_goal,

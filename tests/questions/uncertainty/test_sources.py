@@ -14,8 +14,8 @@ from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
 from gripscale.questions import Range, Uncertainty
-from gripscale.questions.uncertainty.propagation import draws
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, LongerLoad
+from gripscale.questions.uncertainty.sampling import draws
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.rubber import WLF
 from gripscale.surface import (

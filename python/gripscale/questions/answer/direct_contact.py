@@ -46,6 +46,7 @@ from gripscale.questions.cut_off.curve import (
     refusals,
 )
 from gripscale.questions.inputs.record import in_words
+from gripscale.surface.random_phases import REAL_PHASES
 
 
 def direct_contact_design(
@@ -159,10 +160,16 @@ def continued_curve(case: Case, load: Load, folder: str | Path | None = None) ->
 def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
     """Return the factor of the roughness of a `continued_curve` below the cut-off of its case.
 
-    Its error is that of the continuation; none without a curve, or one that was refused.
+    Its error is that of the continuation; none without a curve, or one that was refused. Of a
+    surface known by its spectrum also that from random to real phases.
     """
+    spectrum, phases = case.surface.spectrum, list[Factor]()
+    if spectrum is not None and spectrum.phases in REAL_PHASES:
+        area, friction, freedom = REAL_PHASES[spectrum.phases]
+        ratios = LogNormalValue(*area), LogNormalValue(*friction)
+        phases = [Factor("real_phases", "random to real phases", *ratios, freedom, True)]
     if curve is None or any(refusals(curve)):
-        return []
+        return phases
     cut_off = resolved_wavelength(case.surface)
 
     def grown(name: str) -> LogNormalValue:
@@ -174,7 +181,7 @@ def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
 
     end = in_mm(float(curve.cut_off[-1]), 3)
     label = f"roughness continued from {in_mm(cut_off, 3)} to {end}"
-    return [Factor("below_measurement", label, grown(AREA), grown(FRICTION))]
+    return [*phases, Factor("below_measurement", label, grown(AREA), grown(FRICTION))]
 
 
 def direct_contact_totals(

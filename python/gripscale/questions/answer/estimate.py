@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -74,6 +74,8 @@ class Factor(Described):
     friction: LogNormalValue = UNKNOWN_VALUE
     freedom: float = math.inf
     """Degrees of freedom of its uncertainties."""
+    of_small_contact: bool = False
+    """Whether its logarithms fall to nothing at full contact, as 1 - A."""
 
 
 # Models whose ratio is the factor of finite strain.
@@ -138,7 +140,8 @@ def answer_of_samples(
             factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
         factors |= _of_conditions(direct, conditions, unknown)
         for factor in supplied:
-            factors[factor.name] = factor.label, _numbers_of(factor, unknown)
+            free = 1.0 - reduce.mean(direct, "contact_fraction") if factor.of_small_contact else 1.0
+            factors[factor.name] = factor.label, _numbers_of(factor, unknown, free)
     labels, solved = [label for label, _ in factors.values()], [n for _, n in factors.values()]
 
     def over_factors(values: Sequence[xr.DataArray]) -> xr.DataArray:
@@ -340,11 +343,11 @@ def _stress_error(conditions: Conditions | None) -> float:
     return STRESS_SCATTER if typical else 0.0
 
 
-def _numbers_of(factor: Factor, unknown: xr.DataArray) -> FactorNumbers:
+def _numbers_of(factor: Factor, unknown: xr.DataArray, share: Any = 1.0) -> FactorNumbers:
     numbers = {}
     for name in ESTIMATED:
         number: LogNormalValue = getattr(factor, name)
-        sigma = xr.full_like(unknown, number.uncertainty)
+        sigma = xr.full_like(unknown, number.uncertainty) * share
         error = LogError(sigma, xr.full_like(unknown, factor.freedom))
-        numbers[name] = xr.full_like(unknown, number.value), error
+        numbers[name] = xr.full_like(unknown, number.value) ** share, error
     return numbers

@@ -50,6 +50,7 @@ from gripscale.report.elements import Card, Element, Facts, Page, Section, Text,
 from gripscale.report.equations import method_section
 from gripscale.surface import SineStack
 from gripscale.surface.direction import ERROR_OF_RIDGES
+from gripscale.surface.random_phases import PHASES_OF
 from gripscale.testers import TESTER, tester_reading
 
 HYSTERESIS_ALONE = (
@@ -131,6 +132,7 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
     if "thickness" in data:
         thickness = display_unit_of(data.attrs, "thickness").text(float(data.thickness))
         thick = f", rubber {thickness} thick on a rigid base"
+    thick += ", for random phases" if data.attrs.get(PHASES_OF) == "random" else ""
     yield f"For {pressure} {motion}, roughness down to {end}{thick}."
     if reliance.is_moving(data) and not friction_parts(data):
         yield HYSTERESIS_ALONE
@@ -188,6 +190,7 @@ def _corrections(data: xr.Dataset) -> str:
         if not np.allclose([*values.values()], 1.0):  # others only widen the interval
             steps.append(f"{label}: {text}")
     where = "your profiles" if LINES_TO_SURFACE in labels else "the measured surface"
+    where = "lines of your spectrum with random phases" if PHASES_OF in data.attrs else where
     corrected = f", then corrected: {'; '.join(steps)}" if steps else ""
     return f"Solved on {where} at small strain ({solved}){corrected}."
 

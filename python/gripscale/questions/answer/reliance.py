@@ -18,6 +18,7 @@ from gripscale.questions.answer.estimate import DIRECT
 from gripscale.questions.answer.variables import REACH, answer_number, has_answer
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
+from gripscale.surface.random_phases import PHASES_OF
 
 # Share of friction or contact from what was not measured that makes an answer a guess.
 MOST_ON_GUESSES = 0.5
@@ -105,6 +106,8 @@ def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
         # the parts of an interval that is sampled say why
         why = ": the measured surface is too small, or too few of its summits carry"
         why = "" if "part_label" in data else why
+        if data.attrs.get(PHASES_OF, "random") != "random":
+            why = ": a spectrum does not tell the phases of the surface"
         yield f"The ends of the interval are more than a factor of two from the value{why}."
 
 
