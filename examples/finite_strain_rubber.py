@@ -8,7 +8,7 @@ On given relaxation times the nominal stress is linear in the moduli,
 
     P(t) = sum_k c_k P_k(s) + sum_i G_i (s A_i,11 - s^-2 A_i,22)
 
-(P_k and c_k are the strain energy's: `StrainEnergy.basis`), so that the least squares of P over
+(P_k and c_k are those of `LAWS`), so that the least squares of P over
 the peak stress of each test, each test counting alike, is a convex problem with bounds and one
 minimum: no start values, no local minima. Bounded-variable least squares: P. B. Stark & R. L.
 Parker, Comput. Stat. 10 (1995) 129.
@@ -17,7 +17,7 @@ Parker, Comput. Stat. 10 (1995) 129.
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,9 +32,9 @@ from gripscale.charts import save_figure
 from gripscale.charts.chart import Mark, Note, Panel, PlotAxis, Series
 from gripscale.charts.draw import Sheet
 from gripscale.charts.style import COLOURS, GREY
-from gripscale.rubber import Rubber, uniaxial_stress
+from gripscale.rubber import MooneyRivlin, NeoHookean, Rubber, Yeoh, uniaxial_stress
 from gripscale.rubber.finite_strain import uniaxial_network_stresses
-from gripscale.rubber.strain_energy import STRAIN_ENERGIES
+from gripscale.rubber.strain_energy import StrainEnergy
 
 Array = NDArray[np.float64]
 DATA = Path(__file__).parent / "data" / "rubber" / "finite_strain_vhb"
@@ -46,6 +46,37 @@ FILES = {
     "loading_3d0_unloading_0d05.xlsx": "to 3.0 at 0.05 /s",
 }
 
+
+@dataclass(frozen=True)
+class Law:
+    """A strain energy as a fit takes it: G times the law is linear in coefficients c_k [Pa]."""
+
+    least: tuple[float, ...]  # lower bounds of c_k [Pa]
+    units: tuple[tuple[StrainEnergy, StrainEnergy | None], ...]
+    """Of each c_k the law with it over G, less the other."""
+    made: Callable[..., StrainEnergy]  # of all c_k [Pa]
+
+    def basis(self, stretch: Array) -> list[Array]:
+        """Return the uniaxial factor per unit of each c_k over G [-], each like `stretch` [-]."""
+        pairs = (
+            (a.uniaxial_factor(stretch), b and b.uniaxial_factor(stretch)) for a, b in self.units
+        )
+        return [one if other is None else one - other for one, other in pairs]
+
+
+LAWS = {
+    "neo_hookean": Law((0.0,), ((NeoHookean(), None),), lambda g: NeoHookean()),
+    "mooney_rivlin": Law(
+        (0.0, 0.0),
+        ((MooneyRivlin(0.0), None), (MooneyRivlin(1.0), None)),
+        lambda a, b: MooneyRivlin(b / (a + b)),
+    ),
+    "yeoh": Law(
+        (0.0, -np.inf, 0.0),
+        ((NeoHookean(), None), (Yeoh(1.0, 0.0), NeoHookean()), (Yeoh(0.0, 1.0), NeoHookean())),
+        lambda g, second, third: Yeoh(second / g, third / g),
+    ),
+}
 ENERGIES = {
     "neo-Hookean": "neo_hookean",
     "Mooney-Rivlin": "mooney_rivlin",
@@ -75,7 +106,7 @@ class UniaxialTest:
 
 def read_test(path: Path, name: str) -> UniaxialTest:
     """Read time [s], stretch and nominal stress [kPa] from the first three columns of a sheet."""
-    sheet = load_workbook(path, read_only=True, data_only=True).worksheets[0]
+    sheet = load_workbook(path, data_only=True).worksheets[0]
     table = np.array([row[:3] for row in sheet.iter_rows(values_only=True)], dtype=float)
     return UniaxialTest(name, table[:, 0], table[:, 1], 1e3 * table[:, 2])
 
@@ -137,7 +168,7 @@ def fit_finite_strain(
     `band` [s], by default from a hundredth of the shortest test to the longest: beyond it nothing
     tells a slow network from a permanent one.
     """
-    law = STRAIN_ENERGIES[energy]
+    law = LAWS[energy]
     durations = [test.duration for test in tests]
     low, high = (FASTEST * min(durations), max(durations)) if band is None else band
     times = np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])
@@ -151,17 +182,18 @@ def fit_finite_strain(
         measured.append(test.stress * weight)
     matrix = np.vstack(columns)
     lower = np.zeros(matrix.shape[1])
-    lower[: len(law.least_coefficients)] = law.least_coefficients
+    lower[: len(law.least)] = law.least
     lower[0] = LEAST_EQUILIBRIUM * min(test.peak for test in tests)
     scale = np.linalg.norm(matrix, axis=0)
     bounds = (lower * scale, np.full(len(scale), np.inf))
     fit = lsq_linear(matrix / scale, np.concatenate(measured), bounds, method="bvls", tol=1e-14)
     coefficients = np.asarray(fit.x / scale, dtype=float)
     count = len(coefficients) - len(times)
-    shear, strain_energy = law.from_coefficients(coefficients[:count].tolist())
-    moduli = coefficients[count:]
+    found, moduli = coefficients[:count].tolist(), coefficients[count:]
+    # of Mooney and Rivlin's law G is the sum of both
+    shear = sum(found) if energy == "mooney_rivlin" else found[0]
     used = moduli > 1e-9 * (shear + moduli.sum())
-    rubber = Rubber(3.0 * shear, 3.0 * moduli[used], times[used], strain_energy=strain_energy)
+    rubber = Rubber(3.0 * shear, 3.0 * moduli[used], times[used], strain_energy=law.made(*found))
     return FiniteStrainFit(rubber, tuple(tests))
 
 

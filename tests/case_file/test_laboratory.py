@@ -79,6 +79,14 @@ PREDICTION = "\n".join(
 KINDS = {
     "a profile": (PROFILE, "profile"),
     "a map": (MAP, "map"),
+    "a profile with its speed": (
+        "\n".join(["x [mm],z [um],Speed [km/h]", *(f"{row},60" for row in HEIGHTS)]),
+        "profile",
+    ),
+    "a profile with temperatures": (
+        "\n".join(["x [mm],z [um],Temperature", *(f"{row},23" for row in HEIGHTS)]),
+        "profile",
+    ),
     "a master curve": (moduli("frequency [Hz],E' [MPa],E'' [MPa]"), "master-curve"),
     "a curve without titles": (moduli("# measured in May").partition("\n")[2], "master-curve"),
     "sweeps": (SWEEPS, "sweeps"),
@@ -310,7 +318,11 @@ def test_a_kind_goes_before_the_content(tmp_path: Path, shell: Shell) -> None:
 
 @pytest.mark.verification
 def test_three_commands_calibrate_a_folder(tmp_path: Path, shell: Shell) -> None:
-    folder = folder_of(tmp_path / "A", COMPOUND)
+    """Two temperatures tell the four constants of the area term from six points."""
+    measured = {20: {0.001: 1.0, 0.01: 1.3, 0.1: 1.5}, 40: {0.001: 0.7, 0.01: 1.0, 0.1: 1.3}}
+    rows = (f"{v},{mu},{t}" for t, by_speed in measured.items() for v, mu in by_speed.items())
+    friction = "\n".join(["speed [m/s],friction,temperature [C]", *rows])
+    folder = folder_of(tmp_path / "A", COMPOUND | {"A_friction.csv": friction})
     case = folder / "case.toml"
     for command in (("new", folder, "-o", case), ("run", case), ("calibrate", case)):
         outcome = shell(*command)

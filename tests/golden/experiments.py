@@ -1,7 +1,7 @@
 """Small cases through the command line: what every command prints and writes.
 
 The shipped road is cut short and thinned, and its meshes are coarse: the numbers pin the code, they
-say nothing of a road. Figures are not rendered.
+say nothing of a road. Figures are not drawn.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from typer.testing import CliRunner
 
 import gripscale as gs
+from gripscale.charts.draw import Sheet
 from gripscale.cli import app
 from tests.samples import SOFTENING, blank_figures, write_road
 
@@ -187,6 +188,7 @@ def run_experiments(folder: Path) -> Experiments:
     _write_inputs(folder)
     with pytest.MonkeyPatch.context() as patch, blank_figures():
         patch.chdir(folder)
+        patch.setattr(Sheet, "on_paper", lambda _: None)
         patch.setattr(os, "sched_getaffinity", lambda _: {0}, raising=False)
         patch.setattr(os, "cpu_count", lambda: 1)
         printed = {name: _printed(words) for name, words in COMMANDS.items()}

@@ -9,7 +9,8 @@ from gripscale.questions import terminal
 from gripscale.questions.terminal import argument, command, option
 
 TwoOfYours = Annotated[
-    tuple[str, str] | None, option("Two of your own, files or cases; most figures show the first.")
+    tuple[str, str] | None,
+    option("Two of your own, files or cases; most figures show the first.", metavar="A B"),
 ]
 
 
@@ -60,4 +61,5 @@ def reproduce(
     statements = reproduce_paper(inputs, output, figures or (), **options)
     terminal.end_steps()
     closing = f"Figures, data, and statements.md with all numbers and reasons are in {output}"
-    terminal.print_parts(console, [verdict_table(statements), closing])
+    tables = [verdict_table(statements)] if statements else []
+    terminal.print_parts(console, [*tables, closing])

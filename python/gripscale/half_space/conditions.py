@@ -128,12 +128,17 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
     size = np.abs(spectrum)
     phase = np.divide(spectrum, size, out=np.zeros_like(spectrum), where=size > 0.0)
     out = []
+    line = len(grid.shape) == 1
     for which in range(int(octave.max()) + 1):
-        loss = np.where((octave == which) & (lost > 0.0), lost, 0.0)
+        # on a line the waves of an octave follow each other
+        these = slice(2**which, 2 ** (which + 1)) if line else slice(None)
+        loss = np.where((octave[these] == which) & (lost[these] > 0.0), lost[these], 0.0)
         total = float(loss.sum())
         if total > _ROUND_OFF * float(lost.sum()):
-            pattern = _loss_pattern(grid, np.sqrt(loss) * phase, 2 ** (which + 1))
-            mean = float((loss * 1.5 / np.maximum(number, longest)).sum() / total)
+            half = np.zeros_like(spectrum)
+            half[these] = np.sqrt(loss) * phase[these]
+            pattern = _loss_pattern(grid, half, 2 ** (which + 1))
+            mean = float((loss * 1.5 / np.maximum(number[these], longest)).sum() / total)
             middle = longest * 2.0 ** (which + 0.5)
             out.append(OctaveHeat(middle, total, pattern, LossDepth(mean)))
     return out

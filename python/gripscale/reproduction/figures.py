@@ -200,7 +200,7 @@ def _waves(inputs: PaperInputs) -> list[Panel]:
 
 def _both_correlations(inputs: PaperInputs) -> list[Panel]:
     marks = [
-        _points(inputs.correlation(road), colour=colour, label=road, marker=marker)
+        _points(inputs.correlation(road), colour=colour, label=road, marker=marker, size=3.0)
         for road, colour, marker in zip(inputs.surfaces, COLOURS, _MARKERS, strict=False)
     ]
     return [Panel(_LAG, _CORRELATION, marks)]

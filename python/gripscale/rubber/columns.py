@@ -87,7 +87,9 @@ _RELAXATION = re.compile(r"[EG]\s*\(t|.*relax\w* ?mod", re.IGNORECASE)
 _ANGULAR = re.compile(r"omega|ω|angular|kreis|pulsation|角|ang\.? ?freq", re.IGNORECASE)
 # A frequency in words that mean either kind: 1/s of an angular one is rad/s.
 _PER_SECOND = re.compile(r"(1/s(ec)?|s\^?-1|s⁻¹)", re.IGNORECASE)
-_PHASE = re.compile(r"delta|δ|(phase|loss)[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE)
+_PHASE = re.compile(
+    r"delta|δ|phase([ _-]?angle)?|loss[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE
+)
 # Letters that are a title by themselves: t is a time and F a force.
 _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
 _BAREPRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')

@@ -184,8 +184,9 @@ def read_master_curve(
             "with the temperature of each row, or write one file for each temperature, with the "
             "temperature in its name, such as sweep_-20C.csv"
         )
-    above = _temperature_of_rows(table, layout) if above is None else above
-    above = blocks[0].reference if above is None else above
+    if above is None and (reference_temperature is None or layout.titles_first):
+        above = _temperature_of_rows(table, layout)
+        above = blocks[0].reference if above is None else above
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name

@@ -405,10 +405,10 @@ def read_map(
     ----------
     path : path-like
         A text or Excel file (.xyz, .dat, .txt, .csv, .tsv, .prn, .asc, .xlsx) with three columns x,
-        y and z, or with a table of heights whose rows run along y and whose columns along x; a grid
-        of ESRI (.asc); triangles (.stl) that are a surface seen from above; or a map in any format
-        SurfaceTopography reads, such as .al3d, .sur, .opd, .x3p, .sdf, .plu, .datx, .gwy, .npy
-        (needs `gripscale[formats]`).
+        y and z, or with a table of heights whose rows run along y and whose columns along x; an
+        array (.npy), a grid of ESRI (.asc) or a field of Gwyddion (.gsf); triangles (.stl) that are
+        a surface seen from above; or a map in any format SurfaceTopography reads, such as .al3d,
+        .sur, .opd, .x3p, .sdf, .plu, .datx, .gwy, .npz (needs `gripscale[formats]`).
     x_unit, z_unit, channel, reader, z_axis
         As in `read_profile`.
     step : float or (float, float), optional

@@ -115,7 +115,7 @@ class SideBySide(Variation):
                 continue
             parts = self.data[name].fillna(0.0)
             apart = parts.sel({self.dim: high}) - parts.sel({self.dim: low})
-            most = apart[int(np.abs(apart).argmax())]
+            most = apart[int(np.abs(apart.values).argmax())]
             end = float(most[dim])
             where = f"waves of {significant(end / MILLI)} to {significant(2.0 * end / MILLI)} mm"
             if dim == "decade":
