@@ -95,6 +95,7 @@ def test_questions_on_a_spectrum():
         case.surface.varied(top_height_fraction=0.5)
     with pytest.raises(InputError, match="cleaning must be left out for a spectrum"):
         case.replace(cleaning={})
+    assert "random to real phases" in str(gs.compare(case, models=["direct"]))
     shorter = case.replace(smallest_wavelength=2e-3)
     assert shorter.surface.measured.cleaned[0].step == pytest.approx(2e-3 / 8)
 

@@ -112,8 +112,7 @@ class SourceKeys(CaseTable):
     @property
     def measured_files(self) -> list[str]:
         """Names of the files it was measured in."""
-        single = self.map or self.spectrum
-        return [single] if single is not None else self.files or []
+        return [single] if (single := self.map or self.spectrum) else self.files or []
 
 
 class SpectrumKeys(CaseTable):
