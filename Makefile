@@ -10,11 +10,14 @@ BUILT := $(VENV)/.built
 FAST := $(addprefix tests/,core/test_layout.py core/test_units.py core/test_errors.py surface rubber/test_shift.py theory)
 SOURCES := Cargo.toml Cargo.lock pyproject.toml $(shell find rust -name '*.rs')
 
+# Runs a command without a word of its own; all it prints is shown if it fails.
+quietly = $(1) > $(VENV)/setup.log 2>&1 || { cat $(VENV)/setup.log; exit 1; }
+
 .PHONY: run build test quick verify docs bench wheel clean
 .DEFAULT_GOAL := run
 
 run: build
-	$(BIN)/gripscale run examples/road_and_tread/case.toml --output results/road_and_tread
+	@$(BIN)/gripscale run examples/road_and_tread/case.toml --output results/road_and_tread --figures
 
 build: $(BUILT)
 
@@ -29,7 +32,7 @@ test: build
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest gripscale._kernel
-	$(BIN)/python -m pytest -q -n logical --maxprocesses 4 --dist worksteal
+	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n logical --maxprocesses 4 --dist worksteal
 
 # What a person runs while working, within a minute: style, types, and fast tests or those of PART.
 quick: build
@@ -56,13 +59,15 @@ wheel: $(READY)
 
 $(READY): requirements.lock
 	@$(PYTHON) -c 'import sys; assert sys.version_info >= (3, 11), "gripscale needs Python 3.11 or newer; set PYTHON=..."'
-	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.lock
-	touch $@
+	@echo "setting up the environment (a minute)"
+	@$(PYTHON) -m venv $(VENV)
+	@$(call quietly,$(BIN)/pip install --disable-pip-version-check -r requirements.lock)
+	@touch $@
 
 $(BUILT): $(READY) $(SOURCES)
-	$(BIN)/maturin develop --release --locked --quiet
-	touch $@
+	@echo "compiling the kernel (a few minutes the first time)"
+	@$(call quietly,$(BIN)/maturin develop --release --locked)
+	@touch $@
 
 clean:
 	rm -rf $(VENV) target results

@@ -15,7 +15,7 @@ import numpy as np
 
 import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.conditions import GaussianStress
 from gripscale.experiment import MeasuredFriction, Store
 from gripscale.questions import predictions_at

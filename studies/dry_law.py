@@ -32,8 +32,7 @@ from scipy import stats
 import gripscale as gs
 from gripscale.conditions import Conditions, TableStress
 from gripscale.core import Array
-from gripscale.rubber.softening import SofteningLaw, softening_of_sweeps
-from gripscale.rubber.typical_tread import TYPICAL_TREAD
+from gripscale.rubber.softening import TYPICAL_TREAD, SofteningLaw, softening_of_sweeps
 from studies.measured_road import CUT_OFF, road_lines
 from studies.treads import SERIES_S, compound, dry_friction, sweeps
 

@@ -15,7 +15,7 @@ log-uniform, on six rubbers:
 Rubber is two treads as measured, two softened to 0.35 and 0.2 of their modulus, one of a tenth, and
 an unfilled one. Every window is solved in the block and in the half-space. The ratios are kept in
 `studies/large_strain.csv` as they come, and a further run solves what is missing: an hour of one
-core. The law of `gripscale.half_space.large_strain` is fitted to them in a second, by maximum
+core. The law of `gripscale.half_space.line_to_map` is fitted to them in a second, by maximum
 likelihood of normal logarithms, and judged by windows of rubbers and of profiles that are left out.
 The windows that are farthest from it are solved again on twice the columns.
 """
@@ -39,7 +39,7 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale.core import Array, Mask
 from gripscale.half_space import one_period, spread_windows
-from gripscale.half_space.large_strain import (
+from gripscale.half_space.line_to_map import (
     AREA_SCATTER,
     FRICTION_SCATTER,
     finite_over_small,
@@ -47,7 +47,7 @@ from gripscale.half_space.large_strain import (
 )
 from gripscale.half_space.model import QUICK
 from gripscale.half_space.response import HalfSpace
-from gripscale.rubber.named import styrene_butadiene
+from gripscale.rubber.measured_rubber import styrene_butadiene
 from studies.measured_road import REDUCED, road_lines
 from studies.shipped import road, tread
 from studies.surface_families import FAMILIES, LARGEST, STEP, family_map

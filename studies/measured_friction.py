@@ -27,7 +27,7 @@ from matplotlib.figure import Figure
 import gripscale as gs
 from gripscale.conditions import Conditions
 from gripscale.core import Array
-from gripscale.rubber.typical_tread import TYPICAL_TREAD
+from gripscale.rubber.softening import TYPICAL_TREAD
 from studies import dry_law
 from studies.measured_road import CUT_OFF, road_lines
 from studies.shipped import DATA

@@ -18,7 +18,7 @@ from gripscale.reproduction.run import reproduce_paper
 from gripscale.reproduction.statement import Statement, as_markdown, number_holding, verdict_table
 
 MADE = "<!-- made by python -m studies.paper_page -->"
-SHOWN, SHADES = 0.6, 64
+SHOWN, SHADES = 0.6, 96
 """Size of a figure on the page, of that for print, and its number of colours."""
 
 
@@ -69,7 +69,7 @@ def _pack(source: Path, target: Path) -> None:
     small = picture.resize(
         [round(SHOWN * side) for side in picture.size], PIL.Image.Resampling.LANCZOS
     )
-    small.quantize(SHADES).save(target, "PNG", optimize=True)
+    small.quantize(SHADES, PIL.Image.Quantize.MAXCOVERAGE).save(target, "PNG", optimize=True)
 
 
 if __name__ == "__main__":

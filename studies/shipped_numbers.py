@@ -17,7 +17,7 @@ from gripscale.case_file import read_case
 from gripscale.questions.answer.answer import answer
 from gripscale.questions.answer.estimate import large_strain_answer
 from gripscale.questions.answer.variables import answer_number
-from gripscale.questions.compare.page import with_half_widths
+from gripscale.questions.compare.question import with_half_widths
 
 ROOT = Path(__file__).resolve().parents[1]
 CASE = ROOT / "examples" / "road_and_tread" / "case.toml"

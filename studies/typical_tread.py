@@ -20,7 +20,7 @@ import numpy as np
 from scipy import stats
 
 from gripscale.core import ZERO_CELSIUS, Array
-from gripscale.rubber.typical_tread import STRAIN, SWEPT
+from gripscale.rubber.softening import STRAIN, SWEPT
 from studies.treads import SERIES_S, sweeps, table
 
 RATIOS_AT = 30.0

@@ -1,8 +1,12 @@
-"""What all tests stand on: the cores of their process, the command line, and the browser."""
+"""What all tests stand on: the cores of their process, the command line, and the browser.
+
+The same roads are read by hundreds of tests: their waves are searched for once in a process.
+"""
 
 from __future__ import annotations
 
 import os
+import pickle
 from collections.abc import Iterator
 from contextlib import nullcontext
 from typing import Any
@@ -13,6 +17,7 @@ from typer.testing import CliRunner, Result
 
 from gripscale.cli import app
 from gripscale.core.parallel import sharing
+from gripscale.surface import sine_fit
 from tests.browsing import started_browser
 from tests.samples import Shell
 
@@ -26,6 +31,22 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def _own_core() -> Iterator[None]:
     """Let a process of pytest-xdist use one core: the others have theirs."""
     with sharing(1) if "PYTEST_XDIST_WORKER" in os.environ else nullcontext():
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _waves_found_once() -> Iterator[None]:
+    """Keep what the search for waves returns, by all that it is given."""
+    search, known = sine_fit.search, {}
+
+    def kept(*given: Any, **options: Any) -> Any:
+        key = pickle.dumps((given, options))
+        if key not in known:
+            known[key] = search(*given, **options)
+        return known[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sine_fit, "search", kept)
         yield
 
 

@@ -8,8 +8,7 @@ import gripscale as gs
 from gripscale.case_file import folder, read_case, read_case_file
 from gripscale.experiment.solve import Bench
 from gripscale.io import netcdf
-from gripscale.questions.answer.answer import ANSWER_FILE, answer, solved_chain
-from gripscale.questions.page_of_folder import CHAIN_FILE
+from gripscale.questions.answer.answer import ANSWER_FILE, CHAIN_FILE, answer, solved_chain
 
 
 def chain_of(path: Path) -> gs.ChainResult:

@@ -34,12 +34,12 @@ from .questions.cut_off.question import CutOff as CutOff
 from .questions.cut_off.question import cut_off as cut_off
 from .questions.design.question import CompoundDesign as CompoundDesign
 from .questions.design.question import design as design
+from .questions.page_of_folder import load as load
 from .questions.result import Result as Result
 from .questions.sensitivity.question import Sensitivity as Sensitivity
 from .questions.sensitivity.question import sensitivity as sensitivity
 from .questions.slip.question import SlipCurve as SlipCurve
 from .questions.slip.question import slip_curve as slip_curve
-from .questions.stored import load as load
 from .questions.uncertainty.question import uncertainty as uncertainty
 from .questions.vary.question import Variation as Variation
 from .questions.vary.question import vary as vary

@@ -17,7 +17,7 @@ import scipy.fft
 
 import gripscale as gs
 from gripscale.conditions import Conditions
-from gripscale.conditions.strain_rule import DEPTH_FACTOR
+from gripscale.conditions.conditions import DEPTH_FACTOR
 from gripscale.core import Array, ComplexArray, checked
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber

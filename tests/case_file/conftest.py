@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from tests.cli.conftest import inputs as inputs
-from tests.samples import TWO_WAVES, case_text
+from tests.samples import TWO_WAVES, blank_figures, case_text
 
 CASE = case_text(TWO_WAVES)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _blank() -> Iterator[None]:
+    with blank_figures():
+        yield
 
 
 @pytest.fixture

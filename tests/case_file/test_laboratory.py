@@ -15,6 +15,7 @@ from gripscale.case_file.laboratory import all_taken
 from gripscale.case_file.new import NewCase, new_case
 from gripscale.case_file.prepare import read_case
 from gripscale.core.errors import FileError, InputError
+from gripscale.io.text_table import files_read_once
 from tests.case_file.test_new import SOLID, modulus, road
 from tests.samples import Shell
 
@@ -78,6 +79,14 @@ PREDICTION = "\n".join(
 KINDS = {
     "a profile": (PROFILE, "profile"),
     "a map": (MAP, "map"),
+    "a profile with its speed": (
+        "\n".join(["x [mm],z [um],Speed [km/h]", *(f"{row},60" for row in HEIGHTS)]),
+        "profile",
+    ),
+    "a profile with temperatures": (
+        "\n".join(["x [mm],z [um],Temperature", *(f"{row},23" for row in HEIGHTS)]),
+        "profile",
+    ),
     "a master curve": (moduli("frequency [Hz],E' [MPa],E'' [MPa]"), "master-curve"),
     "a curve without titles": (moduli("# measured in May").partition("\n")[2], "master-curve"),
     "sweeps": (SWEEPS, "sweeps"),
@@ -103,6 +112,17 @@ KINDS = {
     "shift factors": (shifts(), "shift"),
     "logarithms of shift factors": ("T [K];log aT\n273,15;2,1\n293,15;0\n313,15;-1,4\n", "shift"),
     "shift factors without a unit": ("Temperature,aT\n-20,1e5\n0,100\n20,1\n40,0.05\n", "shift"),
+    "natural logarithms": ("T [°C];ln(aT)\n-20;9,2\n0;4,6\n20;0\n40;-3\n", "shift"),
+    "shift factors in German": ("Temperatur [°C];Verschiebungsfaktor\n-20;1e5\n0;99\n", "shift"),
+    "a quantity over temperature": (
+        "Temp. [°C],hardness\n" + "\n".join(f"{t},{60 - t}" for t in range(40)),
+        "unused",
+    ),
+    "strain sweeps in short": (
+        "Temp.;Freq.;stat.Dehn.;dyn.Dehn.;E';E''\n°C;Hz;%;%;MPa;MPa\n"
+        + "\n".join(f"20;10;10;{100 * e:.4g};{9 / (1 + 20 * e):.4g};{1 + e:.4g}" for e in STRAINS),
+        "strain-sweep",
+    ),
     "friction": (FRICTION, "friction"),
     "friction in other words": (
         "Gleitgeschwindigkeit (mm/s);Reibwert\n" + "0,5;0,9\n5;1,2\n50;1,5\n",
@@ -127,6 +147,20 @@ def test_a_file_is_taken_for_what_it_is(tmp_path: Path, what: str) -> None:
     assert (taken.kind, bool(taken.why)) == (kind, True)
     if what == "a prediction":
         assert "expected a column named friction; got speed, hysteresis friction" in taken.why
+
+
+def test_tables_of_as_many_rows_are_not_taken_for_each_other(tmp_path: Path) -> None:
+    """Inside one look at files, of which each is read once."""
+    path = tmp_path / "file.txt"
+    rows = "".join(
+        f"T = {t} °C\nf [Hz],E' [MPa],E'' [MPa]\n"
+        + "".join(f"{f:.4g},{f**0.1 + t:.4g},{f**0.1:.4g}\n" for f in np.geomspace(0.1, 100, 16))
+        for t in (0, 20, 40)
+    )
+    path.write_text(rows, encoding="utf-8")
+    with files_read_once():
+        (taken,) = all_taken([tmp_path], FileKeys(), {})
+    assert [round(sweep.storage[0] / 1e6) for sweep in taken.measured] == [1, 21, 41]
 
 
 def folder_of(path: Path, names: dict[str, str]) -> Path:
@@ -284,7 +318,11 @@ def test_a_kind_goes_before_the_content(tmp_path: Path, shell: Shell) -> None:
 
 @pytest.mark.verification
 def test_three_commands_calibrate_a_folder(tmp_path: Path, shell: Shell) -> None:
-    folder = folder_of(tmp_path / "A", COMPOUND)
+    """Two temperatures tell the four constants of the area term from six points."""
+    measured = {20: {0.001: 1.0, 0.01: 1.3, 0.1: 1.5}, 40: {0.001: 0.7, 0.01: 1.0, 0.1: 1.3}}
+    rows = (f"{v},{mu},{t}" for t, by_speed in measured.items() for v, mu in by_speed.items())
+    friction = "\n".join(["speed [m/s],friction,temperature [C]", *rows])
+    folder = folder_of(tmp_path / "A", COMPOUND | {"A_friction.csv": friction})
     case = folder / "case.toml"
     for command in (("new", folder, "-o", case), ("run", case), ("calibrate", case)):
         outcome = shell(*command)

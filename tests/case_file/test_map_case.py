@@ -11,7 +11,7 @@ import gripscale as gs
 from gripscale.case_file import prepare_surface, read_case, read_case_file
 from gripscale.case_file.named_inputs import read_surface
 from gripscale.chain import Chain
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.core.errors import InputError
 from gripscale.experiment.task import Task
 from gripscale.half_space import DirectContact
@@ -146,7 +146,6 @@ def test_one_line_of_the_map_is_shown(case, tmp_path):
     ("also", "words"),
     [
         ('files = ["a.dat"]', "expected either files (measured profiles), map (a measured map)"),
-        ("across_gaps = true", "across_gaps belongs to a surface from files"),
         ('detrend = "mean"', "detrend belongs to a surface from files"),
         ("form = 9", "form = 9: expected a whole number, at least 0, at most 8"),
         ("trim = 2.0", "trim = 2.0: expected a number, at least 0, at most 1"),

@@ -8,9 +8,9 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions, ThermalProperties
-from gripscale.conditions.dry_road import DRY_TREAD
+from gripscale.conditions.area_term import DRY_TREAD
 from gripscale.conditions.flash_temperature import STEEL, STONE
-from gripscale.rubber.typical_tread import TYPICAL_TREAD
+from gripscale.rubber.softening import TYPICAL_TREAD
 from tests.case_file.cases import refusal, written
 from tests.samples import SOFTENING, case_text, write_maxwell, write_short_road
 

@@ -371,9 +371,7 @@ AT_200 = "Speed = 200 m/s is not between 1e-09 m/s and 100 m/s: is its unit righ
     ("command", "of_its_load"),
     [
         (("sensitivity", "--vary", "speed=0.3,200"), AT_200),
-        (("cut-off", "--down-to", "0.8 mm"), ""),
         (("calibrate", "--model", "chain", "--law", "constant"), ""),
-        (("design", "--levels", "1", "--goal", "speed=200 m/s"), AT_200),
     ],
     ids=lambda value: value[0] if isinstance(value, tuple) else "",
 )

@@ -14,7 +14,7 @@ from gripscale.core.errors import InputError
 from gripscale.questions.answer.direct_contact import solve_direct_contact
 from gripscale.questions.inputs.page import conditions_lines
 from gripscale.questions.vary import inputs
-from gripscale.questions.vary.answer_model import AnswerModel
+from gripscale.questions.vary.inputs import AnswerModel
 from gripscale.rubber.softening import Kraus
 from gripscale.surface import HeightMap
 from tests.half_space.rough_cases import isotropic_map, sine

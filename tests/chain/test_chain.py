@@ -101,7 +101,7 @@ def test_solver_or_option_that_is_none_is_refused(given: dict[str, object], word
 
 
 def test_start_shorter_than_the_stack_starts_only_its_own_waves() -> None:
-    first = solve_chain(Spring(), THREE, solver=Scripted([0.5, 0.5, 0.5]), max_scales=1, **LOAD)
+    first = solve_chain(Spring(), THREE, solver=Scripted([0.5]), smallest_wavelength=5e-3, **LOAD)
     solver = Scripted([0.5, 0.5, 0.5])
     solve_chain(Spring(), THREE, solver=solver, start=first, **LOAD)
     assert solver.starts == [first.scales[0], None, None]
@@ -131,11 +131,8 @@ def test_rubber_of_a_wave_may_depend_on_what_was_solved() -> None:
     ("limits", "count"),
     [
         ({}, 3),
-        ({"max_scales": 2}, 2),
-        ({"max_scales": 9}, 3),
         ({"smallest_wavelength": 4e-3}, 2),
         ({"smallest_wavelength": 4.001e-3}, 1),
-        ({"smallest_wavelength": 4e-3, "max_scales": 1}, 1),
     ],
 )
 def test_chain_stops_at_the_cut_off(limits: dict[str, float], count: int) -> None:
@@ -207,8 +204,6 @@ def test_wave_without_a_usable_contact_stops_the_chain(fraction: float) -> None:
         ({"footprint": -0.1}, "footprint must be greater than zero [m]; got -0.1"),
         ({"load_time": 0.0}, "load_time must be greater than zero [s]; got 0"),
         ({"load_time": "soon"}, 'load_time must be "passage", "infinite" or a time'),
-        ({"max_scales": 0}, "max_scales must be a whole number from 1"),
-        ({"max_scales": 1.5}, "max_scales must be a whole number from 1"),
         ({"smallest_wavelength": 0.0}, "smallest_wavelength must be greater than zero [m]"),
         ({"smallest_wavelength": 1.0}, "smallest_wavelength must not exceed the largest wave"),
     ],

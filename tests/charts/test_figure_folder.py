@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from gripscale.charts.chart import Panel, PlotAxis, Series
-from gripscale.charts.draw import Sheet
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder, Sheet
 from gripscale.core.errors import FileError
 
 X = np.linspace(-0.5, 0.5, 33)

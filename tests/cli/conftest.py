@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
-from gripscale.charts.figure_folder import FigureFolder
-from tests.samples import HALF_PLANE, case_text, three_waves, write_maxwell, write_road
+from gripscale.charts.draw import FigureFolder
+from tests.samples import (
+    HALF_PLANE,
+    blank_figures,
+    case_text,
+    three_waves,
+    write_maxwell,
+    write_road,
+)
 
 CASE = case_text(
     'files = ["road.txt"]\ncrop = ["10 mm", "390 mm"]\nscales = 3\ns_wavelength = 3',
     'file = "dma.txt"\nterms = 6',
     HALF_PLANE.replace("64", "128") + '\n\n[output]\nfolder = "results"',
 )
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _blank() -> Iterator[None]:
+    with blank_figures():
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -38,12 +38,8 @@ def never_solved(monkeypatch: pytest.MonkeyPatch) -> None:
     ("old", "new", "words"),
     [
         ("pressure =", "presure =", "unknown key [load] presure; did you mean pressure?"),
-        ('"3 bar"', '"3 furlong"', "[load] pressure = '3 furlong': unknown unit"),
-        ('"3 bar"', '"-3 bar"', "[load] pressure = '-3 bar': expected a value greater than zero"),
         ("[load]", "[load", "is not valid TOML"),
-        ('"road.txt"', '"rod.txt"', "rod.txt"),
         ('"dma.txt"', '"dna.txt"', "dna.txt"),
-        ('"road.txt"', '"dma.txt"', "dma.txt"),
         ('"390 mm"', '"10.1 mm"', "road.txt: crop must leave at least"),
     ],
 )
@@ -79,15 +75,8 @@ def test_a_refusal_ends_with_the_command_that_lists_the_keys(
     ("name", "text"),
     [
         ("road.txt", ""),
-        ("road.txt", "x [mm]\tz [mm]\n" + "".join(f"{i}\tabc\n" for i in range(50))),
         ("road.txt", "x [mm]\tz [mm]\n" + "".join(f"{i}\tnan\n" for i in range(50))),
-        ("road.txt", "x [mm]\tz [mm]\n" + "".join(f"{-i}\t0\n" for i in range(50))),
-        ("road.txt", "x [mm]\tz [mm]\n0\t0\n1\t1\n"),
-        ("road.txt", "x [ell]\tz [mm]\n" + "".join(f"{i}\t0\n" for i in range(50))),
-        ("dma.txt", ""),
         ("dma.txt", "# Frequency (Hz) E' (MPa) E'' (MPa)\n1 2 x\n2 3 4\n"),
-        ("dma.txt", "# Frequency (Hz) E' (MPa) E'' (MPa)\n1 2 -1\n2 3 4\n"),
-        ("dma.txt", "1 2 3\n2 3 4\n3 4 5\n4 5 6\n5 6 7\n"),
     ],
 )
 def test_bad_measurement_is_refused(
@@ -134,8 +123,6 @@ def test_output_folder_without_permission_is_found_before_reading(
     [
         (["--scales", "0"], "options: scales = 0: expected a whole number, at least 1"),
         (["--crop", "1 mm", "1 ell"], "options: crop[1] = '1 ell': unknown unit"),
-        (["--x-unit", "ell"], "options: x_unit = 'ell': expected one of"),
-        (["--detrend", "cubic"], "options: detrend = 'cubic': expected \"linear\""),
     ],
 )
 def test_bad_surface_options(shell: Shell, inputs: Path, options: list[str], words: str) -> None:

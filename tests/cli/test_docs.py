@@ -7,8 +7,6 @@ import re
 import pytest
 
 from gripscale.cli.docs import anchors, pages
-from gripscale.core.status import Status
-from gripscale.report.failures import chapter_words
 from tests.samples import DOCS, ROOT, Shell
 
 POINTER = re.compile(r"docs/([\w-]+)\.md(?:#([\w-]+))?")
@@ -68,9 +66,3 @@ def test_headings_with_umlauts_twice_and_in_code() -> None:
 @pytest.mark.parametrize("anchor", ["kluppel-and-heinrich", "klüppel-and-heinrich"])
 def test_a_chapter_with_an_umlaut_is_shown(shell: Shell, anchor: str) -> None:
     assert shell("docs", f"theories#{anchor}").stdout.strip().startswith("Klüppel and Heinrich")
-
-
-@pytest.mark.parametrize("status", list(Status))
-def test_a_status_names_the_command_that_shows_its_chapter(status: Status) -> None:
-    if status.chapter:
-        assert re.fullmatch(r"`gripscale docs [\w-]+(#[\w-]+)?`", chapter_words(status.chapter))

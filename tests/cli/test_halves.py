@@ -81,10 +81,9 @@ def test_surface_half_doubts_depths_first_and_turns_them_over(
     doubted = " ".join(shell("fit-surface", road, *options).stdout.split())
     assert doubted.startswith("doubt: depths: column 2, titled 'depth', is taken as height, up:")
     assert "--z-axis down turns it over" in doubted
-    for axis in ("up", "down"):
-        stated = shell("fit-surface", road, *options, "--z-axis", axis)
-        assert stated.exit_code == 0, stated.output
-        assert "doubt:" not in stated.stdout
+    stated = shell("fit-surface", road, *options, "--z-axis", "down")
+    assert stated.exit_code == 0, stated.output
+    assert "doubt:" not in stated.stdout
 
 
 def test_surface_half_to_a_cut_off_of_the_upper_part(shell: Shell, inputs: Path) -> None:
@@ -173,10 +172,3 @@ def test_version(shell: Shell) -> None:
     result = shell("--version")
     assert result.exit_code == 0
     assert result.stdout == f"gripscale {versions()['gripscale']}\n"
-
-
-def test_help_names_the_commands(shell: Shell) -> None:
-    result = shell("--help")
-    assert result.exit_code == 0
-    for name in ("run", "fit-surface", "fit-rubber"):
-        assert name in result.stdout

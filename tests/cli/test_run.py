@@ -19,7 +19,11 @@ from gripscale.io import netcdf
 from gripscale.questions.terminal import time_left
 from gripscale.theory import HalfPlane
 from gripscale.wave import ScaleResult, WaveProblem
-from tests.samples import TWO_WAVES, Shell
+from tests.samples import HALF_PLANE, TWO_WAVES, Shell, case_text
+
+WAVES_BY_HAND = case_text(
+    '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"', solver=HALF_PLANE
+)
 
 
 @pytest.fixture(scope="module")
@@ -37,14 +41,22 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     written = {str(p.relative_to(target)) for p in target.rglob("*") if p.is_file()}
     kept = {name for name in written if name.startswith("predictions/")}
     assert len(kept) == 2, "the direct contact and the chain"
-    of_others = {"cut_off.nc"} | {
-        name for name in RESULT_FILES if any(f"/{figure}." in name for figure in AT_TIMES)
-    }
-    of_others |= {name for name in RESULT_FILES if name.endswith((".pdf", ".svg"))}
+    of_others = {"cut_off.nc"} | {name for name in RESULT_FILES if name.startswith("figures/")}
     assert (
         written
         == {*RESULT_FILES, CASE_NOTE, "inputs/road.txt", "inputs/dma.txt"} - of_others | kept
     )
+
+
+def test_figures_are_files_where_the_case_asks_for_them(
+    shell: Shell, changed: Callable[..., Path]
+) -> None:
+    case = changed("[output]", '[output]\nfigures = ["svg"]')
+    result = shell("run", case)
+    assert "Results, report and figures are in" in result.output
+    written = {f"figures/{path.name}" for path in (case.parent / "results/figures").iterdir()}
+    of_others = {name for name in RESULT_FILES if any(f"/{figure}." in name for figure in AT_TIMES)}
+    assert written == {name for name in RESULT_FILES if name.endswith(".svg")} - of_others
 
 
 def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -> None:
@@ -194,12 +206,7 @@ def test_what_was_finished_before_ctrl_c_is_kept_and_not_solved_again(
 @pytest.mark.usefixtures("undrawn")
 def test_waves_by_hand_and_a_named_rubber_need_no_files(shell: Shell, tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
-    case.write_text(
-        '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"\n'
-        '[rubber]\nname = "styrene_butadiene"\n'
-        '[load]\npressure = "3 bar"\nspeed = 0\nfootprint = "100 mm"\n'
-        '[solver]\nmodel = "half_plane"\npoints = 64\n'
-    )
+    case.write_text(WAVES_BY_HAND.replace('"0.3 m/s"', "0"))
     result = shell("run", case)
     assert result.exit_code == 0, result.output
     assert "1 wave: real contact area" in result.stdout

@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gripscale.conditions.alternatives import (
+from gripscale.conditions.conditions import (
     AMPLITUDE,
     MASTER_CURVE_STRAIN,
     TENSION_OR_SHEAR,
     Alternative,
+    Conditions,
     alternatives,
 )
-from gripscale.conditions.conditions import Conditions
 from gripscale.rubber.softening import SofteningTable
 
 STRAIN = [5e-4, 1e-3, 1e-2, 1e-1]

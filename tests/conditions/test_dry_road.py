@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.conditions import dry_road as dry
+from gripscale.conditions import area_term as dry
 from gripscale.conditions import shear_stress_from_dict, shear_stress_to_dict
-from gripscale.conditions.dry_road import DRY_TREAD, DryTread
+from gripscale.conditions.area_term import DRY_TREAD, DryTread
 from gripscale.core import InputError
 from studies.dry_law import COMPOUNDS, WITH_RESIN, each_left_out, fitted, judged, points
 from studies.measured_road import FINEST, road_lines, spectrum_of_lines, with_spectrum

@@ -13,11 +13,11 @@ from gripscale import conditions as interface
 from gripscale import half_space as rough
 from gripscale import questions as measured
 from gripscale import rubber, surface, theory, wave
-from gripscale.conditions import Conditions, dry_road
+from gripscale.conditions import Conditions, area_term
 from gripscale.experiment import MeasuredFriction
 from gripscale.model import Load
 from gripscale.questions import fit_area_term
-from gripscale.rubber import softening, typical_tread
+from gripscale.rubber import softening
 
 SOLID = gs.Rubber(1e6, [4e6], [1e-2], name="solid")
 FREQUENCY = np.geomspace(1e-2, 1e6, 30)
@@ -34,7 +34,6 @@ SINES = surface.SineStack([8e-3, 2e-3], [5e-4, 1e-4])
 SPECTRUM = surface.profile_spectrum(LONG)
 SLOPES = surface.slope_by_wavelength(LONG)
 FIT = gs.fit_self_affine(CORRELATION)
-TEST = rubber.UniaxialTest("test", [0.0, 1.0, 2.0], [1.0, 1.1, 1.2], [0.0, 1e5, 2e5])
 WAVE = {"wavelength": 1e-3, "amplitude": 1e-4}
 PRESSED = {"pressure": 1e5, "speed": 0.1}
 MESH = {"columns": 8, "rows": 4, "depth": 1.5, "element_order": 1}
@@ -66,7 +65,7 @@ def public_functions() -> Iterator[PublicFunction]:
     yield from _conditions()
     yield from _calibration()
     chain = {"solver": "half_plane", "footprint": 0.1, "points": 64, "pressure_classes": 1}
-    more = {"smallest_wavelength": None, "max_scales": None, "load_time": "passage"}
+    more = {"smallest_wavelength": None, "load_time": "passage"}
     yield PublicFunction(
         gs.solve_chain, {"rubber": SOLID, "sines": SINES, **PRESSED, **chain, **more}
     )
@@ -84,14 +83,12 @@ def _theory() -> Iterator[PublicFunction]:
     yield PublicFunction(
         theory.HalfPlane, {"points": 64, "poisson_ratio": 0.5, "most_iterations": 20}
     )
-    limits = {"smallest_wavelength": 1e-3, "gamma": 0.5, "footprint": None}
+    limits = {"smallest_wavelength": 1e-3, "gamma": 0.5}
     persson = {"rubber": SOLID, "spectrum": SPECTRUM, **PRESSED, **limits}
     yield PublicFunction(theory.persson, persson, slow=True)
-    yield PublicFunction(
-        theory.Persson, {"smallest_wavelength": 1e-3, "gamma": 0.5, "window": None}
-    )
+    yield PublicFunction(theory.Persson, limits)
     yield PublicFunction(theory.KlueppelHeinrich, {**LAYER, "smallest_wavelength": 1e-3})
-    layer = {**LAYER, "smallest_wavelength": 1e-3, "footprint": None}
+    layer = {**LAYER, "smallest_wavelength": 1e-3}
     yield PublicFunction(
         theory.klueppel_heinrich, {"rubber": SOLID, "surface": FIT, **PRESSED, **layer}
     )
@@ -119,12 +116,6 @@ def _rubber() -> Iterator[PublicFunction]:
     yield PublicFunction(rubber.Isihara, {"share": 0.2, "second": 0.1})
     yield PublicFunction(rubber.KrausEnergy, {"ratio": 0.2, "critical": 0.1, "measured_at": 1e-3})
     yield PublicFunction(rubber.strain_energy, {"kind": "yeoh", "second": -0.1, "third": 0.02})
-    test = {"time": [0.0, 1.0], "stretch": [1.0, 1.1], "stress": [0.0, 1e5]}
-    yield PublicFunction(rubber.UniaxialTest, {"name": "test", **test})
-    finite = {"tests": [TEST], "energy": "neo_hookean", "terms": 1, "band": None}
-    yield PublicFunction(rubber.fit_finite_strain, finite)
-    yield PublicFunction(rubber.rms_error, {"rubber": SOLID, "test": TEST})
-    yield PublicFunction(rubber.work_error, {"rubber": SOLID, "test": TEST})
     shear = {"rubber": SOLID, "time": [0.0, 1.0], "shear": [0.0, 0.1]}
     yield PublicFunction(rubber.simple_shear_stress, shear)
     bar = {"rubber": SOLID, "time": [0.0, 1.0], "stretch": [1.0, 1.1]}
@@ -141,7 +132,7 @@ def _conditions() -> Iterator[PublicFunction]:
     table = {name: [values] for name, values in sweep.items()}
     known = {"measured_at": 2e-3, "deformation": "tension", "temperature": [293.0]}
     yield PublicFunction(softening.SofteningTable, {**table, **known})
-    yield PublicFunction(typical_tread.TypicalTread, {"deviation": 0.5, "deformation": "shear"})
+    yield PublicFunction(softening.TypicalTread, {"deviation": 0.5, "deformation": "shear"})
     words = {"temperature": 293.0, "frequency": 10.0, "name": "", "source": ""}
     yield PublicFunction(rubber.StrainSweep, {**sweep, "deformation": "shear", **words})
     one = rubber.StrainSweep(**sweep, deformation="shear")
@@ -155,8 +146,8 @@ def _conditions() -> Iterator[PublicFunction]:
     yield PublicFunction(
         interface.GaussianStress(**bell, **warm).stress, {"speed": 0.1, "temperature": 300.0}
     )
-    yield PublicFunction(dry_road.DryTread, {"deviation": 0.5})
-    yield PublicFunction(dry_road.DryTread().stress, {"speed": 0.1})
+    yield PublicFunction(area_term.DryTread, {"deviation": 0.5})
+    yield PublicFunction(area_term.DryTread().stress, {"speed": 0.1})
     step = {"stress_0": 1e6, "ratio": 10.0, "critical_speed": 0.1, "exponent": 0.5}
     yield PublicFunction(interface.LeGalKlueppelStress, step)
     yield PublicFunction(interface.TableStress, {"speed": [0.1, 1.0], "stress_at": [1e6, 2e6]})
@@ -211,15 +202,13 @@ def _surface() -> Iterator[PublicFunction]:
     yield PublicFunction(MAP.line, {"number": 1, "direction": "x"})
     yield PublicFunction(MAP.lines, {"direction": "x"})
     cleaning = {"crop": (0.0, 1.0), "valid_range": (-1.0, 1.0), "spikes": "isolated"}
-    more = {"spike_slope": 3.0, "across_gaps": False, "detrend": "linear"}
+    more = {"spike_slope": 3.0, "detrend": "linear"}
     yield PublicFunction(gs.clean, {"profile": LINE, **cleaning, **more})
     across = {"crop": None, "valid_range": (-1.0, 1.0), "trim": 0.5, "spikes": "isolated"}
     yield PublicFunction(gs.clean_map, {"surface": MAP, **across, "spike_slope": 3.0, "form": 1})
-    lags = {"top_height_fraction": 1.0, "max_lag": None, "lags_per_decade": 20, "band_blocks": 16}
+    lags = {"top_height_fraction": 1.0, "max_lag": None}
     yield PublicFunction(gs.height_difference, {"profile": LINE, **lags})
-    yield PublicFunction(
-        gs.fit_self_affine, {"hdc": CORRELATION, "tolerance": 0.02, "shortest_range": 0.5}
-    )
+    yield PublicFunction(gs.fit_self_affine, {"hdc": CORRELATION, "tolerance": 0.02})
     law = (0.8, 1e-2, 1e-3, 1e-3, 1e-2, 0.0)
     yield PublicFunction(surface.SelfAffineFit, dict(zip(FITTED, law, strict=True)))
     waves = {"scales": 2, "smallest_wavelength": None, "cut_off": None, "s_wavelength": 3.0}

@@ -62,13 +62,12 @@ def test_case_file_names_a_tester(answer: gs.Answer, tmp_path: Path) -> None:
     case = gs.read_case(path)
     assert case.tester == "pendulum"
     assert gs.answer(case).lines == answer.lines
-    saved = made(pressure=None, speed=None, footprint=None, tester="pendulum").save(
-        tmp_path / "saved.toml"
-    )
+    saved = case.save(tmp_path / "saved.toml")
     assert gs.read_case(saved).attributes["tester"] == "pendulum"
     path.write_text(UNDER_PENDULUM + 'speed = "1 m/s"\n', encoding="utf-8")
-    assert gs.read_case(path).load.speed == 1.0
-    assert gs.read_case(path).load.pressure == TESTERS["pendulum"].pressure
+    faster = gs.read_case(path).load
+    assert faster.speed == 1.0
+    assert faster.pressure == TESTERS["pendulum"].pressure
 
 
 def test_unknown_testers_and_missing_loads_are_refused(tmp_path: Path, shell: Shell) -> None:

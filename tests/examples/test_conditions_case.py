@@ -13,7 +13,7 @@ from gripscale.cli import app
 from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.questions import Study
-from tests.samples import EXAMPLES
+from tests.samples import EXAMPLES, blank_figures
 
 EXAMPLE = EXAMPLES / "road_and_tread" / "case.toml"
 COARSE = """
@@ -43,7 +43,8 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_study_over_speed_and_temperature(case: Path) -> None:
     asked = ["--vary", "speed=0.1:1:log2", "--vary", "temperature=20 C:60 C:lin2"]
-    done = CliRunner().invoke(app, ["study", str(case), *asked])
+    with blank_figures():
+        done = CliRunner().invoke(app, ["study", str(case), *asked])
     assert done.exit_code == 0, done.output
     data = netcdf.load_dataset(case.parent / "results" / "study" / "study.nc")
     assert (data.prediction_status == "converged").all()

@@ -9,12 +9,13 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import gripscale as gs
-from tests.samples import EXAMPLES
+from tests.samples import EXAMPLES, HALF_PLANE, case_text, write_short_road
 
 COARSE = "64"
 """Columns of the mesh where an example takes them."""
@@ -37,6 +38,27 @@ def start(
         return printed
 
     return run
+
+
+@pytest.fixture(scope="module")
+def small_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A road of 0.1 m and a rubber of two relaxations."""
+    folder = tmp_path_factory.mktemp("small")
+    write_short_road(folder)
+    surface = 'files = ["road.txt"]\nscales = 2\nsmallest_wavelength = "2 mm"'
+    text = case_text(surface, 'file = "dma.txt"\nterms = 4', HALF_PLANE)
+    (folder / "case.toml").write_text(text, encoding="utf-8")
+    return folder / "case.toml"
+
+
+def module_of(name: str) -> Any:
+    """Import an example."""
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def start_alone(name: str, folder: Path, *arguments: str) -> str:
@@ -196,9 +218,7 @@ def test_area_term(area_term):
 
 def test_the_synthetic_friction_is_what_its_source_says(area_term):
     """From the predictions of the example, which are at the points of the measurement."""
-    spec = importlib.util.spec_from_file_location("area_term", EXAMPLES / "area_term.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    module = module_of("area_term")
     friction = EXAMPLES / "measured_friction" / "synthetic_friction.csv"
     titles, *shipped = friction.read_text().splitlines()
     made_titles, *made = module.measure(area_term[1])
@@ -212,17 +232,23 @@ def test_the_synthetic_friction_is_what_its_source_says(area_term):
         assert number in stated
 
 
-def test_toy_question(tmp_path):
-    printed = start_alone("toy_question", tmp_path, "out")
+def test_toy_question(small_case, tmp_path):
+    """On a small case, in a process of its own: it adds to the questions there are."""
+    code = f"import toy_question as q; q.CASE = {str(small_case)!r}; q.main({str(tmp_path)!r})"
+    command = [sys.executable, "-W", "error", "-c", code]
+    printed = subprocess.run(
+        command, cwd=EXAMPLES, capture_output=True, text=True, check=True
+    ).stdout
+    assert "Loaded:" in printed
     pressure, low, high = numbers(r"p = ([\d.]+) MPa \(([\d.]+) to ([\d.]+)\)", printed)
     (nominal,) = numbers(r"nominal pressure of ([\d.]+) MPa", printed)
     assert low < pressure < high
-    answer = gs.answer(gs.read_case(EXAMPLES / "road_and_tread" / "case.toml"))
+    answer = gs.answer(gs.read_case(small_case))
     assert pressure == pytest.approx(nominal / answer.contact_fraction, rel=5e-3)
 
 
-def test_run_case(start, tmp_path):
-    printed = start("run_case", str(EXAMPLES / "road_and_tread" / "case.toml"), "out")
+def test_run_case(start, small_case, tmp_path):
+    printed = start("run_case", str(small_case), "out")
     friction, area = numbers(r"μ = ([\d.]+) .*A_r/A_0 = ([\d.]+) ", printed)
     answer = gs.load(tmp_path / "out" / "answer.nc")
     assert area == pytest.approx(answer.contact_fraction, rel=5e-3)

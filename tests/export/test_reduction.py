@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from gripscale.cli import app
 from gripscale.core.errors import InputError
-from gripscale.export.reduction import reduced
+from gripscale.export.rubber import reduced
 from gripscale.rubber import Rubber, styrene_butadiene
 from tests.samples import write_maxwell
 

@@ -173,7 +173,6 @@ class Other(StrainEnergy):
     """An energy of somebody else."""
 
     kind: ClassVar[str] = "other"
-    least_coefficients: ClassVar[tuple[float, ...]] = (0.0,)
 
     def slopes(self, first, second):
         return np.ones_like(first), np.zeros_like(second)

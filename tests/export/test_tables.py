@@ -93,7 +93,7 @@ def test_other_results_become_tables(tmp_path):
     rubber = gs.Rubber(6e6, [3e6, 5e6], [1e-2, 1e-4])
     surface = SineStack([1e-2, 2e-3], [1e-3, 1e-4])
     chain = gs.solve_chain(
-        rubber, surface, pressure=3e5, speed=0.3, footprint=0.1, solver="half_plane"
+        rubber, surface, pressure=3e5, speed=0.3, footprint=0.1, solver="half_plane", points=64
     )
     profile = self_affine_profile(0.8, 3e-3, 8e-4, length=0.02, step=1e-4, seed=1)
     direct = gs.solve_rough_contact(rubber, profile, pressure=3e5, speed=0.3)

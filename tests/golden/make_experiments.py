@@ -1,4 +1,4 @@
-"""Write numbers, texts and abilities anew (`python -m tests.golden.make_experiments`)."""
+"""Write numbers and texts anew (`python -m tests.golden.make_experiments`)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from .abilities import write_abilities
 from .experiment_numbers import experiment_numbers
 from .experiments import run_experiments
 from .instruction_set import instruction_set
@@ -20,6 +19,5 @@ if __name__ == "__main__":
         made = run_experiments(Path(folder))
         numbers = experiment_numbers(made)
         write_texts(made, HERE / "texts")
-        write_abilities(made, HERE / "abilities.txt")
     kept = {"instruction_set": np.array(instruction_set()), **numbers}
     np.savez_compressed(HERE / "experiments.npz", allow_pickle=False, **kept)

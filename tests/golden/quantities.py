@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import gripscale as gs
-from gripscale.case_file import read_case
-from gripscale.conditions import Conditions
-from gripscale.questions import Study
+from tests.samples import EXAMPLES
 
-ROOT = Path(__file__).parents[2]
-DATA = ROOT / "examples" / "data"
-CASE = ROOT / "examples" / "road_and_tread" / "case.toml"
+DATA = EXAMPLES / "data"
 
 Numbers = dict[str, NDArray[np.float64]]
 
@@ -41,8 +36,8 @@ FIELDS = (
 )
 
 
-def all_numbers(folder: Path) -> Numbers:
-    """Solve everything; a study needs a `folder` for its chains."""
+def all_numbers() -> Numbers:
+    """Solve everything."""
     sines, rubber = _inputs()
     out: Numbers = {
         "sines/wavelength": sines.wavelength,
@@ -59,14 +54,6 @@ def all_numbers(folder: Path) -> Numbers:
     half_plane = gs.solve_chain(rubber, sines, speed=0.3, solver=gs.theory.solve_half_plane, **load)
     out |= _chain("half_plane", half_plane)
     out |= _transient(rubber, sines)
-    vary = {"speed": "0.003:30:log5"}
-    # without what would solve each wave several times
-    cold = Conditions(temperature=293.15).without("heat")
-    case = read_case(CASE).replace(filled=False, conditions=cold)
-    study = Study(case, vary, model="chain").run(folder)
-    for name, variable in study.variables.items():
-        if np.issubdtype(variable.dtype, np.number):
-            out[f"study/{name}"] = variable.values
     return {name: np.asarray(values, dtype=float) for name, values in out.items()}
 
 

@@ -10,7 +10,7 @@ import pytest
 import gripscale as gs
 from gripscale.conditions.conditions import RubberByScale
 from gripscale.half_space import DirectContact
-from gripscale.half_space.large_strain import finite_over_small, pressure_over_modulus
+from gripscale.half_space.line_to_map import finite_over_small, pressure_over_modulus
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import Load
 from gripscale.questions.answer.measurements import with_single_measurement

@@ -122,7 +122,8 @@ def test_without_the_rule_spikes_are_all_there_is():
     assert left.friction_from_dissipation > 1.2 * contact(z).friction_from_dissipation
 
 
-@pytest.mark.parametrize("station", [0, pytest.param(1, marks=pytest.mark.verification)])
+@pytest.mark.verification
+@pytest.mark.parametrize("station", [0, 1])
 def test_the_shipped_road_does_not_depend_on_its_cleaning(station):
     """No spikes taken, ISO 13473-1 and the default: friction within 3 % of one another."""
     from studies.shipped import DATA, PLATES

@@ -55,7 +55,8 @@ def test_area_and_friction_are_those_of_rounded_edges(slope, cut_off):
     )
 
 
-@pytest.mark.parametrize("turn", [pytest.param(0.0, marks=pytest.mark.verification), 45.0])
+@pytest.mark.verification
+@pytest.mark.parametrize("turn", [0.0, 45.0])
 def test_a_map_of_tiles_has_no_false_crests(turn):
     """Flat tiles with grooves across the way of sliding and slanted, a cut-off of 0.4 mm."""
     step, points = 0.05e-3, 400

@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.conditions import Conditions
 from gripscale.conditions.area_term import ConstantStress
 from gripscale.io.table import significant
@@ -76,6 +76,11 @@ CASES: Mapping[str, Any] = {
     "not_known_filled": lambda: (road(1), {"filled": None}),
 }
 """Surface and further arguments of each case."""
+SLOW = {"plain", "calibrated", "several_sheared", "thickness", "temperature"}
+"""What the others hold together."""
+PARAMETERS = [
+    pytest.param(name, marks=[pytest.mark.verification] if name in SLOW else []) for name in CASES
+]
 
 
 @dataclass(frozen=True)
@@ -112,7 +117,7 @@ class Asked:
         return [answer_number(data, name).value for name in self.names]
 
 
-@pytest.fixture(scope="module", params=CASES)
+@pytest.fixture(scope="module", params=PARAMETERS)
 def asked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Asked:
     """A case, answered in Python and by `gripscale run`."""
     surface, options = CASES[request.param]()
@@ -182,7 +187,7 @@ def test_pages_and_app_show_it(asked: Asked) -> None:
             assert values[f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"] == value
 
 
-@pytest.mark.parametrize("asked", ["area_term", "several_profiles", "waves"], indirect=True)
+@pytest.mark.parametrize("asked", ["several_profiles", "waves"], indirect=True)
 def test_commands_lead_with_it(asked: Asked, shell_of_module: Shell) -> None:
     path, folder = asked.folder.parent / "case.toml", asked.folder.parent
     pressure = f"pressure={asked.case.load.pressure / 1e5:g} bar"

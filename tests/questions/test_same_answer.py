@@ -16,8 +16,8 @@ from tests.samples import Shell
 FRICTION = "friction.csv"
 QUESTIONS: dict[str, tuple[Callable[..., gs.Result], list[str], str]] = {
     "comparison": (
-        lambda case, **options: gs.compare(case, models=["waves", "measured"], seeds=1, **options),
-        ["compare", "--models", "waves,measured", "--seeds", "1"],
+        lambda case, **options: gs.compare(case, models=["direct"], seeds=1, **options),
+        ["compare", "--models", "direct", "--seeds", "1"],
         "comparison.nc",
     ),
     "study": (
@@ -45,6 +45,8 @@ QUESTIONS: dict[str, tuple[Callable[..., gs.Result], list[str], str]] = {
     ),
 }
 """By kind: the function, the words of its command, and the file that the command leaves."""
+SLOW = {"sensitivity", "uncertainty"}
+"""Of the same parts as the others."""
 CLOCKS = ("seconds", "prediction_key")
 """Ends of names of what differs between runs, or between Python and a command."""
 
@@ -55,7 +57,13 @@ def numbers(data: xr.Dataset) -> dict[str, Any]:
     return {name: data[name].values.tolist() for name in names}
 
 
-@pytest.mark.parametrize("kind", QUESTIONS)
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param(kind, marks=[pytest.mark.verification] if kind in SLOW else [])
+        for kind in QUESTIONS
+    ],
+)
 def test_python_file_and_command_have_one_answer(
     kind: str, tmp_path: Path, shell: Shell, monkeypatch: pytest.MonkeyPatch
 ) -> None:

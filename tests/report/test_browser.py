@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from gripscale.charts.chart import Panel, PlotAxis, Series
-from gripscale.charts.draw import Sheet, image
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet, image
 from gripscale.questions.page_of_folder import write_report
 from gripscale.report import write_page
 from gripscale.report.elements import Page, Section
@@ -116,7 +115,7 @@ def check_figures(seen: Visit) -> int:
     return len(plots)
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def folded(browser: Any, run_page: Path) -> Iterator[Visit]:
     """The page of a run as it opens, in a dark browser."""
     with visit(browser, run_page, color_scheme="dark") as seen:
@@ -164,13 +163,6 @@ def test_page_and_figures_are_dark_as_the_system_or_as_chosen(folded: Visit) -> 
     folded.page.emulate_media(media="print")
     assert folded.page.evaluate(BACK) == LIGHT
     assert plot.evaluate("e => getComputedStyle(e).filter") == "none"
-
-
-def test_title_and_headings(visited: Visit) -> None:
-    assert visited.page.title().startswith("Contact and friction: ")
-    assert " on road" in visited.page.title()
-    assert visited.page.locator("h1").count() == 1
-    assert visited.page.locator("h2").count() == 7
 
 
 def test_every_figure_is_drawn(visited: Visit) -> None:
@@ -237,25 +229,6 @@ def test_injected_script_does_not_run(browser: Any, study_file: Path, tmp_path: 
         assert any("Content Security Policy" in text for text in seen.said)
 
 
-def test_figures_zoom_by_dragging(visited: Visit) -> None:
-    place = visited.page.locator("#plot-loss-factor")
-    place.scroll_into_view_if_needed()
-    left, top, width, height = place.evaluate(FRAMES)["frame"][0]
-    limits = """() => { const plot = Bokeh.documents.flatMap(d => d.roots()).find(
-        r => document.querySelector('#plot-loss-factor').contains(Bokeh.index.get_by_id(r.id).el));
-        return [plot.y_range.start, plot.y_range.end]; }"""
-    before = visited.page.evaluate(limits)
-    mouse = visited.page.mouse
-    mouse.move(left + 0.2 * width, top + 0.2 * height)
-    mouse.down()
-    mouse.move(left + 0.8 * width, top + 0.5 * height, steps=5)
-    mouse.up()
-    visited.until(f"before => ({limits})()[0] !== before[0]", before)
-    after = visited.page.evaluate(limits)
-    share = (after[1] - after[0]) / (before[1] - before[0])
-    assert share == pytest.approx(0.3, abs=0.02)
-
-
 def test_case_can_be_copied(visited: Visit) -> None:
     button = visited.page.locator("button[data-copies=code-case]")
     assert button.is_visible()
@@ -281,23 +254,9 @@ def check_widths(seen: Visit, *widths: int) -> None:
     assert seen.said == []
 
 
-def test_narrow_window_does_not_overflow(narrow: Visit) -> None:
-    check_widths(narrow, 390, 420, 800)
-
-
-def test_legends_stay_whole_on_a_telephone(narrow: Visit) -> None:
-    narrow.page.set_viewport_size({"width": 390, "height": 900})
-    assert check_figures(drawn(narrow)) >= 11
-
-
-def test_tables_that_go_on_beside_the_window_tell_by_a_shadow(narrow: Visit) -> None:
-    narrow.page.set_viewport_size({"width": 390, "height": 900})
-    told = narrow.page.evaluate(
-        "[...document.querySelectorAll('.scroll')].map(box => [box.scrollWidth > "
-        "box.clientWidth, getComputedStyle(box).backgroundImage.split('gradient').length - 1])"
-    )
-    assert any(wider for wider, _ in told)
-    assert all(layers == 4 for _, layers in told)
+def test_a_telephone_has_all_legends_and_nothing_overflows(narrow: Visit) -> None:
+    assert check_figures(narrow) >= 11
+    check_widths(narrow, 390, 800)
 
 
 def test_a_picture_fits_a_telephone_and_a_touch_makes_it_readable(
@@ -327,31 +286,18 @@ def test_print_keeps_figures_whole(visited: Visit) -> None:
     page.emulate_media(media="screen")
 
 
-@pytest.mark.parametrize("speed", ["0", '"1 m/s"'])
-def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path, speed: str) -> None:
+def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path) -> None:
     """One wave by hand, a rubber by name, the half-plane: no meshes, no stretches, no files."""
     (tmp_path / "case.toml").write_text(
         '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"\n'
         '[rubber]\nname = "styrene_butadiene"\n'
-        f'[load]\npressure = "3 bar"\nspeed = {speed}\nfootprint = "100 mm"\n'
+        '[load]\npressure = "3 bar"\nspeed = 0\nfootprint = "100 mm"\n'
         '[solver]\nmodel = "half_plane"\npoints = 64\n'
     )
     run_case(tmp_path / "case.toml", tmp_path / "results")
     with visit(browser, write_report(tmp_path / "results")) as seen:
         opened(seen)
         assert check_figures(seen) >= 2
-        assert seen.said == []
-        assert seen.asked == []
-
-
-def test_study_is_drawn(browser: Any, study_file: Path, tmp_path: Path) -> None:
-    with visit(browser, write_report(study_file, tmp_path / "study.html")) as seen:
-        opened(seen)
-        assert check_figures(seen) == 0  # pictures, no charts
-        pictures = seen.page.locator("figure img")
-        assert pictures.count() >= 1
-        assert pictures.first.evaluate("one => one.complete && one.naturalWidth > 300")
-        assert seen.page.title() == "Study: tread on <contact>"
         assert seen.said == []
         assert seen.asked == []
 
@@ -363,15 +309,10 @@ def test_comparison_is_drawn_and_fits_a_narrow_window(browser: Any, compared_fol
         assert len(pictures) == 3
         assert all(one.evaluate("e => e.complete && e.naturalWidth > 300") for one in pictures)
         assert seen.asked == []
-        check_widths(seen, 420)
-
-
-def test_the_answer_is_large_with_its_interval(browser: Any, compared_folder: Path) -> None:
-    with visit(browser, write_report(compared_folder)) as seen:
         value = seen.page.locator(".cards .value").first
         interval = seen.page.locator(".cards .interval").first
         assert float(value.inner_text()) > 0.0
         assert interval.inner_text().endswith("(90 %)")
         size = "e => parseFloat(getComputedStyle(e).fontSize)"
         assert value.evaluate(size) >= 40.0 > interval.evaluate(size) >= 20.0
-        assert interval.bounding_box()["y"] < 300.0
+        check_widths(seen, 420)

@@ -6,7 +6,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
 from typer.testing import CliRunner
 
 from gripscale.cli import app
@@ -18,14 +17,6 @@ def test_command_writes_the_page_and_says_where(study_file: Path, tmp_path: Path
     assert done.exit_code == 0, done.output
     assert "page.html" in done.stdout
     assert target.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
-
-
-def test_page_goes_into_the_results_folder_by_default(study_file: Path) -> None:
-    done = CliRunner().invoke(app, ["report", str(study_file)])
-    assert done.exit_code == 0, done.output
-    page = study_file.parent / "report.html"
-    assert page.is_file()
-    page.unlink()
 
 
 def test_missing_result_is_one_sentence(tmp_path: Path) -> None:
@@ -42,18 +33,14 @@ def test_place_that_cannot_be_written_is_named(run_folder: Path, tmp_path: Path)
     assert "cannot be written" in done.stderr
 
 
-@pytest.mark.parametrize(("result", "more"), [("study_file", []), ("run_folder", [])])
-def test_page_imports_only_what_it_is_made_with(
-    result: str, more: list[str], request: pytest.FixtureRequest, tmp_path: Path
-) -> None:
+def test_page_imports_only_what_it_is_made_with(run_folder: Path, tmp_path: Path) -> None:
     code = (
         "import sys, gc, gripscale\n"
         "gripscale.questions.write_report(sys.argv[1], sys.argv[2])\n"
         "assert gc.isenabled()\n"
         "print(*sys.modules)"
     )
-    path = request.getfixturevalue(result)
-    command = [sys.executable, "-c", code, str(path), str(tmp_path / "page.html")]
+    command = [sys.executable, "-c", code, str(run_folder), str(tmp_path / "page.html")]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
-    unneeded = {"bokeh.models", "fontTools.subset", "scipy.optimize", "rich", "typer", *more}
+    unneeded = {"bokeh.models", "fontTools.subset", "scipy.optimize", "rich", "typer"}
     assert unneeded & set(done.stdout.split()) == set()

@@ -11,7 +11,7 @@ import pytest
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions, ConstantStress
 from gripscale.half_space.model import DirectContact
-from gripscale.questions.vary.answer_model import AnswerModel
+from gripscale.questions.vary.inputs import AnswerModel
 from gripscale.report.elements import Equation, Text
 from gripscale.report.equations import method_equations, method_section
 from gripscale.theory import Persson

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gripscale.core.errors import FileError, InputError
-from gripscale.rubber import MasterCurve, Rubber, fit_prony, read_master_curve, read_uniaxial_test
+from gripscale.rubber import MasterCurve, Rubber, fit_prony, read_master_curve
 from tests.samples import EXAMPLES
 
 DATA = EXAMPLES / "data/rubber"
@@ -121,19 +121,12 @@ def mutated(content: bytes, chance: random.Random) -> bytes:
     return bytes(data)
 
 
-@pytest.mark.parametrize(
-    ("name", "reader", "times"),
-    [
-        ("measured_dma.txt", read_master_curve, 500),
-        ("finite_strain_vhb/loading_1d5_unloading_0d01.xlsx", read_uniaxial_test, 60),
-    ],
-)
-def test_mutations_of_shipped_files(tmp_path, name, reader, times):
+def test_mutations_of_a_shipped_file(tmp_path):
     """Nothing but our own errors, and no warning."""
-    place = DATA / name
+    place = DATA / "measured_dma.txt"
     content, path = place.read_bytes(), tmp_path / place.name
     chance = random.Random(4)
-    for _ in range(times):
+    for _ in range(500):
         path.write_bytes(mutated(content, chance))
         with contextlib.suppress(InputError, FileError):
-            reader(path)
+            read_master_curve(path)

@@ -9,7 +9,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.core.errors import FileError, GripscaleError, InputError
-from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
+from gripscale.rubber.prony import holds_prony_table, read_prony_table
 
 HERTZ = np.geomspace(0.1, 100.0, 16)
 STORAGE, LOSS = 5e6 * HERTZ**0.1, 8e5 * HERTZ**0.12
@@ -68,6 +68,13 @@ CURVES: dict[str, tuple[str, dict[str, object]]] = {
     ),
     "kN/m2": ("Frequency (Hz),E' (kN/m²),E'' (kN/m2)\n" + two(1e3), {}),
     "cycles a minute": ("Frequency (cycles/min),E' (MN/m2),E'' (㎫)\n" + two(1e6, 60 * HERTZ), {}),
+    "capitals": ("FREQUENCY (HZ),E' (MPA),E'' (MPA)\n" + two(1e6), {}),
+    "dynes": ("f (rad/sec),E' (dynes/cm2),E'' (dynes/cm2)\n" + two(0.1, OMEGA), {}),
+    "phase": (
+        "f (Hz),|E*| (Pa),phase (°)\n"
+        + rows(HERTZ, np.sqrt(SQUARE), np.degrees(np.arctan(LOSS / STORAGE))),
+        {},
+    ),
     "Modulus E'": ("Frequency;Modulus E';Modulus E''\nHz;Pa;Pa\n" + two(1).replace(",", ";"), {}),
     "Mettler": ("f\tM'\tM''\n[Hz]\t[MPa]\t[MPa]\n" + two(1e6).replace(",", "\t"), {"modulus": "E"}),
     "real and imaginary": ("f [Hz],Re(E) [MPa],Im(E) [MPa]\n" + two(1e6), {}),

@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 
 from gripscale.conditions.conditions import softening_from_dict
-from gripscale.rubber import typical_tread as tread
-from gripscale.rubber.softening import softening_of_sweeps
-from gripscale.rubber.typical_tread import HARDER_TREAD, SOFTER_TREAD, TYPICAL_TREAD, TypicalTread
+from gripscale.rubber import softening as tread
+from gripscale.rubber.softening import (
+    HARDER_TREAD,
+    SOFTER_TREAD,
+    TYPICAL_TREAD,
+    TypicalTread,
+    softening_of_sweeps,
+)
 from studies.treads import SERIES_S, sweeps
 from studies.typical_tread import spread
 

@@ -11,7 +11,7 @@ from gripscale.cli import app
 from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.questions.chain import page as waves
-from tests.samples import ROOT, case_text, write_short_road
+from tests.samples import ROOT, blank_figures, case_text, write_short_road
 
 PAGE = "".join(
     (ROOT / "docs" / name).read_text(encoding="utf-8")
@@ -21,7 +21,6 @@ PAGE = "".join(
 CASE = case_text(
     'files = ["road.txt"]\nscales = 2\nsmallest_wavelength = "2 mm"',
     'file = "dma.txt"\nterms = 4',
-    "columns = 64\nrows = 10",
 )
 
 
@@ -68,7 +67,8 @@ def folder(tmp_path_factory):
         ["compare", "--models", "chain_half_plane", "--vary", "speed=0.3,0.6"],
     ):
         command = [arguments[0], str(folder / "case.toml"), *arguments[1:]]
-        outcome = CliRunner().invoke(app, command)
+        with blank_figures():
+            outcome = CliRunner().invoke(app, command)
         assert outcome.exit_code == 0, outcome.output
     return folder / "results"
 

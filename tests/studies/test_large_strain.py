@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.half_space import large_strain as package
+from gripscale.half_space import line_to_map as package
 from studies import large_strain as study
 
 CONSTANTS = {

@@ -152,6 +152,7 @@ def test_heights_maps_have_the_heights_of_the_lines():
     assert np.abs(found - wanted).max() < 0.02 * MEASURED.std()
 
 
+@pytest.mark.verification
 def test_lines_maps_have_the_heights_and_the_correlation(matched):
     lines = both_ways(matched.z)
     assert lines.std() == pytest.approx(MEASURED.std(), rel=0.1)
@@ -161,6 +162,7 @@ def test_lines_maps_have_the_heights_and_the_correlation(matched):
         assert _periodic(matched.z, lag) == pytest.approx(_along(lag), rel=0.15)
 
 
+@pytest.mark.verification
 def test_lines_maps_know_where_the_roughness_sits(matched):
     # 1.80 as measured; a map with all its batches comes nearer than this quick one, at 1.39
     assert roughness_by_height(EVERY) > 1.7
@@ -169,6 +171,7 @@ def test_lines_maps_know_where_the_roughness_sits(matched):
     assert roughness_by_height(both_ways(one_map("heights").z)) < 1.25
 
 
+@pytest.mark.verification
 def test_lines_maps_are_alike_both_ways(matched):
     along, across = matched.z.T, matched.z
     assert roughness_by_height(along) == pytest.approx(roughness_by_height(across), rel=0.15)
@@ -176,6 +179,7 @@ def test_lines_maps_are_alike_both_ways(matched):
     assert slopes[0] == pytest.approx(slopes[1], rel=0.1)
 
 
+@pytest.mark.verification
 @pytest.mark.verification
 def test_equal_seeds_give_equal_maps(matched, quick):
     told = []
@@ -195,6 +199,7 @@ def test_equal_seeds_give_equal_maps(matched, quick):
     assert not np.allclose(*spectra)
 
 
+@pytest.mark.verification
 def test_maps_say_that_they_are_synthetic(matched):
     assert matched.name.startswith("synthetic")
     assert "synthetic" in matched.source

@@ -11,11 +11,11 @@ import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding
 from gripscale.questions.answer.measurements import each_measured
-from gripscale.surface.autocorrelation import texture_lengths
 from gripscale.surface.direction import (
     area_over_truth,
     direction_of_map,
     direction_of_profiles,
+    texture_lengths,
 )
 from tests.samples import ZENER
 from tests.verification.known_surfaces import LARGEST, surface, two_lines

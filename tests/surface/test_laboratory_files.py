@@ -264,6 +264,7 @@ MAPS = {
     "factor": "h=20 w=24\npixel size=1.0e-004 m\ndata unit=rad\n"
     "height conversion factor (-> m)=6.3e-008\n" + table(6.3e-8),
     "a title of all": "X resolution (mm),0.1\nZ (nm)\n" + table(1e-9, separator=","),
+    "pixels": "Pixel width: 100 um\nPixel height: 100 um\nz unit: nm\n" + table(1e-9),
     "two separators": "Pixel Size:,100,um\nZ Unit:,nm\n" + table(1e-9, separator=","),
     "German": '"XY-Kalibrierung";"100,0";"µm"\n"Einheit";"µm"\n\n"Höhe"\n'
     + table(1e-6, "{:.8f}", ";").replace(".", ","),
@@ -283,6 +284,16 @@ def test_a_map_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
     assert surface.x[1] - surface.x[0] == pytest.approx(1e-4)
     assert surface.y[1] - surface.y[0] == pytest.approx(1e-4)
     np.testing.assert_allclose(surface.z, MAP.T, atol=2e-12)
+
+
+def test_distances_at_the_edge_of_a_table_are_no_heights(tmp_path: Path) -> None:
+    path = tmp_path / "map.csv"
+    rows = (
+        f"{0.1 * j:.1f},{line}" for j, line in enumerate(table(1e-3, separator=",").split("\n"))
+    )
+    path.write_text("y/x," + ",".join(f"{0.1 * i:.1f}" for i in range(24)) + "\n" + "\n".join(rows))
+    with pytest.raises(FileError, match="column 1, which goes in equal steps"):
+        gs.read_map(path, step=1e-4, z_unit="mm")
 
 
 def test_a_simple_field_of_gwyddion(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gripscale.surface import Profile, clean, read_profile, self_affine_profile
-from gripscale.surface.supports import road_between, support_plates
+from gripscale.surface.plausibility import road_between, support_plates
 
 from .surface_cases import ROAD, ROAD_ONLY
 

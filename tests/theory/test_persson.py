@@ -263,14 +263,14 @@ def test_a_line_stands_for_an_isotropic_surface():
 
 def test_as_a_model_of_a_measured_surface():
     surface, load = road(), Load(2e5, 0.2, 0.1)
-    model = Persson(gamma=0.6, window=0.05)
+    model = Persson(gamma=0.6)
     assert isinstance(model, Model)
     seen = []
     data = model.predict(ZENER, surface, load, on_progress=seen.append)
     lines = [cleaned for _, cleaned in surface.measured.profiles]
     found = persson(
         ZENER,
-        profile_spectrum(lines, window=0.05),
+        profile_spectrum(lines),
         pressure=2e5,
         speed=0.2,
         smallest_wavelength=1e-3,

@@ -17,7 +17,6 @@ import gripscale as gs
 from gripscale.case_file import read_case_file
 from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.io import netcdf
-from gripscale.rubber import read_uniaxial_test
 from tests.samples import EXAMPLES
 
 DATA = EXAMPLES / "data"
@@ -140,11 +139,6 @@ def mitutoyo() -> bytes:
     return workbook(Certificate=certificate, DATA=rows)
 
 
-def uniaxial() -> bytes:
-    time = np.linspace(0.0, 2.0, 12)
-    return workbook(Sheet=[[t, 1.0 + 0.1 * t, 5.0 * t + 0.1] for t in time])
-
-
 def result(folder: Path) -> bytes:
     waves = np.geomspace(1e-2, 1e-4, 5)
     data = xr.Dataset(
@@ -200,12 +194,6 @@ def check_friction(measured: MeasuredFriction) -> None:
     assert not np.isinf([measured.spread, measured.temperature]).any()
 
 
-def check_test(test: Any) -> None:
-    assert np.isfinite([test.time, test.stretch, test.stress]).all()
-    assert (np.diff(test.time) > 0.0).all()
-    assert (test.stretch > 0.0).all()
-
-
 def check_case(file: Any) -> None:
     load = file.case.load
     numbers = [load.pressure, load.speed, load.footprint]
@@ -252,5 +240,4 @@ def readers(folder: Path) -> list[Reader]:
         Reader("npy", ".npy", npy(), partial(gs.read_map, **step), surface, 2),
         Reader("xyz line", ".xyz", bare, partial(gs.read_profile, **mm), line, 2),
         Reader("mitutoyo", ".xlsx", mitutoyo(), gs.read_profile, line, 1),
-        Reader("uniaxial", ".xlsx", uniaxial(), read_uniaxial_test, check_test, 1),
     ]

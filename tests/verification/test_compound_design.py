@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from gripscale.case_file import read_case
-from gripscale.questions.design.compound_gain import DESIGN_TOLERANCE
 from gripscale.questions.design.compound_limits import changed
 from gripscale.questions.design.compound_search import best_change, design_problem, nearest_design
+from gripscale.questions.design.goal_friction import DESIGN_TOLERANCE
 from tests.questions.design.test_search import log_friction, mixtures
 from tests.samples import EXAMPLES
 

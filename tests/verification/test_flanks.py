@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.half_space.large_strain import finite_over_small, pressure_over_modulus
+from gripscale.half_space.line_to_map import finite_over_small, pressure_over_modulus
 from tests.verification.profiles import WINDOW, ProfileCase, road_windows, steep_stones
 
 

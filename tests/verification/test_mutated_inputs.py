@@ -24,7 +24,7 @@ from tests.verification.readers import Reader, readers
 
 SEED = int(os.environ.get("GRIPSCALE_SEED", "0"))
 MANY = int(os.environ.get("GRIPSCALE_MUTATIONS", "200000"))
-FEW = 2000
+FEW = 700
 LONGEST = 2.0
 """Seconds of a processor a file may take."""
 MEMORY = 1 << 30

@@ -17,8 +17,9 @@ from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.model import Load
 from gripscale.questions import Uncertainty
-from gripscale.questions.uncertainty.propagation import draws, quantiles
+from gripscale.questions.uncertainty.propagation import quantiles
 from gripscale.questions.uncertainty.sampled_inputs import Inputs
+from gripscale.questions.uncertainty.sampling import draws
 from gripscale.rubber import MasterCurve, Rubber
 from gripscale.surface import (
     HeightDifference,

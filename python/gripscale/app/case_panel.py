@@ -1,16 +1,125 @@
-"""The case file beside the tabs: shown, edited, opened and saved, with what is wrong with it."""
+"""The case file beside the tabs: shown, edited, opened and saved, with what is wrong with it.
+
+Files that are dropped on the page: each is stored in the folder of the visit under a safe name.
+What a drop replaces in the case is a function of the tab; reading happens in the worker thread.
+"""
 
 from __future__ import annotations
 
+import asyncio
 import io
+import time
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from functools import partial
+from typing import Any
 
 import panel as pn
+from bokeh.document import Document
+from bokeh.models import CustomJS
 
-from gripscale.app.case import CaseState
+from gripscale.app.case import MAX_UPLOAD, CaseState, with_value
 from gripscale.app.elements import CUT_TEXT, column, html, in_worker, work_button
-from gripscale.app.uploads import file_upload
 from gripscale.case_file.examples import EXAMPLES
+from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding, Severity
+from gripscale.report.build import template_text
+
+# From uploads by name to the text of the case with them; may read them, in the worker thread.
+NewText = Callable[[Mapping[str, bytes]], str]
+PAUSE = 3.0  # seconds without a further file after which those that are still announced do not come
+# What is read is named; a file that arrived is not green: it may be refused yet.
+DROP_STYLE = """\
+:host([data-reading])::before { content: attr(data-reading); display: block; font-weight: 600;
+    overflow-wrap: anywhere; padding: 0.2rem 0; }
+[data-filepond-item-state="processing-complete"] .filepond--item-panel { background: #64605e; }
+"""
+TOO_LARGE = "too large"  # type that the browser announces of a file that it does not send
+
+
+def prepare_areas(page: Document) -> None:
+    """Let the areas of a page name, announce and send all files of a drop at once."""
+    page.js_on_event("document_ready", CustomJS(code=template_text("gripscale.app", "uploads.js")))
+
+
+def file_upload(
+    state: CaseState,
+    table: str,
+    label: str,
+    new_text: NewText,
+    *,
+    several: bool = False,
+    then: Callable[[], Awaitable[None]] | None = None,
+) -> pn.Column:
+    """Return an area to drop files on, which gives the case a new text, and what follows `then`.
+
+    What is refused of them is the problem of the case in `table`; the case stays as it is.
+    """
+
+    def empty_area() -> pn.widgets.FileDropper:
+        area = pn.widgets.FileDropper(
+            multiple=several,
+            max_file_size=f"{MAX_UPLOAD // 1_000_000}MB",
+            sizing_mode="stretch_width",
+            margin=(0, 8),
+            previews=["image"],  # without any, Panel would load that of PDFs too, which fails
+            stylesheets=[DROP_STYLE],
+        )
+        area.param.watch(receive, "value")
+        return area
+
+    async def receive(event: Any) -> None:
+        if holder.loading:
+            return  # a further file of those that are awaited
+        area, taken, accepted = event.obj, 0, False
+        holder.loading = True
+        try:
+            while len(area.value) > taken:
+                uploads = await dropped_together(area)
+                taken, accepted = len(uploads), False
+                with state.refusals(table):
+                    for name, kind in area.mime_type.items():
+                        if kind == TOO_LARGE:
+                            raise InputError(
+                                f"{name} is too large; expected files of at most "
+                                f"{MAX_UPLOAD / 1e6:.0f} MB, and none of these was read"
+                            )
+                    state.set_text(await in_worker(partial(new_text, uploads)))
+                    accepted = True
+            # the widget still marks its files as done: it stays, out of sight, until the next drop
+            area.visible = False
+            holder[1:] = [empty_area(), area]
+            if accepted and then is not None:
+                await then()
+        finally:
+            holder.loading = False
+
+    holder = column(pn.pane.Markdown(label, margin=(4, 8, 0, 8)))
+    holder.append(empty_area())
+    return holder
+
+
+async def dropped_together(area: pn.widgets.FileDropper) -> dict[str, bytes]:
+    """Return files of an area by name once all that the browser announced have come."""
+    received, end = -1, 0.0
+    while {n for n, kind in area.mime_type.items() if kind != TOO_LARGE} - area.value.keys():
+        if len(area.value) > received or area._file_buffer:
+            received, end = len(area.value), time.monotonic() + PAUSE
+        if time.monotonic() > end:
+            break  # its sending was ended in the browser
+        await asyncio.sleep(0.02)
+    return {
+        name: content.encode("utf-8") if isinstance(content, str) else content
+        for name, content in area.value.items()
+    }
+
+
+def with_upload(state: CaseState, path: Sequence[str]) -> NewText:
+    """Return what states the file uploaded last at a path of the case."""
+
+    def new_text(uploads: Mapping[str, bytes]) -> str:
+        return with_value(state.text, path, state.visit.store(*list(uploads.items())[-1]))
+
+    return new_text
 
 
 def case_panel(state: CaseState) -> pn.Column:

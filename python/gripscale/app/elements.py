@@ -14,7 +14,7 @@ from typing import Any, ClassVar, TypeVar
 import panel as pn
 
 from gripscale.charts.bokeh_parts import model
-from gripscale.charts.page_elements import Chart
+from gripscale.charts.draw import Chart
 from gripscale.core.finding import Finding
 from gripscale.report.build import template_text, templates
 from gripscale.report.elements import Card, Code, Element, Text, open_and_folded

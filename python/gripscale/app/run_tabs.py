@@ -18,11 +18,9 @@ import xarray as xr
 
 from gripscale.app import elements
 from gripscale.app.case import CaseState, case_tables, field_text
-from gripscale.app.case_panel import problem_pane
+from gripscale.app.case_panel import file_upload, problem_pane
 from gripscale.app.runs import COMMANDS, AppRun, Runs
-from gripscale.app.uploads import file_upload
-from gripscale.charts.draw import Sheet, image
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet, image
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.core.units import display_unit_of
 from gripscale.io.table import Column, Table

@@ -14,12 +14,11 @@ from bokeh.util.warnings import BokehUserWarning
 from tornado.web import HTTPError, StaticFileHandler
 
 from gripscale.app.case import MAX_UPLOAD, CaseState, VisitFolder
-from gripscale.app.case_panel import case_panel
+from gripscale.app.case_panel import case_panel, prepare_areas
 from gripscale.app.elements import column, raw
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.app.run_tabs import REPORTS, all_runs_tab, results_tab, run_tab
 from gripscale.app.runs import REPORT, Runs
-from gripscale.app.uploads import prepare_areas
 from gripscale.case_file import read_case_file
 from gripscale.case_file.examples import EXAMPLES
 from gripscale.core.errors import InputError

@@ -37,7 +37,7 @@ def sweeps_text() -> str:
     transition at -50 C: c1 = 17.44 and c2 = 51.6 K there are 7.4 and 121.6 K at 20 C.
     """
     from gripscale.rubber import WLF
-    from gripscale.rubber.named import springpot_modulus
+    from gripscale.rubber.measured_rubber import springpot_modulus
 
     shift, noise = WLF(c1=7.4, c2=121.6), np.random.default_rng(11)
     frequency = np.geomspace(0.1, 50.0, 15)

@@ -154,7 +154,7 @@ def prepare(folder: Path, file: CaseFile) -> None:
     Predictions stay: each is found by all it depends on.
     """
     saved = saved_case(file, folder)
-    make_folder(folder / "figures")
+    make_folder(folder)
     try:
         earlier = {*RESULT_FILES, *_OF_OTHER_VERSIONS, *saved_inputs(folder)}
         for name in earlier - {*saved.copies, SAVED_CASE}:

@@ -28,13 +28,14 @@ from gripscale.case_file.proposals import (
 )
 from gripscale.core import ZERO_CELSIUS, GripscaleError, checks, in_mm
 from gripscale.core.checks import shortened
+from gripscale.core.units import spelled
 from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.io.table import least_to_most
 from gripscale.io.text_table import ColumnTitle, columns_noted
 from gripscale.rubber import MasterCurve, ShiftTable, Sweeps
 from gripscale.rubber.blocks import read_blocks, with_named_temperature
 from gripscale.rubber.columns import FileLayout, other_content, quantity
-from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
+from gripscale.rubber.prony import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_sweeps import holds_strain_sweeps
 from gripscale.surface import HeightMap, Profile, Spectrum, read_spectrum
 from gripscale.surface.read_spectrum import holds_spectrum
@@ -114,18 +115,21 @@ def take(path: Path, keys: FileKeys, name: str | None = None) -> Taken:
         why = "as stated" if name else "a folder: name it, too, to read it"
         return Taken(path, UNUSED, why)
     seems = [_READER_OF.get(name, name)] if name else _seems(path, keys)
-    refusals = []
+    refusals: list[GripscaleError] = []
+    of_speeds: GripscaleError | None = None
     for kind in seems:
         try:
             with columns_noted() as columns:
                 measured, missing = READERS[kind](path, keys)
         except GripscaleError as error:
             refusals.append(error)
-            if error.missing in ("friction", "temperature"):  # of speeds, which are no heights
-                break
+            if error.missing in ("friction", "temperature"):
+                of_speeds = error
             continue
+        if of_speeds and not any(spelled(title.unit, "length") for title in columns.values()):
+            break  # speeds are no heights, unlike lengths beside them
         return Taken(path, _kind_of(kind, measured), _about(measured), measured, missing, columns)
-    refusal = refusals[-1]
+    refusal = of_speeds or refusals[-1]
     why = str(refusal).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
     kind = {"moduli": RUBBERS[1]}.get(seems[0], seems[0] if len(seems) == 1 else UNUSED)
     return Taken(path, kind, why, refusal=refusal)
@@ -148,6 +152,8 @@ def _seems(path: Path, keys: FileKeys) -> list[str]:
         return ["strain-sweep"]
     if titled & {"frequency", "storage", "loss"} or holds_moduli(path, layout):
         return ["moduli"]
+    if titled and {quantity(n) for n in blocks[0].table.names[:1]} & {"temperature", "strain"}:
+        return ["shift", "friction"]  # no distances
     return ["shift", "friction", "surface"]
 
 

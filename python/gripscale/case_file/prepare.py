@@ -26,7 +26,6 @@ from gripscale.case_file.schema import CaseTable
 from gripscale.case_file.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
-from gripscale.continuation.curve import contact_by_cut_off, cut_off_at
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
 from gripscale.core import (
     CaseKey,
@@ -37,10 +36,10 @@ from gripscale.core import (
     about_keys,
     unstated,
 )
-from gripscale.core.units import ZERO_CELSIUS, in_mm
+from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.half_space.grid import MOST_POINTS
-from gripscale.io.text_table import lines_by_start, read_bytes
+from gripscale.io.text_table import lines_by_size, read_bytes
 from gripscale.model import FOOTPRINT
 from gripscale.rubber import (
     MasterCurve,
@@ -57,7 +56,7 @@ from gripscale.rubber import (
 )
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
-from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
+from gripscale.rubber.prony import holds_prony_table, read_prony_table
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 
@@ -97,6 +96,8 @@ def prepare_surface(
         known = known if longest is None else known.without_long_waves(longest)
         return _described(surface, known, resolve, footprint)
     raw = raw_surface(surface, resolve) if raw is None else raw
+<<<<<<< HEAD
+=======
     return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
 
 
@@ -107,8 +108,10 @@ def _described(
     footprint: float,
 ) -> surfaces.Surface:
     """Return a cleaned measurement, or a spectrum, with its waves, as the keys of `surface` ask."""
+>>>>>>> main
     paths = [resolve(name) for name in surface.measured_files]
     where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
+    measured = _cleaned(surface, raw, resolve)
     by_rule = not (surface.cut_off is None or isinstance(surface.cut_off, float))
     with about_file(where, InputError) if by_rule else nullcontext():
         return described_surface(
@@ -122,6 +125,11 @@ def _described(
 
 
 def case_surface(file: CaseFile) -> surfaces.Surface:
+<<<<<<< HEAD
+    """Return the surface of a case."""
+    footprint = file.case.load.footprint
+    return prepare_surface(file.case.surface, file.resolve, footprint=footprint)
+=======
     """Return the surface of a case, its cut-off by the slope in contact solved."""
     table = file.case.surface
     rule = table.cut_off
@@ -155,6 +163,7 @@ def case_surface(file: CaseFile) -> surfaces.Surface:
     with about_keys("surface"):
         table = table.model_copy(update={"cut_off": solved})
         return _described(table, measured, file.resolve, load.footprint)
+>>>>>>> main
 
 
 def _require_few_points(file: CaseFile) -> None:
@@ -164,7 +173,7 @@ def _require_few_points(file: CaseFile) -> None:
     if any(end is not None for end in ends) or table.cut_off not in (None, "instrument"):
         return
     for path in map(file.resolve, table.measured_files):
-        points = lines_by_start(path) if path.is_file() else 0.0
+        points = lines_by_size(path) if path.is_file() else 0.0
         if points > MOST_POINTS:
             words = (
                 f" must be a length, at least {points / MOST_POINTS:.2g} times what the "

@@ -42,17 +42,15 @@ from gripscale.rubber import (
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
-from gripscale.rubber.prony import largest_modulus
-from gripscale.rubber.prony_table import holds_prony_table, read_prony_table
+from gripscale.rubber.prony import holds_prony_table, largest_modulus, read_prony_table
 from gripscale.rubber.softening import softening_of_sweeps
 from gripscale.rubber.strain_sweeps import StrainSweep, read_strain_sweeps
 from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, holds_sweeps, read_shift_of_sweeps
 from gripscale.surface import HeightMap, Profile, read_map, read_profile
 from gripscale.surface.low_pass import POINTS_IN_CUT_OFF
-from gripscale.surface.plausibility import has_likely_units
+from gripscale.surface.plausibility import has_likely_units, road_between, support_plates
 from gripscale.surface.read import POINT_SUFFIXES, is_text_surface
 from gripscale.surface.read_spectrum import holds_spectrum
-from gripscale.surface.supports import road_between, support_plates
 
 _Measurement = TypeVar("_Measurement")
 

@@ -32,10 +32,9 @@ from gripscale.conditions.defaults import Interface
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.io.text_table import MOST_LINES
 from gripscale.rubber.shift import SHIFTS, ShiftTable
-from gripscale.rubber.softening import Kraus, SofteningTable, softening_of_sweeps
+from gripscale.rubber.softening import Kraus, SofteningTable, TypicalTread, softening_of_sweeps
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean
 from gripscale.rubber.strain_sweeps import read_strain_sweeps
-from gripscale.rubber.typical_tread import TypicalTread
 
 NAMED_RUBBERS = ("styrene_butadiene",)
 

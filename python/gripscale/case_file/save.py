@@ -38,7 +38,7 @@ from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningTable
 from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface import HeightMap, Profile, fit_sines
-from gripscale.surface.cut_off import ContactSlope, RmsSlope
+from gripscale.surface.cut_off import RmsSlope
 from gripscale.wave.problem import Mesh
 
 
@@ -192,13 +192,8 @@ def _surface_keys(case: Case, inputs: _Inputs) -> dict[str, Any]:
         raise InputError("a case file cannot state profiles of unlike reliable wavelengths")
     keys |= {"reliable": reliable.pop(), "clean": bool(case.cleaning)} if not spectrum else {}
     numbers = {**case.cleaning, **surface.counted, **surface.fit}
-    match surface.rule:
-        case RmsSlope() as rule:
-            numbers["cut_off"] = asdict(rule)
-        case ContactSlope(contact_slope=slope):
-            numbers["cut_off"] = {"contact_slope": slope}
-        case rule:
-            numbers["cut_off"] = rule
+    rule = surface.rule
+    numbers["cut_off"] = asdict(rule) if isinstance(rule, RmsSlope) else rule
     for name, value in numbers.items():
         if name not in SurfaceTable.model_fields:
             raise InputError(f"a case file cannot state {name} of the surface")

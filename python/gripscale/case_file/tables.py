@@ -42,7 +42,7 @@ from gripscale.uncertainty_options import (
     pressure_error,
 )
 
-_CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 } or { contact_slope = 0.5 }'
+_CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 }'
 
 
 def _cut_off(value: Any) -> Any:
@@ -180,8 +180,6 @@ class CleaningKeys(CaseTable):
     every steep step of a profile (ISO 13473-1)."""
     spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)
     """Change of height per step at which a spike stands off, or a step is steep."""
-    across_gaps: bool = False
-    """Hold the points on both sides of a gap to that slope, too, with "iso13473"."""
     detrend: Literal["linear", "mean", "none"] = "linear"
     """Trend subtracted from a profile."""
     longest_wavelength: Length | None = None
@@ -280,7 +278,7 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SpectrumKeys, SourceKeys
         foreign, owner = (
             (("crop_across", "trim", "form"), "map")
             if self.map is None
-            else (("across_gaps", "detrend", "longest_wavelength", "sheet"), "files")
+            else (("detrend", "longest_wavelength", "sheet"), "files")
         )
         for name in foreign:
             if getattr(self, name) != type(self).model_fields[name].default:
@@ -447,8 +445,8 @@ class OutputTable(CaseTable):
 
     folder: str = "results"
     """Folder of the results, from the case file."""
-    figures: list[FigureKind] = Field(default=["png"], min_length=1)
-    """What each figure is written as."""
+    figures: list[FigureKind] | None = Field(default=None, min_length=1)
+    """What each figure is written as: by default png, and no files of a run, whose page has all."""
 
 
 class MeasuredTable(CaseTable):

@@ -73,7 +73,6 @@ def solve_chain(
     footprint: Quantity,
     solver: WaveSolverLike = "finite_strain",
     smallest_wavelength: Quantity | None = None,
-    max_scales: int | None = None,
     pressure_classes: int = 1,
     load_time: LoadTime = "passage",
     thickness: Quantity | None = None,
@@ -114,8 +113,6 @@ def solve_chain(
         `theory.solve_half_plane`), or any `WaveSolver`.
     smallest_wavelength
         Waves shorter than this are left out [m].
-    max_scales
-        Number of waves after which to stop.
     pressure_classes
         Number of classes of equal load into which the pressure in the contact of a wave is divided;
         the next wave is solved once for each class. 1 uses the mean pressure; 8 resolve its
@@ -154,16 +151,13 @@ def solve_chain(
         sines,
         Load(pressure, speed, footprint, load_time, thickness),
         smallest_wavelength=smallest_wavelength,
-        max_scales=max_scales,
         on_scale=on_scale,
         start=start,
     )
 
 
-def select_waves(
-    sines: SineStack, *, smallest_wavelength: float | None = None, max_scales: int | None = None
-) -> list[Sine]:
-    """Return the waves of the chain; raise `InputError` if the limits exclude all of them."""
+def select_waves(sines: SineStack, *, smallest_wavelength: float | None = None) -> list[Sine]:
+    """Return the waves of the chain; raise `InputError` if the limit excludes all of them."""
     pairs = zip(sines.wavelength, sines.amplitude, strict=True)
     waves = [Sine(float(wavelength), float(amplitude)) for wavelength, amplitude in pairs]
     if smallest_wavelength is not None:
@@ -175,8 +169,6 @@ def select_waves(
                 f"smallest_wavelength must not exceed the largest wave, {largest:g} m; "
                 f"got {least:g} m"
             )
-    if max_scales is not None:
-        waves = waves[: checks.whole("max_scales", max_scales, least=1, most=1000)]
     return waves
 
 
@@ -236,13 +228,12 @@ class Chain(Checked, model.Model):
         load: Load,
         *,
         smallest_wavelength: float | None = None,
-        max_scales: int | None = None,
         on_scale: Callable[[ChainResult], None] | None = None,
         start: ChainResult | None = None,
     ) -> ChainResult:
         """Return the prediction; arguments and errors as for `solve_chain`."""
         checks.instance("sines", sines, SineStack)
-        waves = select_waves(sines, smallest_wavelength=smallest_wavelength, max_scales=max_scales)
+        waves = select_waves(sines, smallest_wavelength=smallest_wavelength)
         conditions = self.conditions
         before = rubber if conditions is None else conditions.before(rubber)
         require_load_bearing(before, load.pressure, load.time_under(load.footprint))

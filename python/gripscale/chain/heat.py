@@ -12,21 +12,20 @@ each from `gripscale.conditions.flash_temperature`: for l < i averaged over the 
 its pressure; for l = i averaged over the loss of wave i. An area term, less what a counterface
 takes up of all heat, counts as a further wave below the last, at the surface: it is distributed as
 the pressure on each wave. The strain of a wave, for the softening, is that of
-`gripscale.conditions.strain_rule`.
+`gripscale.conditions.conditions`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import partial
 
 import numpy as np
 
 from gripscale.conditions import flash_temperature as rise
-from gripscale.conditions.conditions import Conditions, StrainNorm
-from gripscale.conditions.strain_rule import SLOPE_FACTOR
+from gripscale.conditions.conditions import SLOPE_FACTOR, Conditions, StrainNorm
 from gripscale.core import Array, ComplexArray, InputError
 from gripscale.rubber import Rubber
 from gripscale.wave.result import ScaleResult
@@ -122,7 +121,8 @@ def warming_with_interface(
     cold = part()
     if not waves or speed == 0.0 or (conditions.shear_stress is None and road is None):
         return cold
-    by_unit, in_road = part(interface=1.0)[-1].contact - cold[-1].contact, math.inf
+    unit = part(interface=1.0)
+    by_unit, in_road = unit[-1].contact - cold[-1].contact, math.inf
     if road is not None:
         in_road = speed * waves[0].pressure * rise.uniform_at_surface(time, _SURFACE, road)
         for wave in waves:
@@ -135,7 +135,9 @@ def warming_with_interface(
         friction = rise.settled_interface(
             friction_at, lambda mu: cold[-1].contact + divided.net(mu) * by_unit
         )
-    return part(interface=divided.net(friction))
+    net = divided.net(friction)  # rises are linear in it
+    pairs = zip(map(astuple, cold), map(astuple, unit), strict=True)
+    return [Warming(*(a + net * (b - a) for a, b in zip(*pair, strict=True))) for pair in pairs]
 
 
 def warming(

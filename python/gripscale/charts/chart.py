@@ -121,8 +121,6 @@ class ShadedBand:
     colour: str = GREY
     label: str = ""
     alpha: float = 0.2
-    # Where it rests on the rubber beyond its measured band, and is hatched.
-    beyond: ArrayLike = False
     edged: bool = False
 
 

@@ -4,15 +4,54 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
 
 from gripscale.charts.chart import Panel, PanelGrid
-from gripscale.charts.page_elements import Chart, Image, Picture
+from gripscale.io.folders import write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from gripscale.charts.bokeh_parts import Part
+
+
+@dataclass(frozen=True)
+class Chart:
+    """An interactive figure: its part for Bokeh, caption and a text for who cannot see it."""
+
+    name: str
+    caption: str
+    alt: str
+    figure: Part
+    wide: bool = False
+    kind: ClassVar[str] = "chart"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure of a results folder and its page: the name of its file, caption and alternative."""
+
+    name: str
+    figure: Figure
+    caption: str
+    alt: str
+
+
+@dataclass(frozen=True)
+class Image:
+    """A picture inside the page, base64."""
+
+    name: str
+    caption: str
+    alt: str
+    data: str
+    media_type: str
+    width: int
+    height: int
+    kind: ClassVar[str] = "image"
 
 
 @dataclass(frozen=True)
@@ -49,3 +88,19 @@ def image(picture: Picture) -> Image:
     data = base64.b64encode(packed.getvalue()).decode("ascii")
     name = picture.name.replace("_", "-")
     return Image(name, picture.caption, picture.alt, data, "image/png", *pixels.size)
+
+
+@dataclass(frozen=True)
+class FigureFolder:
+    """A folder of figures and what they are written as."""
+
+    path: Path
+    kinds: Sequence[str] | None = None  # out of `gripscale.charts.paper.KINDS`; png by default
+
+    def save(self, figure: Sheet | Figure, name: str) -> None:
+        """Write a figure or what describes it; `FileError` if that fails."""
+        from gripscale.charts.paper import figure_file
+
+        drawn = figure.on_paper() if isinstance(figure, Sheet) else figure
+        for kind in self.kinds or ("png",):
+            write_bytes(self.path / f"{name}.{kind}", figure_file(drawn, kind))

@@ -13,7 +13,6 @@ import numpy as np
 from bokeh.core.property.vectorization import Field, Value
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.charts import page_elements
 from gripscale.charts.bokeh_parts import Part, columns
 from gripscale.charts.chart import (
     CrossLine,
@@ -26,6 +25,7 @@ from gripscale.charts.chart import (
     ValueMap,
     spelled_out,
 )
+from gripscale.charts.draw import Chart
 from gripscale.charts.style import BEYOND_LABEL, FAINT, GREY, INK, shades, stretches
 from gripscale.core.arrays import Array
 
@@ -67,12 +67,12 @@ _MARKERS = {
 }  # fmt: skip
 
 
-def draw_panel(panel: Panel) -> page_elements.Chart:
+def draw_panel(panel: Panel) -> Chart:
     """Return a chart of the page: the panel's figure, with its caption and alternative."""
-    return page_elements.Chart(panel.name, panel.caption, panel.alt, _figure(panel, DataStore()))
+    return Chart(panel.name, panel.caption, panel.alt, _figure(panel, DataStore()))
 
 
-def draw_linked(panels: Sequence[Panel], name: str, caption: str, alt: str) -> page_elements.Chart:
+def draw_linked(panels: Sequence[Panel], name: str, caption: str, alt: str) -> Chart:
     """Return panels below each other as one chart, zoomed together along their abscissa."""
     store = DataStore()
     figures = [_figure(panel, store, along=True) for panel in panels]
@@ -83,7 +83,7 @@ def draw_linked(panels: Sequence[Panel], name: str, caption: str, alt: str) -> p
     toolbar = Part("Toolbar", tools=[*shared, Part("SaveTool")], logo=None, active_drag=shared[1])
     rows = [(figure, row, 0) for row, figure in enumerate(figures)]
     column = Part("GridPlot", children=rows, sizing_mode="stretch_width", toolbar=toolbar)
-    return page_elements.Chart(name, caption, alt, column, wide=True)
+    return Chart(name, caption, alt, column, wide=True)
 
 
 class DataStore:

@@ -71,7 +71,6 @@ RULES: Any = {
     "pdf.fonttype": 3,  # 42 cuts the whole font down for each figure, which costs 0.3 s
 }
 
-HATCHED: Any = {"facecolor": "none", "edgecolor": "white", "hatch": "////", "lw": 0.0}
 
 # Numbers between the powers of ten of a logarithmic axis, by its largest over smallest value.
 _STEPS: dict[str, tuple[tuple[float, tuple[float, ...]], ...]] = {
@@ -255,9 +254,6 @@ def _draw_band(axes: Axes, band: chart.ShadedBand) -> None:
     if band.edged:
         look |= {"lw": 0.3, "ec": "white"}
     axes.fill_between(x, low, high, label=band.label or None, **look)
-    for part, beyond in stretches(np.broadcast_to(band.beyond, x.shape)):
-        if beyond:
-            axes.fill_between(x[part], low[part], high[part], gid=BEYOND_LABEL, **HATCHED)
 
 
 def _draw_field(figure: Figure, axes: Axes, field: chart.ValueMap) -> None:
@@ -279,22 +275,19 @@ def _draw_field(figure: Figure, axes: Axes, field: chart.ValueMap) -> None:
 
 
 def _add_legend(figure: Figure, panels: Sequence[Axes], sheet: chart.PanelGrid) -> None:
-    """Add the labels and keys of a sheet, and what dashed and hatched mean where it occurs."""
+    """Add the labels and keys of a sheet, and what dashed means where it occurs."""
     entries: dict[str, Any] = {}
-    dashed = hatched = False
+    dashed = False
     for axes in panels:
         if axes.get_legend() is None:
             for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
                 entries.setdefault(label, handle)
         dashed |= any(line.get_gid() == BEYOND_LABEL for line in axes.lines)
-        hatched |= any(part.get_gid() == BEYOND_LABEL for part in axes.collections)
     for key in sheet.keys:
         entries |= {getattr(key, "label", ""): _key(key)}
     at_side = sheet.legend == "beside"
     beyond = BEYOND_LABEL.replace("the ", "the\n") if at_side else BEYOND_LABEL
-    if hatched:
-        entries = {beyond: Patch(**(HATCHED | {"facecolor": GREY})), **entries}
-    elif dashed:
+    if dashed:
         entries[beyond] = Line2D([], [], ls=DASHES["dashed"], color=GREY)
     if not entries:
         return

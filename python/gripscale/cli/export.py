@@ -52,7 +52,7 @@ def rubber(
     from gripscale.case_file import RubberSource, prepare_rubber, read_case_file, validate
     from gripscale.core.units import parse_quantity
     from gripscale.export import write_rubber
-    from gripscale.export.reduction import reduced
+    from gripscale.export.rubber import reduced
 
     if source.suffix == ".toml":
         file = read_case_file(source)

@@ -215,7 +215,7 @@ def fit_surface(
             parts.append(page.rms_slopes_table(prepared.measured.slopes))
     print_parts(console, parts)
     if output is not None:
-        from gripscale.charts.figure_folder import FigureFolder
+        from gripscale.charts.draw import FigureFolder
         from gripscale.questions.inputs.charts_of_surface import surface_figures
 
         make_folder(output)
@@ -325,7 +325,7 @@ def fit_rubber(
 
 def _written(prepared: MeasuredRubber | None, law: SofteningTable | None, output: Path) -> str:
     """Write the figures, and of sweeps the shift table, the master curve and the rubber."""
-    from gripscale.charts.figure_folder import FigureFolder
+    from gripscale.charts.draw import FigureFolder
     from gripscale.io.folders import make_folder, write_text
     from gripscale.questions.inputs.charts_of_rubber import rubber_figures, softening_sheet
 

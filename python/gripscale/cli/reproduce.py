@@ -8,7 +8,10 @@ from typing import Annotated, Any
 from gripscale.questions import terminal
 from gripscale.questions.terminal import argument, command, option
 
-Two = tuple[str, str] | None
+TwoOfYours = Annotated[
+    tuple[str, str] | None,
+    option("Two of your own, files or cases; most figures show the first.", metavar="A B"),
+]
 
 
 @command
@@ -19,12 +22,8 @@ def reproduce(
     output: Annotated[Path, option("Folder for the results.", metavar="DIR")] = Path(
         "results/reproduction"
     ),
-    surface: Annotated[
-        Two, option("Two surfaces of your own, files or cases; most figures show the first.")
-    ] = None,
-    rubber: Annotated[
-        Two, option("Two rubbers of your own, files or cases; most figures show the first.")
-    ] = None,
+    surface: TwoOfYours = None,
+    rubber: TwoOfYours = None,
     factors: Annotated[
         str | None, option("Magnification of wavelength and amplitude: 3.5/2.4,3/2.2,6/3.")
     ] = None,
@@ -45,7 +44,7 @@ def reproduce(
     from gripscale.questions.vary.axis import axis_value
     from gripscale.reproduction.inputs import read_inputs
     from gripscale.reproduction.run import reproduce_paper
-    from gripscale.reproduction.statement import number_holding, verdict_table
+    from gripscale.reproduction.statement import verdict_table
 
     units = {"x_unit": x_unit, "z_unit": z_unit, "smallest_wavelength": smallest_wavelength}
     inputs = read_inputs(
@@ -57,10 +56,10 @@ def reproduce(
         temperature=si_value("--temperature", temperature, "K"),
     )
     console = terminal.screen()
-    show = terminal.progress_printer(console)
-    options: Any = {"workers": workers, "client": cluster, "on_task": show}
+    options: Any = {"workers": workers, "client": cluster}
+    options["on_task"] = terminal.progress_printer(console)
     statements = reproduce_paper(inputs, output, figures or (), **options)
     terminal.end_steps()
     closing = f"Figures, data, and statements.md with all numbers and reasons are in {output}"
-    holding = f"{number_holding(statements)}."
-    terminal.print_parts(console, [verdict_table(statements), "", holding, closing])
+    tables = [verdict_table(statements)] if statements else []
+    terminal.print_parts(console, [*tables, closing])

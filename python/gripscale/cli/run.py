@@ -20,6 +20,9 @@ def run(
     verbose: Annotated[
         bool, typer.Option("--verbose", help="Print all of report.txt: inputs and every table.")
     ] = False,
+    figures: Annotated[
+        bool, typer.Option("--figures", help="Write figures as files, too: PNG if nothing else.")
+    ] = False,
 ) -> None:
     """Answer with contact area and friction of a case; resumes where it was stopped."""
     from gripscale.cli.solve_run import solve_run
@@ -28,7 +31,7 @@ def run(
     work = terminal.CaseCommand(case)
     target = output or work.file.resolve(work.file.case.output.folder)
     require_writable(target)  # before the files of the case are read
-    solve_run(work, target, verbose=verbose)
+    solve_run(work, target, verbose=verbose, figures=figures)
 
 
 @command

@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gripscale.case_file import folder
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.core.provenance import version_of
 from gripscale.io import netcdf
+from gripscale.io.folders import make_folder
 from gripscale.io.table import Table, as_text
 from gripscale.questions import terminal
-from gripscale.questions.answer.answer import ANSWER_FILE, Answer, answer, bench_of, solved_chain
+from gripscale.questions.answer.answer import (
+    ANSWER_FILE,
+    CHAIN_FILE,
+    CURVE_FILE,
+    Answer,
+    answer,
+    bench_of,
+    solved_chain,
+)
 from gripscale.questions.answer.page import slopes_table
 from gripscale.questions.answer.variables import OF_THE_PAPER
 from gripscale.questions.chain.page import LEGEND, chain_tables, judgement, waves_in_brief
@@ -20,7 +31,6 @@ from gripscale.questions.inputs.charts_of_rubber import rubber_figures
 from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.page import conditions_lines, rubber_parts, surface_lines
 from gripscale.questions.inputs.record import excited
-from gripscale.questions.page_of_folder import CHAIN_FILE, CURVE_FILE
 from gripscale.questions.result import warning_lines
 from gripscale.rubber.extrapolation import require_measured
 from gripscale.rubber.material import require_load_bearing
@@ -31,10 +41,13 @@ if TYPE_CHECKING:
 TEXT, WIDTH = "report.txt", 110  # name of the report, and characters of its lines
 
 
-def solve_run(work: terminal.CaseCommand, target: Path, *, verbose: bool) -> None:
+def solve_run(
+    work: terminal.CaseCommand, target: Path, *, verbose: bool, figures: bool = False
+) -> None:
     """Solve, print and write a case: its answer, and the chain of waves beside it.
 
-    Inputs and further tables are printed if `verbose`; the report has them.
+    Inputs and further tables are printed if `verbose`; the report has them. Figures are on the
+    page, and also files if `figures`, if the case says so, or where no page can be written.
     """
     case, console = work.case, work.console
     rubber, load, measured = case.rubber_before, case.load, case.surface.measured is not None
@@ -48,36 +61,45 @@ def solve_run(work: terminal.CaseCommand, target: Path, *, verbose: bool) -> Non
     result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
     findings = warning_lines(result.findings, TEXT, result.half_widths)
-    terminal.print_parts(
-        console, ["", *result.lines, *findings, *(["", *inputs] if verbose else [])]
-    )
+    terminal.print_parts(console, ["", *result.lines, *findings, *["", *inputs] * verbose])
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
         result.chain = solved_chain(case, bench_of(target))
         terminal.end_steps()
     _save(result, case, target)
-    _conclude(work, result, [f"{header}: {case.title}", "", *inputs], verbose=verbose)
+    page = all(map(find_spec, ("bokeh", "jinja2")))
+    kinds = work.file.case.output.figures or (["png"] if figures or not page else [])
+    opening = [f"{header}: {case.title}", "", *inputs]
+    _conclude(work, result, opening, verbose=verbose, kinds=kinds)
 
 
 def _conclude(
-    work: terminal.CaseCommand, result: Answer, opening: list[str | Table], *, verbose: bool
+    work: terminal.CaseCommand,
+    result: Answer,
+    opening: list[str | Table],
+    *,
+    verbose: bool,
+    kinds: Sequence[str],
 ) -> None:
     """Print what stands below the answer; write report, figures and page.
 
     The report begins with the answer and `opening`. All but the chain of a measured surface, in
-    brief, and how it compares is printed where it is asked for.
+    brief, and how it compares is printed where it is asked for. Figures are files of all `kinds`.
     """
     case, target = work.case, work.target
     assert result.chain is not None
     parts: list[str | Table] = [*chain_tables(result.chain), LEGEND, *_tables(result)]
     if case.surface.measured is not None:
-        shown = parts if verbose else [waves_in_brief(result.chain)]
-        terminal.print_parts(work.console, ["", *shown])
+        tables = parts if verbose else [waves_in_brief(result.chain)]
+        terminal.print_parts(work.console, ["", *tables])
         opening, parts = [*opening, "", *parts], [judgement(result.chain, result.data)]
 
     def draw() -> None:
-        figures = FigureFolder(target / "figures", work.file.case.output.figures)
+        if not kinds:
+            return
+        figures = FigureFolder(target / "figures", kinds)
+        make_folder(figures.path)
         surface_figures(case.surface, figures)
         rubber_figures(case.measured_rubber, excited(case), figures)
         for name, figure in result.figures():
@@ -88,7 +110,7 @@ def _conclude(
         parts,
         answer_printed=True,
         text=TEXT,
-        closing="Results, report and figures are in",
+        closing=f"Results{', report and figures' if kinds else ' and report'} are in",
         opening=opening,
         width=WIDTH,
         draw=draw,

@@ -1,4 +1,5 @@
 from .area_term import ConstantStress as ConstantStress
+from .area_term import DryTread as DryTread
 from .area_term import GaussianStress as GaussianStress
 from .area_term import InterfacialShearStress as InterfacialShearStress
 from .area_term import LeGalKlueppelStress as LeGalKlueppelStress
@@ -7,7 +8,6 @@ from .area_term import adhesive_friction as adhesive_friction
 from .area_term import shear_stress_from_dict as shear_stress_from_dict
 from .area_term import shear_stress_to_dict as shear_stress_to_dict
 from .conditions import Conditions as Conditions
-from .dry_road import DryTread as DryTread
 from .flash_temperature import CONCRETE as CONCRETE
 from .flash_temperature import COUNTERFACE_BY_KIND as COUNTERFACE_BY_KIND
 from .flash_temperature import COUNTERFACE_SCATTER as COUNTERFACE_SCATTER
@@ -15,7 +15,6 @@ from .flash_temperature import COUNTERFACES as COUNTERFACES
 from .flash_temperature import GLASS as GLASS
 from .flash_temperature import STEEL as STEEL
 from .flash_temperature import STONE as STONE
-from .flash_temperature import THERMAL_SCATTER as THERMAL_SCATTER
 from .flash_temperature import LossDepth as LossDepth
 from .flash_temperature import ThermalProperties as ThermalProperties
 from .flash_temperature import harmonic_at_surface as harmonic_at_surface

@@ -7,6 +7,24 @@ wavenumber q meets the rubber at the temperature and the strain of its scale,
 
 with the modulus ratios f and g exact: no relaxation times have to be fitted. Between the scales
 where they are known the logarithms of the factors are linear in log |q|.
+
+How far typical laws may be off: conditions with one of them a standard error away.
+A typical tread has the scatter between measured compounds, typical thermal constants that between
+rubbers. Whether a strain sweep was made in tension or in shear is as likely one as the other, and
+so is a single or a double amplitude that nothing states. A master curve of unknown strain was
+measured at 0.04 to 0.3 %, two times in three.
+
+Which strain softens the rubber on a scale, and how well it follows blocks of softening rubber.
+A harmonic u_q of the surface's displacement strains an incompressible half-space at depth y by
+
+    e = |q|^2 y exp(-|q| y) u_q,    e_zz = e,  e_ij = -e q_i q_j/|q|^2,  e_iz = i e q_i/|q|
+
+(K. L. Johnson, "Contact Mechanics" (1985), section 13.2, of a wave without friction), most at
+y = 1/|q|. The strain of a scale is that of all harmonics at this depth: the equivalent uniaxial
+amplitude sqrt(2/3 e:e), its mean over the contact times `DEPTH_FACTOR`. A chain has one wave at a
+time and takes `SLOPE_FACTOR` times the rms slope in its contact.
+
+Measured by studies/strain_rule: docs/strain-rule.md.
 """
 
 from __future__ import annotations
@@ -26,11 +44,17 @@ from gripscale.conditions.area_term import (
     shear_stress_from_dict,
     shear_stress_to_dict,
 )
-from gripscale.conditions.flash_temperature import ThermalProperties
+from gripscale.conditions.flash_temperature import THERMAL_SCATTER, ThermalProperties
 from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks, units
 from gripscale.rubber import Rubber
-from gripscale.rubber.softening import Kraus, SofteningLaw, SofteningTable, softened
-from gripscale.rubber.typical_tread import TypicalTread
+from gripscale.rubber.softening import (
+    SOFTER_TREAD,
+    Kraus,
+    SofteningLaw,
+    SofteningTable,
+    TypicalTread,
+    softened,
+)
 
 StrainNorm = Literal["slope", "stretch"]
 STRAIN_NORMS = ("slope", "stretch")
@@ -344,3 +368,64 @@ def state_by_scale(
         temperature_extrapolated=warm_outside,
         rubber=RubberByScale(before, wavenumber, shift, stiffening, storage, loss),
     )
+
+
+# What may not be known.
+TREADS = "scatter between treads"
+TENSION_OR_SHEAR = "sweeps in tension or in shear"
+THERMAL_CONSTANTS = "typical thermal constants"
+MASTER_CURVE_STRAIN = "strain of the master curve"
+AMPLITUDE = "single or double amplitude of the sweeps"
+MEASURED_LAWS = (Kraus, SofteningTable, TypicalTread)  # in tension or in shear
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Conditions that may be true as well, or another warming by them."""
+
+    label: str  # what is not known, in words
+    conditions: Conditions
+    warming: float = 1.0  # over that of the conditions as they are [-]
+    # Standard error of the logarithm of a result over its change by these conditions [-].
+    share: float = 1.0
+
+
+def alternatives(conditions: Conditions) -> Iterator[Alternative]:
+    """Yield what may be true as well, one for each thing that is not known."""
+    softening, heat = conditions.softening, conditions.heat
+    if isinstance(softening, TypicalTread):
+        softer = replace(softening, deviation=softening.deviation + SOFTER_TREAD.deviation)
+        yield Alternative(TREADS, replace(conditions, softening=softer))
+    if isinstance(softening, MEASURED_LAWS) and softening.deformation is None:
+        tension = replace(softening, deformation="tension")
+        # either end is as likely, and the change is from the middle to one of them
+        yield Alternative(TENSION_OR_SHEAR, replace(conditions, softening=tension))
+    if isinstance(softening, SofteningTable):
+        yield from _of_sweeps(conditions, softening)
+    if heat == ThermalProperties():
+        hotter = math.exp(THERMAL_SCATTER)
+        yield Alternative(THERMAL_CONSTANTS, conditions, warming=hotter)
+
+
+def _of_sweeps(conditions: Conditions, sweeps: SofteningTable) -> Iterator[Alternative]:
+    """Yield what is not stated of the strains of a master curve and of sweeps."""
+    if sweeps.measured_at is None:
+        ends = [strains[0] for strains in sweeps.strain], [strains[-1] for strains in sweeps.strain]
+        strain = min(max(math.e * sweeps.reference(0), *ends[0]), *ends[1])
+        other = replace(sweeps, measured_at=strain)
+        yield Alternative(MASTER_CURVE_STRAIN, replace(conditions, softening=other))
+    if sweeps.amplitude_assumed:
+        half = [[0.5 * strain for strain in strains] for strains in sweeps.strain]
+        last = min(strains[-1] for strains in half)
+        at = None if sweeps.measured_at is None else min(sweeps.measured_at, last)
+        other = replace(sweeps, strain=half, measured_at=at)
+        # one end is assumed: the change is from it to the other
+        yield Alternative(AMPLITUDE, replace(conditions, softening=other), share=0.5)
+
+
+DEPTH_FACTOR = 0.85
+"""Strain of a scale over the mean strain at its depth under the contact [-]."""
+LOG_AREA, LOG_FRICTION = 0.10, 0.05
+"""Scatter of ln area and ln friction of a direct contact, the filler healing or not [-]."""
+SLOPE_FACTOR = 0.4
+"""Strain of a wave of a chain over the rms slope in its contact [-]."""

@@ -2,7 +2,7 @@
 
 Every tread is filled, and softens; a rubber with a temperature shift warms by its friction; a dry
 road shears the real contact area. A case states whether its rubber is filled and its road dry, and
-has typical laws where it states none of its own. `gripscale.conditions.alternatives` says how far
+has typical laws where it states none of its own. `gripscale.conditions.conditions` says how far
 these laws may be off.
 """
 
@@ -11,12 +11,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Literal, get_args
 
+from gripscale.conditions.area_term import DRY_TREAD
 from gripscale.conditions.conditions import Conditions
-from gripscale.conditions.dry_road import DRY_TREAD
 from gripscale.conditions.flash_temperature import COUNTERFACE_BY_KIND, ThermalProperties
 from gripscale.core import InputError
 from gripscale.rubber import Rubber
-from gripscale.rubber.typical_tread import TYPICAL_TREAD
+from gripscale.rubber.softening import TYPICAL_TREAD
 from gripscale.surface.surface import SurfaceKind
 
 Interface = Literal["dry"]

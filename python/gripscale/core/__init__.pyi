@@ -3,6 +3,7 @@ from .arrays import ComplexArray as ComplexArray
 from .arrays import Mask as Mask
 from .arrays import Quantity as Quantity
 from .arrays import Vector as Vector
+from .arrays import labelled as labelled
 from .checks import Checked as Checked
 from .checks import checked as checked
 from .described import Described as Described
@@ -22,18 +23,13 @@ from .finding import Finding as Finding
 from .finding import Severity as Severity
 from .finding import Topic as Topic
 from .finding import doubt as doubt
-from .labels import labelled as labelled
-from .parallel import in_threads as in_threads
 from .parallel import worker_count as worker_count
 from .status import Status as Status
 from .units import ZERO_CELSIUS as ZERO_CELSIUS
-from .units import DisplayUnit as DisplayUnit
 from .units import celsius as celsius
 from .units import display_unit as display_unit
 from .units import in_mm as in_mm
-from .units import listed as listed
 from .units import parse_quantity as parse_quantity
-from .units import plain as plain
 from .units import quantity_in_si as quantity_in_si
 from .units import readable as readable
 from .units import si_value as si_value

@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
@@ -32,3 +35,11 @@ def runs(marked: Mask) -> list[tuple[int, int]]:
     """Return where each run of marks begins and ends, the end not included."""
     ends = np.flatnonzero(np.diff(np.concatenate(([0], marked.astype(np.int8), [0])))).tolist()
     return list(zip(ends[::2], ends[1::2], strict=True))
+
+
+def labelled(dims: Any, values: Any, unit: str, long_name: str, source: str) -> xr.Variable:
+    """Return `values` as a variable with the attributes that every result has."""
+    import xarray as xr
+
+    attrs = {"units": unit, "long_name": long_name, "source": source}
+    return xr.Variable(dims, np.asarray(values), attrs)

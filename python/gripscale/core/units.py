@@ -87,7 +87,7 @@ _OTHER_SPELLINGS = {
     "kJ/(kg K)": ("kj/(kgk)",),
     "N/mm^2": ("n/mm^2",),
     "Pa": ("n/m^2",),
-    "dyn/cm^2": ("dyne/cm^2",),
+    "dyn/cm^2": ("dyne/cm^2", "dynes/cm^2"),
     "kgf/mm^2": ("kp/mm^2",),
     "psi": ("lbf/in2", "lbf/in^2"),
     "ksi": ("kpsi",),
@@ -138,6 +138,9 @@ def spelled(unit: object, kind: str) -> str | None:
     word = re.sub(r"(?<=m)(?=[23]($|/))", "^", word)
     word = _SPELLINGS.get(word.lower(), _SPELLINGS.get(word.lower().replace(" ", ""), word))
     word = re.sub("^μ", "u", word)  # to which the micro sign, which looks alike, is normalised
+    if word.isupper() and kind in ("modulus", "frequency"):  # not MHZ, which may be mHz
+        capitals = [unit for unit in UNITS[kind] if unit.upper() == word]
+        word = capitals[0] if len(capitals) == 1 else word
     return word if word in UNITS[kind] else None
 
 

@@ -40,7 +40,7 @@ Of very lossy rubber, E* ~ (i w)^a, S is of the order 1 + a and its weights fall
 linear between them, and so it is taken on lines of such rubber. A lossy line then needs a tenth of
 the products (loss angles 0.7 to 1.2); maps converge without.
 
-The open points of a pool of trapped water (`gripscale.half_space.pools`) have one pressure, and the
+The open points of a pool of trapped water (`gripscale.half_space.water`) have one pressure, and the
 mean of their gap is given. They belong to A, with gaps and pressures replaced by their means over
 the pool, before E and after S.
 """
@@ -58,7 +58,7 @@ from numpy.typing import NDArray
 from gripscale._kernel import gmres
 from gripscale.core.arrays import Array, Mask
 from gripscale.half_space.grid import Single
-from gripscale.half_space.pools import Averaged, Pools
+from gripscale.half_space.regions import Averaged, Pools
 from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
 

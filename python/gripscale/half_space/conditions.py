@@ -4,7 +4,7 @@ An evaluation of the fixed point (`gripscale.conditions.fixed_point`) solves the
 the rubber that a state of temperatures and strains, one of each an octave of wavelengths, makes of
 it. Each contact starts from the last one.
 
-The strain of a scale is that of `gripscale.conditions.strain_rule` in the contact.
+The strain of a scale is that of `gripscale.conditions.conditions` in the contact.
 
 The harmonics of an octave lose mu_b p_0 v per nominal area, and the pattern of
 `gripscale.conditions.flash_temperature` distributes this heat along the surface. Summed over
@@ -25,7 +25,13 @@ import numpy as np
 import scipy
 
 from gripscale.conditions import flash_temperature as rise
-from gripscale.conditions.conditions import Conditions, RubberByScale, StateByScale, state_by_scale
+from gripscale.conditions.conditions import (
+    DEPTH_FACTOR,
+    Conditions,
+    RubberByScale,
+    StateByScale,
+    state_by_scale,
+)
 from gripscale.conditions.fixed_point import (
     STATE_TOLERANCE,
     Iteration,
@@ -34,7 +40,6 @@ from gripscale.conditions.fixed_point import (
     unpack_state,
 )
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
-from gripscale.conditions.strain_rule import DEPTH_FACTOR
 from gripscale.core import Array, ComplexArray, Mask, Status
 from gripscale.half_space.grid import Grid, PeriodicHeights
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels, levels
@@ -123,12 +128,17 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
     size = np.abs(spectrum)
     phase = np.divide(spectrum, size, out=np.zeros_like(spectrum), where=size > 0.0)
     out = []
+    line = len(grid.shape) == 1
     for which in range(int(octave.max()) + 1):
-        loss = np.where((octave == which) & (lost > 0.0), lost, 0.0)
+        # on a line the waves of an octave follow each other
+        these = slice(2**which, 2 ** (which + 1)) if line else slice(None)
+        loss = np.where((octave[these] == which) & (lost[these] > 0.0), lost[these], 0.0)
         total = float(loss.sum())
         if total > _ROUND_OFF * float(lost.sum()):
-            pattern = _loss_pattern(grid, np.sqrt(loss) * phase, 2 ** (which + 1))
-            mean = float((loss * 1.5 / np.maximum(number, longest)).sum() / total)
+            half = np.zeros_like(spectrum)
+            half[these] = np.sqrt(loss) * phase[these]
+            pattern = _loss_pattern(grid, half, 2 ** (which + 1))
+            mean = float((loss * 1.5 / np.maximum(number[these], longest)).sum() / total)
             middle = longest * 2.0 ** (which + 0.5)
             out.append(OctaveHeat(middle, total, pattern, LossDepth(mean)))
     return out

@@ -15,14 +15,18 @@ from gripscale.conditions.conditions import Conditions, RubberByScale
 from gripscale.conditions.flash_temperature import STONE, ThermalProperties
 from gripscale.core import Array, Checked, InputError, Status, checked, checks, labelled, provenance
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
-from gripscale.half_space.condition_errors import SERIES, condition_changes, log_change
 from gripscale.half_space.conditions import warming_of
 from gripscale.half_space.grid import MOST_POINTS
-from gripscale.half_space.large_strain import pressure_over_modulus
-from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load
+from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load, pressure_over_modulus
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
-from gripscale.half_space.sampling_error import PIECE, sampling_error
+from gripscale.half_space.sampling_error import (
+    PIECE,
+    SERIES,
+    condition_changes,
+    log_change,
+    sampling_error,
+)
 from gripscale.half_space.solve import relative_tolerance, solve_rough_contact
 from gripscale.model import Load, OnProgress
 from gripscale.rubber import Rubber

@@ -190,7 +190,7 @@ def solve_rough_contact(
         deadline = time.monotonic() + checks.positive("time_limit", time_limit, unit="s")
 
     def solve(
-        scales: RubberByScale | None, earlier: KnownLevels, reach: float
+        scales: RubberByScale | None, earlier: KnownLevels, reach: float, *, loose: bool = False
     ) -> GridSequenceResult:
         sequence = GridSequence(
             replace(body, by_scale=scales),
@@ -201,7 +201,7 @@ def solve_rough_contact(
             other=None if iterated else other,
             deadline=deadline,
         )
-        return _solve_sequence(sequence, most, reach, coarse=coarse)
+        return _solve_sequence(sequence, most, reach, coarse=coarse, loose=coarse or loose)
 
     if not iterated:
         contact = solve(by_scale, {}, goal).contact
@@ -215,7 +215,7 @@ def solve_rough_contact(
                 "footprint must be the length of the nominal contact [m] with heat; got none"
             )
         heated = checks.positive("footprint", footprint, unit="m") / body.speed
-    quick, whole = partial(solve, reach=math.inf), partial(solve, reach=goal)
+    quick, whole = partial(solve, reach=math.inf, loose=True), partial(solve, reach=goal)
     assert isinstance(rubber, Rubber)  # iterated conditions refuse layers
     contact = solve_coupled_contact(whole, quick, heights, rubber, effects, heated, goal)
     return replace(contact, conditions=conditions, status=_judged(contact, goal))
@@ -301,7 +301,7 @@ def _planned(sequence: GridSequence, goal: float, *, coarse: bool) -> list[Level
 
 
 def _solve_sequence(
-    sequence: GridSequence, most: int, goal: float, *, coarse: bool
+    sequence: GridSequence, most: int, goal: float, *, coarse: bool, loose: bool
 ) -> GridSequenceResult:
     """Return the contact with one rubber, on grids refined until the errors meet `goal`."""
     body, heights, load = sequence.body, sequence.heights, sequence.pressure
@@ -310,8 +310,8 @@ def _solve_sequence(
     while plan:
         level = plan.pop(0)
         try:
-            loose = plan or coarse
-            solved = sequence.solve(level, START_TOLERANCE if loose else CONTACT_TOLERANCE)
+            rough = plan or loose
+            solved = sequence.solve(level, START_TOLERANCE if rough else CONTACT_TOLERANCE)
         except OutOfTime:
             if not grids:
                 raise ConvergenceError(

@@ -1,7 +1,7 @@
 """Contact of a map in water: open regions that close keep their volume and carry load.
 
 The load is raised in steps. After each, the open regions that do not percolate are pools with the
-water they hold (`gripscale.half_space.pools`), which later steps press upon: B. N. J. Persson, U.
+water they hold (`gripscale.half_space.regions`), which later steps press upon: B. N. J. Persson, U.
 Tartaglino, O. Albohr & E. Tosatti, Nature Materials 3 (2004) 882, doi:10.1038/nmat1255. Regions
 that percolate drain, and their water has no pressure: the sliding is slow (`gripscale.flow` says
 how slow). Water does not compress.
@@ -28,8 +28,7 @@ from gripscale.half_space.grid_sequence import (
     loaded,
     lost_by_harmonic,
 )
-from gripscale.half_space.pools import Pools
-from gripscale.half_space.regions import periodic_regions
+from gripscale.half_space.regions import Pools, periodic_regions
 from gripscale.half_space.response import Response
 from gripscale.half_space.result import RoughContact, TrappedWater
 from gripscale.theory.half_plane import GridContact

@@ -1,13 +1,14 @@
 """Tables of numbers in text and Excel files: one set of rules for every instrument's export.
 
 - A sheet of an Excel file (.xlsx) is read as a text whose cells are parted by tabs.
-- UTF-8, UTF-16 (with a byte order mark), Windows-1252 or latin-1; any line ends. Control codes mean
+- UTF-8, UTF-16, GB 18030, Shift-JIS, Windows-1252 or latin-1; any line ends. Control codes mean
   binary data.
 - Lines that begin with #, % or ! are comments, but for #NV and the like; so is what follows a row
   behind # and a blank. Titles may stand in a comment.
 - Cells are parted by tabs, semicolons, commas or blanks: by the first of these that makes numbers
   of all cells of a line. That line is the first row; every later line must have as many cells.
-  Lines of words below the last row do not count, nor do columns of words, such as dates.
+  Lines of words below the last row do not count, nor do titles that come again, heads of pages,
+  and columns of words, such as dates.
 - The decimal sign is the point or, where commas do not part the cells, the comma; not both.
   Thousands are parted (1.234,5 or 1,234.5) only where tabs or semicolons part the cells.
 - Empty cells and the words of `MISSING` are missing values.
@@ -121,6 +122,7 @@ _BINARY = {
 }
 _LINE_END = re.compile(r"\r*\n|\r")
 MOST_LINES = 10**6
+_MANY = 10**5  # rows from which on a table is known by its first and last ones
 _ENOUGH_CELLS = 2000  # numbers of a column that show the decimals of all
 _TITLE_SEPARATORS = (r"\t", r";", r",", r"\s{2,}", r"\s+")
 _CUT = re.compile(r"\s*[\[(]\s*([^\[\]()]+?)\s*[\])]|[\s/_,]+(?=(.+))")
@@ -385,10 +387,10 @@ def table_in(
         raise FileError(f"{path}: expected {expected}; got 0 in an empty file")
     first, separator = _first_row(path, lines, expected)
     with suppress(ValueError):  # the rules below say what is wrong with a cell, or allow it
-        plain = read_once(
-            ("rows", path, first, len(lines)),
-            lambda: PlainRows([line for _, line in lines[first:]], separator),
-        )
+        texts = [line for _, line in lines[first:]]
+        # a file may hold many tables of as many rows, but only one of very many
+        table = tuple(texts) if len(texts) < _MANY else (len(texts), *texts[:2], texts[-1])
+        plain = read_once(("rows", path, table), lambda: PlainRows(texts, separator))
         numbers = [number for number, _ in lines[first:]]
         above, count = [line for _, line in lines[:first]], plain.values.shape[1]
         _check_faults(path, lines[:first], separator, range(count, count + 1))
@@ -497,15 +499,17 @@ def _wide(raw: bytes) -> str:
     return ""
 
 
-_START = 2**16  # bytes by which the lines of a file are counted
+_PART = 2**16  # bytes by which the lines of a file are counted
 
 
-def lines_by_start(path: Path) -> float:
-    """Return about how many lines a text has, by its size and its first ones; 0 of other files."""
+def lines_by_size(path: Path) -> float:
+    """Return about how many lines a text has, by its size and its middle; 0 of other files."""
     size = path.stat().st_size
     with path.open("rb") as file:
-        start = file.read(_START)
-    return start.count(b"\n") * size / len(start) if start and is_text(start) else 0.0
+        text = is_text(file.read(_PART))
+        file.seek(max(0, (size - _PART) // 2))  # numbers grow: first lines are shorter
+        part = file.read(_PART)
+    return part.count(b"\n") * size / len(part) if text and part else 0.0
 
 
 _BEYOND_ASCII = re.compile(rb"[\x80-\xff]+")

@@ -40,8 +40,8 @@ from .sensitivity.friction_sensitivity import FrictionSensitivity as FrictionSen
 from .sensitivity.question import Sensitivity as Sensitivity
 from .slip.question import SlipCurve as SlipCurve
 from .uncertainty.profile_blocks import ProfileBlocks as ProfileBlocks
-from .uncertainty.propagation import Uncertainty as Uncertainty
 from .uncertainty.sampled_inputs import Range as Range
+from .uncertainty.sampling import Uncertainty as Uncertainty
 from .uncertainty.series_scatter import SeriesScatter as SeriesScatter
 from .uncertainty.variance_shares import Shares as Shares
 from .uncertainty.variance_shares import shares as shares

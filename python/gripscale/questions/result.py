@@ -4,8 +4,8 @@
     result.save("answer.nc")
     gs.load("answer.nc").page("answer.html")
 
-A file knows its question by the attribute `kind`, from which `gripscale.questions.stored` finds its
-class.
+A file knows its question by the attribute `kind`, from which
+`gripscale.questions.page_of_folder` finds its class.
 """
 
 from __future__ import annotations
@@ -32,8 +32,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from gripscale.charts.draw import Sheet
-    from gripscale.charts.page_elements import Picture
+    from gripscale.charts.draw import Picture, Sheet
     from gripscale.report.elements import Card, Element, Page, Section
 
 NO_WIDTHS: Mapping[str, float] = MappingProxyType({})

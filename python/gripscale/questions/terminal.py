@@ -425,15 +425,15 @@ class CaseCommand:
         contents: str,
         *,
         text: str = "",
-        opening: Sequence[str | Table] = (),
         drawings: str = "figures",
+        page: Callable[[Path], Path] | None = None,
     ) -> None:
         """End the command with the result of its question: save, print and draw it.
 
         `contents` is what the folder holds beside the result, `text` the file of what is printed
         where it has another name, and `drawings` the folder of the figures.
         """
-        from gripscale.charts.figure_folder import FigureFolder
+        from gripscale.charts.draw import FigureFolder
         from gripscale.io.folders import make_folder
 
         target = self.target
@@ -450,8 +450,8 @@ class CaseCommand:
             list(result.parts()),
             text=text or self._text,
             closing=f"Result ({result.file}), {contents} are in",
-            opening=opening,
             draw=draw,
+            page=page,
         )
 
     def conclude(

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from gripscale.charts.page_elements import Chart, Image
+from gripscale.charts.draw import Chart, Image
 from gripscale.core.finding import Finding, Severity, ranked
 from gripscale.io import table
 from gripscale.io.table import Column, Table, on_page, significant

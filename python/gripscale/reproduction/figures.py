@@ -12,7 +12,7 @@ import xarray as xr
 
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, wavelength_axis
 from gripscale.charts.draw import Sheet
-from gripscale.charts.style import COLOURS, GREY, INK, NARROW, ORANGE, WIDE, colours
+from gripscale.charts.style import COLOURS, GREY, INK, ORANGE, WIDE, colours
 from gripscale.core import InputError
 from gripscale.core.units import MEGA, MILLI, SQUARE_MM
 from gripscale.experiment import Task
@@ -46,7 +46,6 @@ _STORAGE = PlotAxis("storage modulus $E'$ [MPa]", log=True)
 _LOSS = PlotAxis("loss modulus $E''$ [MPa]", log=True)
 _AREA = PlotAxis("relative contact area $A_r/A_0$ [-]", log=True)
 _FRICTION = PlotAxis("friction of each wave $\\mu_i$ [-]", low=0.0)
-_VARIABLES = {_AREA.label: "running_contact_fraction", _FRICTION.label: "friction"}
 _MARKERS = "osD^vP*"
 _SLOWEST = 1e-2  # no wave excites the rubber slower than this [rad/s]
 STATIC = "static"
@@ -100,24 +99,21 @@ def draw(figure: str, inputs: PaperInputs, results: Results) -> Sheet:
     panels = of_inputs[figure](inputs) if figure in of_inputs else list(_predicted(figure, results))
     several, columns = len(panels) > 1, 3 if len(panels) == 3 else min(len(panels), 2)
     rows = -(-len(panels) // columns)
-    alike = len({tuple(_labels(panel)) for panel in panels}) == 1
+    labels = [[m.label for m in panel.marks if isinstance(m, Series)] for panel in panels]
+    alike = all(names == labels[0] for names in labels)
     for i, panel in enumerate(panels):
         title = textwrap.fill(panel.title, 40) if several else ""
         panels[i] = replace(panel, title=title, legend="" if alike else panel.legend or "best")
     return Sheet(
         panels,
         columns,
-        (WIDE * (1.3 if columns == 3 else 1.0)) if several else NARROW,
+        WIDE * {1: 0.75, 2: 1.0, 3: 1.3}[columns],
         height=3.7 if rows == 1 else 2.8 * rows,
         legend="below" if alike else "",
         legend_columns=6 if several else 3,
-        title=textwrap.fill(title_of(figure, inputs), 100 if several else 64),
+        title=textwrap.fill(title_of(figure, inputs), 100 if several else 78),
         layout={"sharey": panels[0].y is _CORRELATION},
     )
-
-
-def _labels(panel: Panel) -> Iterator[str]:
-    return (mark.label for mark in panel.marks if isinstance(mark, Series) and mark.label)
 
 
 def _moduli(inputs: PaperInputs) -> list[Panel]:
@@ -141,8 +137,12 @@ def _moduli(inputs: PaperInputs) -> list[Panel]:
     return [Panel(OMEGA, _STORAGE, marks["real"]), Panel(OMEGA, _LOSS, marks["imag"])]
 
 
+def _points(curve: HeightDifference, **look: Any) -> Series:
+    return Series(curve.lag / MILLI, curve.value / SQUARE_MM, **look)
+
+
 def _correlation(road: str, curve: HeightDifference, *more: Mark) -> Panel:
-    points = Series(curve.lag / MILLI, curve.value / SQUARE_MM, INK, "surface", "", marker=".")
+    points = _points(curve, colour=INK, label="surface", dash="", marker=".")
     return Panel(_LAG, _CORRELATION, [points, *more], road, legend="lower right")
 
 
@@ -179,10 +179,9 @@ def single_factor(inputs: PaperInputs, road: str) -> tuple[SineStack, SineStack]
 
 
 def _waves(inputs: PaperInputs) -> list[Panel]:
-    """Return C_z of surfaces and of waves with several factors.
+    """Return C_z of surfaces and of waves; legends name s_lambda/s_A and the residual.
 
     Waves are drawn up to a quarter of the first wavelength, where its share in the fit ends.
-    Legends name the factors s_lambda/s_A and the residual in decades.
     """
     panels = []
     for road, pairs in inputs.stacks.items():
@@ -200,11 +199,10 @@ def _waves(inputs: PaperInputs) -> list[Panel]:
 
 
 def _both_correlations(inputs: PaperInputs) -> list[Panel]:
-    marks = []
-    for road, colour, marker in zip(inputs.surfaces, COLOURS, _MARKERS, strict=False):
-        curve = inputs.correlation(road)
-        x, y = curve.lag / MILLI, curve.value / SQUARE_MM
-        marks.append(Series(x, y, colour, road, marker=marker, size=3.5))
+    marks = [
+        _points(inputs.correlation(road), colour=colour, label=road, marker=marker, size=3.0)
+        for road, colour, marker in zip(inputs.surfaces, COLOURS, _MARKERS, strict=False)
+    ]
     return [Panel(_LAG, _CORRELATION, marks)]
 
 
@@ -215,12 +213,14 @@ def _predicted(figure: str, results: Results) -> Iterator[Panel]:
     for name, lines in results.items():
         x = wavelength_axis(np.concatenate([data.wavelength / MILLI for data in lines.values()]))
         for axis in axes:
-            what = "friction, " if axis is _FRICTION else "contact area, "
-            marks = list(_lines(lines, axis, ordered=figure in ("fig6a", "fig8b")))
-            yield Panel(x, axis, marks, f"{what if len(axes) > 1 else ''}{name}")
+            rubs = axis is _FRICTION
+            variable = "friction" if rubs else "running_contact_fraction"
+            title = f"{'friction' if rubs else 'contact area'}, {name}" if axes[1:] else name
+            marks = list(_lines(lines, variable, ordered=figure in ("fig6a", "fig8b")))
+            yield Panel(x, axis, marks, title)
 
 
-def _lines(lines: Lines, axis: PlotAxis, *, ordered: bool) -> Iterator[Series]:
+def _lines(lines: Lines, variable: str, *, ordered: bool) -> Iterator[Series]:
     """Yield predictions; those `ordered`, such as by speed, are to be seen in their colours."""
     shades = colours(sum(name != STATIC for name in lines), ordered=ordered)
     moving = iter(zip(shades, _MARKERS, strict=False))
@@ -229,7 +229,7 @@ def _lines(lines: Lines, axis: PlotAxis, *, ordered: bool) -> Iterator[Series]:
         dash = "dashed" if name == STATIC else "solid"
         whole = data.prediction_status.item() == "converged"
         label = name if whole else f"{name}, next wave not solved"
-        x, y = data.wavelength / MILLI, data[_VARIABLES[axis.label]]
+        x, y = data.wavelength / MILLI, data[variable]
         yield Series(x.values, y.values, colour, label, dash, marker=marker, size=4.0)
 
 

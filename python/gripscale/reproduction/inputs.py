@@ -38,7 +38,6 @@ SPEEDS = (0.003, 0.03, SPEED, FAST, FASTEST)  # [m/s]
 FactorPair = tuple[float, float | None]
 # Those of the paper, the best fit to its asphalt first.
 PAPER_FACTORS = ((3.5, 2.4), (3.0, 2.2), (6.0, 3.0))
-FEWEST_PAIRS = 3  # the worst fit is compared with the others
 
 COARSE, DENSE = "measured coarse road", "synthetic dense asphalt"
 FILLED_TREAD, SBR = "filled tread", "unfilled SBR"
@@ -48,16 +47,12 @@ R20, R60 = "R20, 0 °C", "R60, 0 °C"
 
 @dataclass(frozen=True)
 class PaperInputs:
-    """Surfaces and compounds by name."""
+    """Two surfaces, compounds and magnification factors; the first are those of most figures."""
 
     surfaces: dict[str, Surface]
-    """Two; the first is that of all figures with a single surface."""
-    compounds: dict[str, MeasuredRubber]
-    """At the temperature of the contact, with the master curve they were fitted to."""
-    pairs: tuple[tuple[str, str], ...]
-    """Compounds that Fig. 9a compares; the first of all is that of figures with a single one."""
-    factors: Mapping[str, Sequence[FactorPair]]
-    """Magnification factors by surface."""
+    compounds: dict[str, MeasuredRubber]  # at the temperature of the contact
+    pairs: tuple[tuple[str, str], ...]  # compounds that Fig. 9a compares
+    factors: Mapping[str, Sequence[FactorPair]]  # by surface
 
     @property
     def surface(self) -> str:
@@ -121,24 +116,14 @@ def read_inputs(
 ) -> PaperInputs:
     """Read and fit the inputs of the reproduction.
 
+    `surfaces` and `rubbers`, two each, go in place of the default ones: files, cases or names that
+    are known; `surface_keys` and `rubber_keys` of a case are for files of profiles and of moduli.
+    `temperature` is that of these rubbers [K], by default that of the case or the file.
     Raises `FileError` if a file cannot be read, `InputError` if an input cannot be used.
-
-    Parameters
-    ----------
-    surfaces, rubbers
-        Two of each in place of the default ones: files, cases or names that are known.
-    factors
-        Three pairs of magnification factors or more.
-    surface_keys, rubber_keys
-        Keys of [surface] and [rubber] of a case, for files of profiles and of moduli.
-    temperature
-        Of these rubbers [K]; by default that of the case or the file.
     """
-    if 0 < len(factors) < FEWEST_PAIRS:
-        raise InputError(
-            f"--factors must be {FEWEST_PAIRS} pairs or more, the worst fit of which is compared "
-            f"with the others; got {len(factors)}"
-        )
+    if 0 < len(factors) < len(PAPER_FACTORS):
+        words = "pairs or more, the worst fit of which is compared with the others; got"
+        raise InputError(f"--factors must be {len(PAPER_FACTORS)} {words} {len(factors)}")
     roads = {
         name: _surface(file, surface_keys or {})
         for name, file in zip(names_of(surfaces), surfaces, strict=True)

@@ -37,10 +37,8 @@ _TWO_FACTORS_RESIDUAL, _ONE_FACTOR_RATIO = 0.1, 1.5
 _SAME_AREA = 0.25
 _MICRO = 0.5e-3  # macrotexture ends here [m]
 _LESS = 0.05
-_ALIKE = 0.2
-_AGAIN = 0.5
-_LOSSIER = 0.1
-_SCATTER = 0.1
+_ALIKE, _AGAIN = 0.2, 0.5
+_LOSSIER, _SCATTER = 0.1, 0.1
 _FULL = "in full contact the loss no longer grows with pressure, and friction falls as one over it"
 
 
@@ -122,9 +120,8 @@ def _order_of_pairs(evidence: Evidence) -> Iterator[Verdict]:
 
 def _at(evidence: Evidence, road: str) -> str:
     """Return where a chain for pairs of factors was solved: at rest, or sliding as in Fig. 5b."""
-    predictions = evidence.solved[road].values()
-    speed = max(float(prediction.nominal_speed) for prediction in predictions)
-    return f"{road}, {evidence.inputs.rubber}, {speed_name(speed)}"
+    first, *_ = evidence.solved[road].values()
+    return f"{road}, {evidence.inputs.rubber}, {speed_name(float(first.nominal_speed))}"
 
 
 def _same_way(evidence: Evidence) -> Iterator[Verdict]:
@@ -299,7 +296,8 @@ def _rises(evidence: Evidence) -> Iterator[Verdict]:
     for rubber, predictions in evidence.solved.items():
         lower, at_once = [], []
         for name, p in predictions.items():
-            peak, friction, fraction = _peak(p), p.friction.values, p.contact_fraction.values
+            friction, fraction = p.friction.values, p.contact_fraction.values
+            peak = int(friction.argmax())
             at_once += [f"at {name} the first wave has the most"] if peak == 0 else []
             lower += [
                 f"at {name} the wave of {float(p.wavelength[i]) * 1e3:.3g} mm has "
@@ -319,7 +317,7 @@ def _rises(evidence: Evidence) -> Iterator[Verdict]:
 
 def _sooner(evidence: Evidence) -> Iterator[Verdict]:
     for rubber, predictions in evidence.solved.items():
-        peaks = {name: _peak(prediction) for name, prediction in predictions.items()}
+        peaks = {name: int(p.friction.values.argmax()) for name, p in predictions.items()}
         wavelengths = {name: float(p.wavelength[peaks[name]]) for name, p in predictions.items()}
         inside = {name for name, p in predictions.items() if peaks[name] < p.sizes["scale"] - 1}
         ordered = all(later >= earlier for earlier, later in pairwise(wavelengths.values()))
@@ -439,11 +437,6 @@ def _more_if_steeper(evidence: Evidence) -> Iterator[Verdict]:
     number = f"friction of a wave {lead.min():.2f} to {lead.max():.2f} times as large; {sums}"
     why = f"mean amplitude/wavelength is {ratio[steep] / ratio[flat]:.2f} times as large"
     yield f"{steep} and {flat}, {evidence.inputs.rubber}, {state}", number, holds, why
-
-
-def _peak(prediction: xr.Dataset) -> int:
-    """Return the position of the largest friction among the waves."""
-    return int(prediction.friction.values.argmax())
 
 
 def _reached(prediction: xr.Dataset) -> bool:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.charts.figure_folder import FigureFolder
+from gripscale.charts.draw import FigureFolder
 from gripscale.core import checks
 from gripscale.core.provenance import software
 from gripscale.experiment import Bench, Progress, Store
@@ -88,11 +88,10 @@ def _unsolved(name: str, evidence: Evidence) -> list[Statement]:
     for panel, lines in evidence.solved.items():
         for line, prediction in lines.items():
             if prediction.sizes["scale"] < FEWEST_WAVES:
-                where = f"{panel}, {line}"
-                criterion = f"at least {FEWEST_WAVES} waves of every chain converge"
                 said = f"all statements about {title_of(name, evidence.inputs)}"
-                number = f"{where}: {prediction.prediction_status.item()}"
-                return [Statement(name, said, criterion, where, number, None, "")]
+                criterion = f"at least {FEWEST_WAVES} waves of every chain converge"
+                status = str(prediction.prediction_status.item())
+                return [Statement(name, said, criterion, f"{panel}, {line}", status, None, "")]
     return []
 
 

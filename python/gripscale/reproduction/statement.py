@@ -46,7 +46,7 @@ def verdict_table(statements: Sequence[Statement]) -> Table:
     for verdict in ("holds", "does not hold", "not judged"):
         counts = [sum(s.verdict == verdict for s in same) or None for _, same in rows]
         columns.append(Column(verdict, counts, format=whole_number))
-    return Table("statements", columns)
+    return Table("statements", columns, notes=[f"{number_holding(statements)}."])
 
 
 def write_statements(statements: Sequence[Statement], folder: Path) -> None:

@@ -7,6 +7,12 @@ those of the table before. Of several tables those without frequency and modulus
 that condition the sample. RepTate's files begin with a line of parameters such as T=-35;Mw=13.5;
 where T is in degrees Celsius; their columns are angular frequency [rad/s], G' and G'' [Pa] unless
 they have other titles, and the constants of the shift stand among the parameters of a .tts file.
+
+Compliances J', J'' of shear or D', D'' of tension become moduli by
+
+    G' = J'/(J'^2 + J''^2),   G'' = J''/(J'^2 + J''^2)
+
+as G* = 1/J* with J* = J' - i J'' (J. D. Ferry, Viscoelastic Properties of Polymers (1980), ch. 1).
 """
 
 from __future__ import annotations
@@ -17,16 +23,50 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from gripscale.core import CaseKey, FileError, InputError, Words, unstated
 from gripscale.core.units import ZERO_CELSIUS, listed, quantity_in_si, spelled
 from gripscale.io import text_table
 from gripscale.io.cells import Line, is_row, parse_number
 from gripscale.io.text_table import ColumnTitle, TextTable
 from gripscale.rubber import columns
-from gripscale.rubber.columns import FileLayout, quantity, stated_in
-from gripscale.rubber.compliances import with_moduli
+from gripscale.rubber.columns import PRIMES, FileLayout, quantity, stated_in
 from gripscale.rubber.shift import WLF
 from gripscale.rubber.side_by_side import split_blocks
+
+_PAIR = re.compile(r"([JD])'(?!')"), re.compile(r"([JD])''")
+
+
+def with_moduli(table: TextTable) -> TextTable:
+    """Return a table with moduli [Pa] in place of compliances, or as it is without both of them.
+
+    Raises `FileError` if a title does not state the unit.
+    """
+    names = [name.translate(PRIMES) for name in table.names]
+    hits = [[at for at, name in enumerate(names) if part.match(name)] for part in _PAIR]
+    if any(len(columns) != 1 for columns in hits):
+        return table
+    parts = []
+    for (at,) in hits:
+        unit = spelled(table.columns[at].unit, "compliance")
+        if unit is None:
+            units = listed("compliance")
+            raise FileError(
+                f"{table.path}: expected {names[at]} in {units}; got {table.columns[at].unit}"
+            )
+        compliance = table.numbers(at, "a compliance", missing=True)
+        parts.append(quantity_in_si(compliance, unit, "compliance"))
+    letter = "G" if names[hits[0][0]].startswith("J") else "E"
+    rows, columns = [[*row] for row in table.rows], [*table.columns]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        moduli = [part / (parts[0] ** 2 + parts[1] ** 2) for part in parts]
+    for (at,), values, primes in zip(hits, moduli, ("'", "''"), strict=True):
+        columns[at] = ColumnTitle(f"{letter}{primes}", "Pa")
+        for row, value in zip(rows, values, strict=True):
+            row[at] = repr(float(value)).replace(".", table.decimal)
+    return replace(table, columns=columns, rows=rows)
+
 
 _ROWS = "rows of frequency, storage and loss"
 KINDS = ("temperature", "frequency", "modulus", "compliance", "strain", "angle")

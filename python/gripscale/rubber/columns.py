@@ -62,7 +62,8 @@ _TITLES = {
         r"|.*verlustmodul|.*viscous component"
         r"|.*stratno|.*verliesmod|.*f[öo]rlustmod|.*потерь|손실"
         r"|m[oó]dul[eo] .*(perte|p[eé]rdi|perda|dissipa|visqueux|viscos)|损耗模量|損失.*率",
-        "strain": r".*strain\b|.*dehnung|.*verformung|.*d[eé]formation|gamma\b|.*scherung|应变",
+        "strain": r".*strain\b|.*dehn(ung|\.|\b)|[ds]sa\b"
+        r"|.*verformung|.*d[eé]formation|gamma\b|.*scherung|应变",
     }.items()
 }
 _KINDS = {
@@ -78,7 +79,7 @@ _SHIFTED = re.compile(r"^a_?T[\s·*.×]*(?=[fωwo])")
 # A symbol before what it stands for: f = storage over its small-strain value.
 _SYMBOL = re.compile(r"^\w{1,2}'*\s*=\s*(?=[A-Za-z])")
 _OTHER = re.compile(
-    r"log|spatial|spectr"
+    r"log|spatial|spectr|stat\b"
     r"|ln\b|lg\b|eta\b|η|visco(?!us comp)|visko|complian|torque|phase|rate\b|static|statisch"
 )
 _COMPLIANCE = re.compile(r"[JD]['’′″\"]|[JD]\(t|.*(complian|nachgieb)", re.IGNORECASE)
@@ -86,7 +87,9 @@ _RELAXATION = re.compile(r"[EG]\s*\(t|.*relax\w* ?mod", re.IGNORECASE)
 _ANGULAR = re.compile(r"omega|ω|angular|kreis|pulsation|角|ang\.? ?freq", re.IGNORECASE)
 # A frequency in words that mean either kind: 1/s of an angular one is rad/s.
 _PER_SECOND = re.compile(r"(1/s(ec)?|s\^?-1|s⁻¹)", re.IGNORECASE)
-_PHASE = re.compile(r"delta|δ|(phase|loss)[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE)
+_PHASE = re.compile(
+    r"delta|δ|phase([ _-]?angle)?|loss[ _-]?angle|(phasen|verlust)winkel", re.IGNORECASE
+)
 # Letters that are a title by themselves: t is a time and F a force.
 _LETTERS = {"T": "temperature", "f": "frequency", "ω": "frequency", "w": "frequency", "γ": "strain"}
 _BAREPRIMES = re.compile(r'(?<!["\w])[EG]"(?=\s*(?:[\t;,(\[/]|\s|$))')

@@ -1,4 +1,4 @@
-"""Finite strain of a material point: its stress, measured tests, and a rubber fitted to them.
+"""Stress of a material point at finite strain.
 
 The permanent network has the strain energy W; each Maxwell element is a temporary network:
 
@@ -15,82 +15,15 @@ Uniaxial stretch s:  P = dW/ds + sum_i G_i (s A_11 - s^-2 A_22),   Y_11 = s^-2, 
 Simple shear g:      T = dW/dg + sum_i G_i (g + A_12),             Y_12 = -g,  Y_22 = A_22 = 1.
 
 In simple shear the temporary networks are linear at any amplitude: T is then that of small strain.
-On given relaxation times the nominal stress is linear in the moduli,
-
-    P(t) = sum_k c_k P_k(s) + sum_i G_i (s A_i,11 - s^-2 A_i,22)
-
-(P_k and c_k are the strain energy's: `StrainEnergy.basis`), so that the least squares of P over
-the peak stress of each test, each test counting alike, is a convex problem with bounds and one
-minimum: no start values, no local minima. Bounded-variable least squares: P. B. Stark & R. L.
-Parker, Comput. Stat. 10 (1995) 129.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from pathlib import Path
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import Array, Checked, FileError, InputError, Vector, checked, checks
-from gripscale.core.units import quantity_in_si
-from gripscale.io.text_table import file_path, read_sheets
+from gripscale.core import Array, checks
 from gripscale.rubber.material import Rubber
-from gripscale.rubber.strain_energy import STRAIN_ENERGIES
-
-
-class UniaxialTest(Checked, eq=False):
-    """A history of stretch with its nominal stress; `InputError` for values out of range."""
-
-    name: str = checked(checks.text)
-    """What the test is called in messages and figures."""
-    time: Vector = checked(checks.vector, unit="s", repr=False)
-    """Rising [s], shape (samples,), at least two samples."""
-    stretch: Vector = checked(checks.positive_vector, repr=False)
-    """Deformed over undeformed length [-], shape (samples,), above zero; 1 at rest, at first."""
-    stress: Vector = checked(checks.vector, unit="Pa", repr=False)
-    """Nominal stress [Pa], shape (samples,), somewhere above zero."""
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        name = self.name
-        checks.same_length(2, time=self.time, stretch=self.stretch, stress=self.stress)
-        falls = np.diff(self.time, prepend=-np.inf) <= 0.0
-        checks.refuse_entries(self.time, falls, f"{name}: time must rise [s]")
-        if self.peak <= 0.0:
-            raise InputError(f"{name}: stress must be above zero [Pa] somewhere")
-
-    @property
-    def peak(self) -> float:
-        """Largest nominal stress [Pa]."""
-        return float(self.stress.max())
-
-    @property
-    def duration(self) -> float:
-        """From the first sample to the last [s]."""
-        return float(self.time[-1] - self.time[0])
-
-
-def read_uniaxial_test(path: str | Path, *, stress_unit: str = "Pa") -> UniaxialTest:
-    """Read a test from the first sheet of an Excel file: time [s], stretch [-], nominal stress.
-
-    These are the first three columns, with numbers in every row and no header; `stress_unit` is the
-    unit of the third, such as kPa. Raises `FileError` if openpyxl is missing (`pip install
-    'gripscale[export]'`) or the file is not as expected, `InputError` if the unit is unknown.
-    """
-    pascal = quantity_in_si(1.0, stress_unit, "modulus", "stress_unit")
-    path = file_path(path)
-    rows = next(iter(read_sheets(path).values()))
-    try:
-        if any(len(row) < 3 for row in rows):
-            raise InputError("a row has fewer than three cells")
-        table = np.array([row[:3] for row in rows], dtype=float).reshape(len(rows), 3)
-        return UniaxialTest(path.stem, table[:, 0], table[:, 1], table[:, 2] * pascal)
-    except (TypeError, ValueError) as error:
-        raise FileError(f"{path}: expected rows of time, stretch, stress ({error})") from error
-
 
 # Below this x = dt/tau the weights are taken from their power series (next term below 1e-14).
 _SMALL_STEP = 1e-3
@@ -175,109 +108,3 @@ def _times(time: ArrayLike, driven: Array, name: str) -> Array:
     falls = np.diff(elapsed, prepend=-np.inf) < 0.0
     checks.refuse_entries(elapsed, falls, "time must not fall [s]")
     return elapsed
-
-
-# The fitted G_inf is at least this share of the smallest peak stress: a rubber must have one.
-_LEAST_EQUILIBRIUM = 1e-3
-_FASTEST = 0.01  # shortest fitted relaxation time, as a share of the shortest test
-
-
-@dataclass(frozen=True)
-class FiniteStrainFit:
-    """The rubber found, and how well it carries each test."""
-
-    rubber: Rubber
-    """Elements whose fitted modulus is zero are left out."""
-    tests: tuple[UniaxialTest, ...]
-    """What it was fitted to."""
-
-    @property
-    def rms_errors(self) -> Array:
-        """Root mean square error of the stress over the peak stress [-], shape (tests,)."""
-        return np.array([rms_error(self.rubber, test) for test in self.tests])
-
-    @property
-    def work_errors(self) -> Array:
-        """Predicted over measured work lost in the loop, less one [-], shape (tests,)."""
-        return np.array([work_error(self.rubber, test) for test in self.tests])
-
-
-def rms_error(rubber: Rubber, test: UniaxialTest) -> float:
-    """Return the root mean square error of the predicted stress over the measured peak [-].
-
-    Of all samples of the test, each counting alike. Raises `InputError` if `test` is no
-    `UniaxialTest` or `rubber` no `Rubber`.
-    """
-    checks.instance("test", test, UniaxialTest)
-    error = uniaxial_stress(rubber, test.time, test.stretch) - test.stress
-    return float(np.sqrt(np.mean(error**2)) / test.peak)
-
-
-def work_error(rubber: Rubber, test: UniaxialTest) -> float:
-    """Return the predicted over the measured work int P ds of the test, less one [-].
-
-    For a loop that ends free of stress this is the work lost, as heat or in networks still
-    stretched. Trapezoidal rule on the samples, the same for both.
-    """
-    from scipy.integrate import trapezoid
-
-    checks.instance("test", test, UniaxialTest)
-    predicted = uniaxial_stress(rubber, test.time, test.stretch)
-    return float(trapezoid(predicted, test.stretch) / trapezoid(test.stress, test.stretch)) - 1
-
-
-def fit_finite_strain(
-    tests: Sequence[UniaxialTest],
-    *,
-    energy: str = "neo_hookean",
-    terms: int = 6,
-    band: tuple[float, float] | None = None,
-) -> FiniteStrainFit:
-    """Fit one rubber to all `tests` together.
-
-    Raises `InputError` if there is no test, or an argument is out of range.
-
-    Parameters
-    ----------
-    tests : sequence of UniaxialTest
-        At least one. Each counts by its error relative to its own peak stress.
-    energy : str
-        Kind of strain energy of the permanent network, one of `STRAIN_ENERGIES`.
-    terms : int
-        Number of temporary networks, 1 to 40, their relaxation times log-spaced over `band`.
-    band : tuple of two floats, optional
-        Shortest and longest relaxation time [s]. Default: a hundredth of the shortest test to the
-        longest test. Beyond the longest test nothing tells a slow network from a permanent one.
-    """
-    tests = checks.instances("tests", tests, UniaxialTest)
-    law = STRAIN_ENERGIES[checks.one_of("energy", energy, STRAIN_ENERGIES)]
-    terms = checks.whole("terms", terms, least=1, most=40)
-    if band is None:
-        durations = [test.duration for test in tests]
-        band = _FASTEST * min(durations), max(durations)
-    low, high = checks.interval("band", band, unit="s")
-    times = np.geomspace(low, high, terms) if terms > 1 else np.array([np.sqrt(low * high)])
-    # Nominal stress per unit of each coefficient; the squares of a test sum to its rms_error^2.
-    columns, measured = [], []
-    for test in tests:
-        stretch, weight = test.stretch, 1.0 / (test.peak * np.sqrt(len(test.time)))
-        networks = uniaxial_network_stresses(times, test.time, stretch)
-        permanent = [(stretch - stretch**-2) * factor for factor in law.basis(stretch)]
-        columns.append(np.column_stack([*permanent, networks]) * weight)
-        measured.append(test.stress * weight)
-    matrix = np.vstack(columns)
-    lower = np.zeros(matrix.shape[1])
-    lower[: len(law.least_coefficients)] = law.least_coefficients
-    lower[0] = _LEAST_EQUILIBRIUM * min(test.peak for test in tests)
-    from scipy.optimize import lsq_linear
-
-    scale = np.linalg.norm(matrix, axis=0)
-    bounds = (lower * scale, np.full(len(scale), np.inf))
-    fit = lsq_linear(matrix / scale, np.concatenate(measured), bounds, method="bvls", tol=1e-14)
-    coefficients = np.asarray(fit.x / scale, dtype=float)
-    count = len(coefficients) - len(times)
-    shear, strain_energy = law.from_coefficients(coefficients[:count].tolist())
-    moduli = coefficients[count:]
-    used = moduli > 1e-9 * (shear + moduli.sum())
-    rubber = Rubber(3.0 * shear, 3.0 * moduli[used], times[used], strain_energy=strain_energy)
-    return FiniteStrainFit(rubber, tuple(tests))

@@ -184,8 +184,9 @@ def read_master_curve(
             "with the temperature of each row, or write one file for each temperature, with the "
             "temperature in its name, such as sweep_-20C.csv"
         )
-    above = _temperature_of_rows(table, layout) if above is None else above
-    above = blocks[0].reference if above is None else above
+    if above is None and (reference_temperature is None or layout.titles_first):
+        above = _temperature_of_rows(table, layout)
+        above = blocks[0].reference if above is None else above
     if reference_temperature is None or (layout.titles_first and above is not None):
         reference_temperature = above
     name = file.stem if name is None else name
@@ -198,8 +199,8 @@ def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:
     """Return the temperature of a column in which all rows have the same [K], or None."""
     column = layout.column(table, "temperature")
     unit = None if column is None else columns.unit_in(table.columns[column], "temperature")
-    stated = None if column is None else table.columns[column].unit
-    if column is not None and stated and not any(spelled(stated, kind) for kind in UNITS):
+    word = None if column is None else table.columns[column].unit
+    if column is not None and word and not any(spelled(word, kind) for kind in UNITS):
         layout.unit(table, column, "temperature")  # refuses a unit that is not known
     unit = layout.temperature_unit or unit
     if column is None or unit is None:

@@ -62,7 +62,7 @@ _FEWEST_FOR_SLOPE = 5
 
 
 @dataclass(frozen=True)
-class Spectrum:
+class MaxwellSpectrum:
     """Moduli [Pa] on relaxation times [s]: E_inf, E_i and tau_i."""
 
     equilibrium: float
@@ -133,10 +133,10 @@ class Equations:
         error = self.matrix @ solution - self.right
         return float(error @ error)
 
-    def spectrum(self, solution: Array) -> Spectrum:
+    def spectrum(self, solution: Array) -> MaxwellSpectrum:
         """Return the moduli a solution stands for."""
         equilibrium = self.floor + self.unit * float(solution[0])
-        return Spectrum(equilibrium, solution[1:-1] * self.scale, self.times)
+        return MaxwellSpectrum(equilibrium, solution[1:-1] * self.scale, self.times)
 
 
 def relaxation_times(omega: Array, terms: int, beyond: float) -> Array:
@@ -150,7 +150,7 @@ def relaxation_times(omega: Array, terms: int, beyond: float) -> Array:
     return np.asarray(10.0 ** np.concatenate([low - outside[::-1], inside, high + outside]))
 
 
-def fit_spectrum(curve: Curve, times: Array, prior: Prior) -> Spectrum:
+def fit_spectrum(curve: Curve, times: Array, prior: Prior) -> MaxwellSpectrum:
     """Return the best non-negative moduli on the given `times` [s]."""
     problem = fit_equations(curve, times, prior)
     return problem.spectrum(non_negative(problem.matrix, problem.right))
@@ -175,7 +175,7 @@ class FitProblem:
 
 
 def with_series(
-    rubber: Rubber, spectrum: Spectrum, admissible: AdmissibleSeries | None = None
+    rubber: Rubber, spectrum: MaxwellSpectrum, admissible: AdmissibleSeries | None = None
 ) -> Rubber:
     """Return `rubber` with another series and what else fits, without elements of no weight."""
     present = spectrum.moduli > 1e-9 * spectrum.moduli.sum()
@@ -268,7 +268,7 @@ def _sharp(curve: Curve) -> int:
 
 
 def choose_terms(
-    curve: Curve, fit: Callable[[Curve, int], Spectrum]
+    curve: Curve, fit: Callable[[Curve, int], MaxwellSpectrum]
 ) -> tuple[int, tuple[Candidate, ...]]:
     """Return the number of terms and all candidates, from a `fit` to rows with so many terms."""
     decades = float(np.log10(curve.omega.max() / curve.omega.min()))
@@ -301,7 +301,7 @@ def choose_terms(
     return min(good, default=best.terms), tuple(candidates)
 
 
-def _squares(spectrum: Spectrum, curve: Curve) -> Array:
+def _squares(spectrum: MaxwellSpectrum, curve: Curve) -> Array:
     """Return the mean square relative error of both moduli of each row."""
     storage, loss = spectrum.ratios(curve)
     return np.asarray(0.5 * (storage - 1.0) ** 2 + 0.5 * (loss - 1.0) ** 2)

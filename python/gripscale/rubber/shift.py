@@ -22,8 +22,9 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields, replace
+from functools import cached_property, partial
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -334,17 +335,20 @@ class ShiftTable(Shift, eq=False):
         return self
 
     def _log_a(self, temperature: Array) -> Array:
-        return self._between(self.horizontal, temperature)
+        return np.asarray(self._curves[0](temperature))
 
     def _log_b(self, temperature: Array) -> Array:
-        return self._between(self.vertical, temperature)
+        return np.asarray(self._curves[1](temperature))
 
-    def _between(self, values: Array, temperature: Array) -> Array:
+    @cached_property
+    def _curves(self) -> list[Callable[[Array], Array]]:
+        """log10 a_T and log10 b_T by temperature."""
+        both = self.horizontal, self.vertical
         if len(self) == 1:
-            return np.full(temperature.shape, values[0])
+            return [partial(np.full_like, fill_value=values[0]) for values in both]
         from scipy.interpolate import PchipInterpolator
 
-        return np.asarray(PchipInterpolator(self.temperature, values)(temperature))
+        return [PchipInterpolator(self.temperature, values) for values in both]
 
 
 SHIFTS: dict[str, type[Shift]] = {

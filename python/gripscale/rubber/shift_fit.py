@@ -210,8 +210,8 @@ def write_shift_table(path: str | Path, table: ShiftTable) -> Path:
 def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -> ShiftTable:
     """Read a shift table from CSV or text, such as `write_shift_table` writes.
 
-    Titles that say temperature and log a (log10 a_T, log_aT, log aT) or a (a_T) name the columns;
-    b, log b and errors are read where they are, and a reference temperature from a comment.
+    Titles that say temperature and log a (log10 a_T, log aT, ln(aT)) or a (a_T, shift factor) name
+    the columns; b, log b and errors are read where they are, and a reference from a comment.
     `temperature_unit` is K, C or F, if the header does not state it. Raises `FileError` if the file
     cannot be read or has no such columns, `InputError` if the unit of the temperatures is neither
     stated nor given, or the numbers are no table.
@@ -221,10 +221,13 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
         file,
         "rows of temperature and a_T or log10 a_T",
         kinds=("temperature",),
-        named=lambda name: _meaning(name) is not None,
+        named=lambda name: name in ("log10", "log", "ln") or _meaning(name) is not None,
     )
-    titles = {_meaning(name): at for at, name in enumerate(table.names)}
-    if "temperature" not in titles or not {"a", "log_a"} & titles.keys():
+    titles = {
+        _meaning(title.name) or _meaning(f"{title.name} {title.unit}"): at
+        for at, title in enumerate(table.columns)
+    }
+    if "temperature" not in titles or not {"a", "log_a", "ln_a"} & titles.keys():
         raise FileError(
             f"{file}: expected columns of temperature and a_T or log10 a_T; the header has "
             f"{', '.join(table.names) or 'no names'}"
@@ -233,6 +236,8 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
     layout = FileLayout(temperature_unit=temperature_unit)
     unit = layout.unit(table, titles["temperature"], "temperature")
     kelvin = quantity_in_si(columns["temperature"], unit, "temperature")
+    for name in {"ln_a", "ln_b"} & columns.keys():
+        columns.setdefault(f"log_{name[-1]}", columns[name] / math.log(10.0))
     for name in {"a", "b"} & columns.keys():
         if not (columns[name] > 0.0).all():
             least = np.nanmin(columns[name])
@@ -254,12 +259,14 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
 
 def _meaning(name: str) -> str | None:
     """Return which column of a shift table a title means."""
-    low = re.sub(r"[\s_]+", "", name.lower())
+    low = re.sub(r"[\s_()]+", "", name.lower())
+    low = re.sub(r"(horizontal)?shiftfactor$|verschiebungsfaktor$", "at", low)
     if low.startswith("t") and (low == "t" or low.startswith("temp")):
         return "temperature"
-    factor = next((f for f in "ab" if re.search(rf"(^|log(10)?|of|error){f}t?$", low)), None)
+    factor = next((f for f in "ab" if re.search(rf"(^|log(10)?|ln|of|error){f}t?$", low)), None)
     if factor is None:
         return None
     if "error" in low or "uncertainty" in low:
         return f"log_{factor}_error"
-    return f"log_{factor}" if "log" in low else factor
+    natural = re.search(rf"ln(of)?{factor}t?$", low)
+    return f"log_{factor}" if "log" in low else f"ln_{factor}" if natural else factor

@@ -12,50 +12,24 @@ temporary networks of the rubber stay neo-Hookean.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
 from dataclasses import fields
-from typing import ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import Array, Checked, InputError, checked, checks
+from gripscale.core import Array, Checked, checked, checks
 
 
 class StrainEnergy(Checked, ABC):
-    """A law of the permanent network; its dataclass fields are its parameters, all numbers.
-
-    A fit takes G times the law as linear in coefficients c_k [Pa]. Here they are G and G times each
-    parameter; a law for which that is not so replaces `basis` and `from_coefficients`.
-    """
+    """A law of the permanent network; its dataclass fields are its parameters, all numbers."""
 
     kind: ClassVar[str]
     """What case files, fits and the kernel call the law."""
 
-    least_coefficients: ClassVar[tuple[float, ...]]
-    """Lower bounds of c_k [Pa]; the first is raised to where a rubber begins."""
-
     @abstractmethod
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 and w2 [-] at I1 - 3 and I2 - 3, all of one shape."""
-
-    @classmethod
-    def basis(cls, stretch: Array) -> list[Array]:
-        """Return the uniaxial factor per unit of each c_k over G [-], each like `stretch` [-]."""
-        units = np.eye(len(fields(cls)) + 1)[:, 1:]
-        plain, *others = (cls._of(unit).uniaxial_factor(stretch) for unit in units)
-        return [plain, *(other - plain for other in others)]
-
-    @classmethod
-    def from_coefficients(cls, coefficients: Sequence[float]) -> tuple[float, Self]:
-        """Return G [Pa] and the law of coefficients c_k [Pa]."""
-        shear, *others = coefficients
-        return shear, cls._of(other / shear for other in others)
-
-    @classmethod
-    def _of(cls, values: Iterable[float]) -> Self:
-        names = (field.name for field in fields(cls))
-        return cls(**dict(zip(names, values, strict=True)))
 
     def parameters(self) -> dict[str, float]:
         """Return the parameters by name."""
@@ -81,7 +55,6 @@ class NeoHookean(StrainEnergy):
     """
 
     kind: ClassVar[str] = "neo_hookean"
-    least_coefficients: ClassVar[tuple[float, ...]] = (0.0,)
 
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 = 1 and w2 = 0."""
@@ -100,22 +73,10 @@ class MooneyRivlin(StrainEnergy):
     """Share s of the second invariant in the shear modulus, 0 to 1 [-]."""
 
     kind: ClassVar[str] = "mooney_rivlin"
-    least_coefficients: ClassVar[tuple[float, ...]] = (0.0, 0.0)
 
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 = 1 - s and w2 = s."""
         return np.full_like(first, 1.0 - self.share), np.full_like(second, self.share)
-
-    @classmethod
-    def basis(cls, stretch: Array) -> list[Array]:
-        """Return the factors of c = G (1 - s), G s."""
-        return [cls(share).uniaxial_factor(stretch) for share in (0.0, 1.0)]
-
-    @classmethod
-    def from_coefficients(cls, coefficients: Sequence[float]) -> tuple[float, MooneyRivlin]:
-        """Return G = c1 + c2 and the law of s = c2/G."""
-        shear = sum(coefficients)
-        return shear, cls(coefficients[1] / shear)
 
 
 class Yeoh(StrainEnergy):
@@ -131,7 +92,6 @@ class Yeoh(StrainEnergy):
     """Coefficient c3 of (I1 - 3)^3 over G/2 [-]."""
 
     kind: ClassVar[str] = "yeoh"
-    least_coefficients: ClassVar[tuple[float, ...]] = (0.0, -np.inf, 0.0)
 
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 = 1 + 2 c2 (I1 - 3) + 3 c3 (I1 - 3)^2 and w2 = 0 [-] at I1 - 3 and I2 - 3."""
@@ -152,24 +112,11 @@ class Isihara(StrainEnergy):
     """Coefficient c2 of (I1 - 3)^2 over G/2 [-]."""
 
     kind: ClassVar[str] = "isihara"
-    least_coefficients: ClassVar[tuple[float, ...]] = (0.0, 0.0, -np.inf)
 
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 = 1 - s + 2 c2 (I1 - 3) and w2 = s."""
         w1 = 1.0 - self.share + 2.0 * self.second * first
         return w1, np.full_like(second, self.share)
-
-    @classmethod
-    def basis(cls, stretch: Array) -> list[Array]:
-        """Return the factors of c = G (1 - s), G s, G c2."""
-        first, second = (cls(share, 0.0).uniaxial_factor(stretch) for share in (0.0, 1.0))
-        return [first, second, cls(0.0, 1.0).uniaxial_factor(stretch) - first]
-
-    @classmethod
-    def from_coefficients(cls, coefficients: Sequence[float]) -> tuple[float, Isihara]:
-        """Return G = c1 + c2 and the law of s = c2/G and c3/G."""
-        shear = coefficients[0] + coefficients[1]
-        return shear, cls(coefficients[1] / shear, coefficients[2] / shear)
 
 
 class KrausEnergy(StrainEnergy):
@@ -188,20 +135,12 @@ class KrausEnergy(StrainEnergy):
     """Shear strain a below which little softens: that of the measured moduli [-]."""
 
     kind: ClassVar[str] = "kraus"
-    least_coefficients: ClassVar[tuple[float, ...]] = ()
 
     def slopes(self, first: Array, second: Array) -> tuple[Array, Array]:
         """Return w1 at I1 - 3, and w2 = 0."""
         strains = (np.sqrt(i + self.measured_at**2) for i in (np.maximum(first, 0.0), 0.0))
         soft, rest = (self.ratio + (1.0 - self.ratio) / (1.0 + s / self.critical) for s in strains)
         return np.asarray(soft / rest), np.zeros_like(second)
-
-    @classmethod
-    def basis(cls, stretch: Array) -> list[Array]:
-        """Refuse a fit, by `InputError`."""
-        raise InputError(
-            "energy must be linear in its parameters to be fitted to uniaxial tests; got kraus"
-        )
 
 
 STRAIN_ENERGIES: dict[str, type[StrainEnergy]] = {

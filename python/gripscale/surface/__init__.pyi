@@ -2,7 +2,6 @@ from .cleaning import CleaningReport as CleaningReport
 from .cleaning import StepReport as StepReport
 from .cleaning import clean as clean
 from .cleaning import clean_map as clean_map
-from .cut_off import ContactSlope as ContactSlope
 from .cut_off import CutOffRule as CutOffRule
 from .cut_off import PowerLaw as PowerLaw
 from .cut_off import RmsSlope as RmsSlope
@@ -36,4 +35,4 @@ from .surface import Surface as Surface
 from .surface import SurfacePart as SurfacePart
 from .synthetic import self_affine_profile as self_affine_profile
 from .texture import texture as texture
-from .texture_levels import texture_levels as texture_levels
+from .texture import texture_levels as texture_levels

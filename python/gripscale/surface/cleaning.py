@@ -93,7 +93,6 @@ def clean(
     valid_range: tuple[float, float] | None = None,
     spikes: str | None = "isolated",
     spike_slope: float = 3.0,
-    across_gaps: bool = False,
     detrend: str = "linear",
     longest_wavelength: float | None = None,
 ) -> tuple[Profile, CleaningReport]:
@@ -118,8 +117,6 @@ def clean(
         `mark_steep_steps`; None keeps all.
     spike_slope : float, optional
         Height change per step at which a run stands off, or a step is steep.
-    across_gaps : bool, optional
-        Hold the points on both sides of a gap to the same slope as well, with "iso13473".
     detrend : {"linear", "mean", "none"}, optional
         Trend to subtract, fitted to the valid heights.
     longest_wavelength : float, optional
@@ -133,12 +130,8 @@ def clean(
     steps.append(partial(mark_dropouts, valid_range=valid_range))
     if spikes is not None:
         checks.one_of("spikes", spikes, SPIKE_RULES)
-        if spikes == "iso13473":
-            steps.append(partial(mark_steep_steps, slope=spike_slope, across_gaps=across_gaps))
-        else:
-            steps.append(partial(mark_spikes, slope=spike_slope))
-    if checks.flag("across_gaps", across_gaps) and spikes != "iso13473":
-        raise InputError(f'across_gaps belongs to spikes = "iso13473"; got {spikes!r}')
+        rule = mark_steep_steps if spikes == "iso13473" else mark_spikes
+        steps.append(partial(rule, slope=spike_slope))
     steps.append(partial(subtract_trend, kind=detrend))
     if longest_wavelength is not None:
         steps.append(partial(subtract_long_waves, longest=longest_wavelength))
@@ -225,9 +218,7 @@ def _runs(z: Array, points: int, rise: float) -> NDArray[np.intp]:
     return np.concatenate(spikes)
 
 
-def mark_steep_steps(
-    profile: Profile, *, slope: float = 3.0, across_gaps: bool = False
-) -> tuple[Profile, StepReport]:
+def mark_steep_steps(profile: Profile, *, slope: float = 3.0) -> tuple[Profile, StepReport]:
     """Mark both sides of steep steps as missing, by the rule of ISO 13473-1:2019, section 7.5.
 
     Neighbours whose heights differ by |z[i+1] - z[i]| >= slope * step are a spike, and both become
@@ -235,27 +226,13 @@ def mark_steep_steps(
     cannot say which one is false. One pass is complete, since it makes no new neighbours.
 
     The standard then interpolates. Here the gaps stay, and heights on both sides of a gap still
-    count in statistics at larger lags. With `across_gaps` the same rule holds for the valid points
-    next to a gap, |z[j] - z[i]| >= slope * (j - i) * step, repeated until none remain. That makes
-    the curve of height differences consistent at the smallest lags (a stationary profile has
-    C_z(m l) <= m^2 C_z(l), which the standard's rule alone can break), but also wears away true
-    steep flanks, so it is a choice.
+    count in statistics at larger lags.
     """
     limit = checks.positive("spike_slope", slope) * profile.step
-    repeated = checks.flag("across_gaps", across_gaps)
-    z, passes, marked = profile.z.copy(), 0, True
-    while marked:
-        valid = np.flatnonzero(np.isfinite(z))
-        distance = np.diff(valid)
-        steep = np.abs(np.diff(z[valid])) >= limit * distance
-        if not repeated:
-            steep &= distance == 1
-        z[valid[:-1][steep]] = z[valid[1:][steep]] = np.nan
-        passes, marked = passes + 1, repeated and bool(steep.any())
-    note = f"height change per step >= {slope:g}"
-    if repeated:
-        note += f", across gaps, {passes} passes"
-    return _without_spikes(profile, z, slope, note)
+    z = profile.z.copy()
+    steep = np.flatnonzero(np.abs(np.diff(z)) >= limit)
+    z[steep] = z[steep + 1] = np.nan
+    return _without_spikes(profile, z, slope, f"height change per step >= {slope:g}")
 
 
 def subtract_trend(profile: Profile, kind: str = "linear") -> tuple[Profile, StepReport]:

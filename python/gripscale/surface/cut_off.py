@@ -258,23 +258,8 @@ class RmsSlope(Checked):
         return f"rms slope {self.rms_slope:g} of the {self.of}"
 
 
-class ContactSlope(Checked):
-    """The rule that the roughness ends where the rms slope in the contact reaches a value.
-
-    It depends on rubber and load: a case finds its `wavelength` by solving contacts.
-    """
-
-    contact_slope: float = checked(checks.positive)
-    """The value [-], above zero."""
-    wavelength: float | None = checked(checks.positive, unit="m", default=None)
-    """Where it is reached [m]; None before it was solved."""
-
-    def __str__(self) -> str:
-        return f"rms slope {self.contact_slope:g} in the contact"
-
-
-CutOffRule = float | Literal["instrument"] | RmsSlope | ContactSlope
-"""A length [m], "instrument", an `RmsSlope` or a `ContactSlope`."""
+CutOffRule = float | Literal["instrument"] | RmsSlope
+"""A length [m], "instrument" or an `RmsSlope`."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -325,19 +310,13 @@ def find_cut_off(
     ----------
     surface : Profile, sequence of Profile, HeightMap or SlopeByWavelength
         The surface as measured and cleaned, or its slopes.
-    rule : float, "instrument", RmsSlope or ContactSlope
-        A length [m]; the shortest wavelength that the measurement resolves; the wavelength at
-        which the rms slope adds up to a value; or that of a `ContactSlope` that was solved.
+    rule : float, "instrument" or RmsSlope
+        A length [m]; the shortest wavelength that the measurement resolves; or the wavelength at
+        which the rms slope adds up to a value.
     """
     slopes = surface if isinstance(surface, SlopeByWavelength) else slope_by_wavelength(surface)
     limit = slopes.resolution_limit
-    if isinstance(rule, ContactSlope):
-        if rule.wavelength is None:
-            raise InputError(
-                f"cut_off must not depend on the contact where no rubber is slid; got {rule}"
-            )
-        length, words = rule.wavelength, str(rule)
-    elif isinstance(rule, RmsSlope):
+    if isinstance(rule, RmsSlope):
         length, words = _length_of_slope(slopes, rule), str(rule)
     elif isinstance(rule, str) and not unit_of(rule, "length"):
         checks.one_of("rule", rule, [_INSTRUMENT])
@@ -351,14 +330,12 @@ def find_cut_off(
 def cut_off_rule(value: Any) -> CutOffRule:
     """Return the rule that a case file or a command line states.
 
-    `value` is a length such as "0.1 mm" or in m, "instrument", { contact_slope = 1.0 },
+    `value` is a length such as "0.1 mm" or in m, "instrument",
     { rms_slope = 1.3, of = "surface", extrapolate = false }, or the latter in words: "rms_slope 1.3
     of surface extrapolate". Raises `ValueError` with what was expected; the caller adds the place.
     """
-    if value == _INSTRUMENT or isinstance(value, RmsSlope | ContactSlope):
+    if value == _INSTRUMENT or isinstance(value, RmsSlope):
         return value  # type: ignore[no-any-return]
-    if isinstance(value, dict) and set(value) == {"contact_slope"}:
-        return ContactSlope(**value)
     if isinstance(value, dict):
         unknown = set(value) - {"rms_slope", "of", "extrapolate"}
         if unknown or "rms_slope" not in value:

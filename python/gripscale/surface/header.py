@@ -40,8 +40,8 @@ _SIZE = r"(?:size|length|range|distance|extent|width)"
 _UNIT = r"(?:units?|einheit(?:en)?|単位)"
 _OF = r" (?:of |der |in )?"
 _NAMES = {
-    "dx": rf"d ?x|delta ?x|x[ -]?(?:{_STEP}|resolution)|(?:{_STEP})(?: (?:in )?x)?",
-    "dy": rf"d ?y|delta ?y|y[ -]?(?:{_STEP}|resolution)|(?:{_STEP}) (?:in )?y",
+    "dx": rf"d ?x|pixel ?width|delta ?x|x[ -]?(?:{_STEP}|resolution)|(?:{_STEP})(?: (?:in )?x)?",
+    "dy": rf"d ?y|pixel ?height|delta ?y|y[ -]?(?:{_STEP}|resolution)|(?:{_STEP}) (?:in )?y",
     "sx": rf"width|breite|x[ -]?{_SIZE}|(?:scan|image|physical|lateral|trace|profile|traverse)"
     rf"(?:d|ing)?[ -]?{_SIZE}|(?:mess|tast)(?:länge|strecke)",
     "sy": rf"height|höhe|y[ -]?{_SIZE}",

@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+_LAGS_PER_DECADE = 20  # where the step allows as many
+_BAND_BLOCKS = 16  # of all profiles, for the band
 _BAND_LEVEL = 0.95  # nominal confidence level of the band
 
 # Half width in log C_z beyond which there is no band: too few blocks hold pairs.
@@ -95,8 +97,6 @@ def height_difference(
     *,
     top_height_fraction: float = 1.0,
     max_lag: Quantity | None = None,
-    lags_per_decade: int = 20,
-    band_blocks: int = 16,
     steepest: float = STEEPEST,
 ) -> HeightDifference:
     """Return the height difference correlation of one profile, or of several pooled.
@@ -107,11 +107,11 @@ def height_difference(
     and a transform's rounding error is not.
 
     The band is a delete-one-block jackknife of log C_z (Efron & Stein 1981,
-    doi:10.1214/aos/1176345462): the profile is cut into `band_blocks` contiguous blocks, pairs go
+    doi:10.1214/aos/1176345462): the profile is cut into 16 contiguous blocks, pairs go
     to the block of their first point, C_z is found anew without each block, and the spread of
     log C_z times Student's t for 95 % gives the band. Heights of one asperity are not independent,
     but blocks longer than the correlation length are nearly so: the band is to be trusted at lags
-    well below the block length (length / `band_blocks`), and is too narrow above it, where
+    well below the block length (length / 16), and is too narrow above it, where
     neighbouring blocks share heights. Of more profiles than blocks, such as the lines of a map, as
     many neighbours as there are to each block go together: lines side by side are not independent.
 
@@ -132,21 +132,15 @@ def height_difference(
         with a point below the median height.
     max_lag : float, optional
         Largest lag [m]; a quarter of the shortest profile's length by default.
-    lags_per_decade : int, optional
-        Lags per decade, where the step allows as many.
-    band_blocks : int, optional
-        Blocks in all for the confidence band.
     steepest : float, optional
         Flanks above this slope [-] are filled first, since rubber does not follow them; infinity
         keeps them.
     """
-    blocks = checks.whole("band_blocks", band_blocks, least=4, most=1000)
     sums = block_sums(
         profile,
-        blocks,
+        _BAND_BLOCKS,
         top_height_fraction=top_height_fraction,
         max_lag=max_lag,
-        lags_per_decade=lags_per_decade,
         steepest=steepest,
     )
     from scipy.special import stdtrit  # of scipy.stats, which takes half a second to import
@@ -194,12 +188,10 @@ def block_sums(
     *,
     top_height_fraction: float = 1.0,
     max_lag: float | None = None,
-    lags_per_decade: int = 20,
     steepest: float = STEEPEST,
 ) -> BlockSums:
     """Return the sums behind C_z, block by block; arguments and errors as `height_difference`."""
     profiles = of_one_step(followed_lines(profile, steepest), "pooled")
-    per_decade = checks.whole("lags_per_decade", lags_per_decade, least=1, most=1000)
     step = float(np.mean([p.step for p in profiles]))
     shortest = min(p.length for p in profiles)
     limit = shortest / 4.0 if max_lag is None else checks.positive("max_lag", max_lag, unit="m")
@@ -212,7 +204,7 @@ def block_sums(
     share = checks.fraction("top_height_fraction", top_height_fraction)
     # the distinct whole numbers of steps nearest to evenly spaced log lags
     most = int(np.floor(limit / step + 1e-6))
-    count = int(np.ceil(per_decade * np.log10(max(most, 1)))) + 1
+    count = int(np.ceil(_LAGS_PER_DECADE * np.log10(max(most, 1)))) + 1
     shifts = np.unique(np.rint(np.geomspace(1, most, count)).astype(np.int64))
     heights = [p.z - np.nanmean(p.z) for p in profiles]
     if share < 1.0:
@@ -314,6 +306,7 @@ def log_weights(lag: Array) -> Array:
 
 
 _FEWEST_LAGS = 4  # lags a power law must cover
+_SHORTEST_RANGE = 0.5  # and decades
 
 
 class SelfAffineFit(Checked):
@@ -350,14 +343,12 @@ class SelfAffineFit(Checked):
         return np.asarray(self.xi_perpendicular**2 * below ** (2.0 * self.hurst))
 
 
-def fit_self_affine(
-    hdc: HeightDifference, *, tolerance: float = 0.02, shortest_range: float = 0.5
-) -> SelfAffineFit:
+def fit_self_affine(hdc: HeightDifference, *, tolerance: float = 0.02) -> SelfAffineFit:
     """Find the power law and the plateau of a height difference correlation.
 
     The range of the power law is the widest range of lags below the plateau over which a straight
-    line in log C_z departs by no more than `tolerance` rms. If none is as wide as `shortest_range`,
-    the straightest range of that width is taken, and `residual` exceeds `tolerance`: the surface is
+    line in log C_z departs by no more than `tolerance` rms. If none has half a decade, the
+    straightest range of that width is taken, and `residual` exceeds `tolerance`: the surface is
     then not self-affine. Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or
     does not rise before it.
 
@@ -370,12 +361,9 @@ def fit_self_affine(
         The measured curve; it must reach its plateau.
     tolerance : float, optional
         Largest rms departure from the power law, in decades of C_z.
-    shortest_range : float, optional
-        Narrowest range accepted, in decades of lag.
     """
     checks.instance("hdc", hdc, HeightDifference)
     checks.positive("tolerance", tolerance)
-    checks.positive("shortest_range", shortest_range)
     require_positive(hdc)
     plateau = find_plateau(hdc)
     if plateau is None:
@@ -389,12 +377,12 @@ def fit_self_affine(
         (i, j)
         for i in range(lag.size)
         for j in range(i + _FEWEST_LAGS, lag.size + 1)
-        if np.log10(lag[j - 1] / lag[i]) >= shortest_range
+        if np.log10(lag[j - 1] / lag[i]) >= _SHORTEST_RANGE
     ]
     if not ranges:
         raise InputError(
             f"the height difference correlation must have {_FEWEST_LAGS} lags over "
-            f"{shortest_range:g} decades below its plateau; "
+            f"{_SHORTEST_RANGE:g} decades below its plateau; "
             f"got {lag.size} lags up to {lag[-1]:.4g} m"
         )
     residuals = [_line(lag[i:j], value[i:j])[2] for i, j in ranges]

@@ -82,13 +82,13 @@ def even_grid(x: Array, resolution: float = 0.0) -> EvenGrid | None:
     # Printed steps scatter about the true one: only the mean of all single ones is accurate enough
     # to count how many steps a long gap holds.
     single = steps[steps <= _SINGLE * steps.min()].mean()
-    numbers = [np.arange(x.size)]
-    if steps.max() <= _LARGEST_NUMBER * single:
-        whole = np.maximum(np.rint(steps / single), 1.0)
-        numbers.append(np.concatenate(([0], np.cumsum(whole))).astype(np.int64))
     # The rounding of x itself must not count: x far from zero has coarse floating-point steps.
     rounding = 4.0 * float(np.finfo(float).eps * np.abs(x).max())
-    for number in numbers:
+    number = np.arange(x.size)
+    for with_gaps in (False, steps.max() <= _LARGEST_NUMBER * single):
+        if with_gaps:
+            whole = np.maximum(np.rint(steps / single), 1.0)
+            number = np.concatenate(([0], np.cumsum(whole))).astype(np.int64)
         mean_number, mean_x = number.mean(), x.mean()
         centred = number - mean_number
         step = float(centred @ (x - mean_x) / (centred @ centred))

@@ -93,9 +93,10 @@ def read_instrument_file(
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
     if raw.startswith(_ARRAY):
-        x, *y, z = _array(path, raw, step)
+        axis, *others, z = _array(path, raw, step)
         z_unit = length_unit(path, "the file", None, "z_unit", z_unit)
-        return HeightField(quantity_in_si(z, z_unit, "length"), x, y[0] if y else None)
+        z = quantity_in_si(z, z_unit, "length")
+        return HeightField(z, axis, others[0] if others else None)
     stl, sdf, gsf = is_stl(path, raw), is_sdf_text(path, raw), simple_field_header(raw)
     if stl or sdf or gsf or is_esri_grid(raw):
         if step is not None:
@@ -404,10 +405,10 @@ def read_map(
     ----------
     path : path-like
         A text or Excel file (.xyz, .dat, .txt, .csv, .tsv, .prn, .asc, .xlsx) with three columns x,
-        y and z, or with a table of heights whose rows run along y and whose columns along x; a grid
-        of ESRI (.asc); triangles (.stl) that are a surface seen from above; or a map in any format
-        SurfaceTopography reads, such as .al3d, .sur, .opd, .x3p, .sdf, .plu, .datx, .gwy, .npy
-        (needs `gripscale[formats]`).
+        y and z, or with a table of heights whose rows run along y and whose columns along x; an
+        array (.npy), a grid of ESRI (.asc) or a field of Gwyddion (.gsf); triangles (.stl) that are
+        a surface seen from above; or a map in any format SurfaceTopography reads, such as .al3d,
+        .sur, .opd, .x3p, .sdf, .plu, .datx, .gwy, .npz (needs `gripscale[formats]`).
     x_unit, z_unit, channel, reader, z_axis
         As in `read_profile`.
     step : float or (float, float), optional

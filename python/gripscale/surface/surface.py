@@ -37,8 +37,7 @@ from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.random_phases import Spectrum
 from gripscale.surface.sine_fit import fit_sines
 from gripscale.surface.sines import SineStack
-from gripscale.surface.texture import Heights, textures
-from gripscale.surface.texture_levels import texture_levels
+from gripscale.surface.texture import Heights, texture_levels, textures
 
 if TYPE_CHECKING:
     import xarray as xr

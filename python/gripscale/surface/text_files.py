@@ -450,6 +450,12 @@ def read_text_map(
             table.numbers(column, f"a height in column {column + 1}", missing=True)
             for column in range(count)
         ]
+        even = [even_grid(z, table.resolution(at)) for at, z in enumerate(heights[:2])]
+        if even[0] is not None and even[1] is None:
+            raise FileError(
+                f"{path}: expected heights in column 1, which goes in equal steps: leave out the "
+                "distances at the edges of the table, or write points x, y, z"
+            )
         z = quantity_in_si(without_codes(np.array(heights))[0], z_unit, "length")
         x, y = (d * np.arange(n) for n, d in zip(z.shape, step, strict=True))
     with about_file(path):

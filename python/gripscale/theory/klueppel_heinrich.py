@@ -85,7 +85,6 @@ def klueppel_heinrich(
     layer_ratio: float,
     penetration_depth: Quantity,
     smallest_wavelength: Quantity,
-    footprint: Quantity | None = None,
 ) -> KlueppelHeinrichResult:
     """Return the hysteresis friction of a self-affine surface by Klueppel and Heinrich.
 
@@ -108,9 +107,6 @@ def klueppel_heinrich(
         Mean depth z_p to which the summits enter the rubber, at this load and speed [m].
     smallest_wavelength : float
         Smallest wave that counts [m].
-    footprint : float, optional
-        Length of the nominal contact [m]: recorded, without effect; the cut-off length of the
-        surface by default.
     """
     if not isinstance(surface, SelfAffineFit | HeightDifference):
         surface = height_difference(surface, top_height_fraction=_TOP_HEIGHT_FRACTION)
@@ -124,7 +120,7 @@ def klueppel_heinrich(
             "smallest_wavelength must be below the cut-off length of the surface, "
             f"{fit.xi_parallel:.4g} m; got {smallest:.4g}"
         )
-    load = Load(pressure, speed, fit.xi_parallel if footprint is None else footprint)
+    load = Load(pressure, speed, fit.xi_parallel)
     wavelength = np.geomspace(fit.xi_parallel, smallest, _NODES)
 
     def at(intervals: int) -> tuple[Array]:

@@ -106,7 +106,7 @@ class TheoryResult(Described):
         """Return everything over `scale`, the wavelengths; totals are NaN unless it converged."""
         import xarray as xr
 
-        from gripscale.core.labels import labelled
+        from gripscale.core.arrays import labelled
 
         data = {
             variable: labelled(dims, getattr(self, variable), unit, text, self.source)
@@ -254,7 +254,6 @@ def persson(
     speed: Quantity,
     smallest_wavelength: Quantity | None = None,
     gamma: float = 0.5,
-    footprint: Quantity | None = None,
     thickness: Quantity | None = None,
     conditions: Conditions | None = None,
 ) -> PerssonResult:
@@ -277,8 +276,6 @@ def persson(
         spectrum count in full.
     gamma : float
         Share of the deformation that is left where contact is small, 0 to 1.
-    footprint : float, optional
-        Length of the nominal contact [m]: recorded, without effect; the largest wave by default.
     thickness : float, optional
         Thickness of the rubber on a rigid base [m]; None: a half-space.
     conditions : Conditions, optional
@@ -307,8 +304,7 @@ def persson(
         ends = nodes[nodes <= last * (1.0 + 1e-9)]
         passed = gaussian_power(nodes, ends[-1:])[0]
         kept = ArealSpectrum(nodes, spectrum.at(nodes) * passed)
-    length = 2.0 * np.pi / nodes[0] if footprint is None else footprint
-    load = Load(pressure, speed, length, thickness=thickness)
+    load = Load(pressure, speed, 2.0 * np.pi / nodes[0], thickness=thickness)
     (area, friction), (area_error, friction_error), status = refine_intervals(
         partial(integrals, solid, effects, spectrum, load, share, nodes, ends),
         _COARSEST,
@@ -414,8 +410,6 @@ class Persson(Checked, Model):
     `SineStack.cutoff_wavelength`."""
     gamma: float = checked(checks.not_negative, default=0.5)
     """See `persson`."""
-    window: float | None = checked(checks.positive, unit="m", default=None)
-    """See `profile_spectrum` [m]."""
     conditions: Conditions | None = None
     """See `persson`."""
 
@@ -432,7 +426,7 @@ class Persson(Checked, Model):
         """
         result = persson(
             rubber,
-            profile_spectrum(followed_profiles(surface, self.name), window=self.window),
+            profile_spectrum(followed_profiles(surface, self.name)),
             pressure=load.pressure,
             speed=load.speed,
             smallest_wavelength=self.smallest_wavelength or surface.cutoff_wavelength,

@@ -11,12 +11,11 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions, ConstantStress, ThermalProperties
-from gripscale.conditions.dry_road import DRY_ASSUMPTIONS, DRY_TREAD, STRESS_SCATTER
+from gripscale.conditions.area_term import DRY_ASSUMPTIONS, DRY_TREAD, STRESS_SCATTER
 from gripscale.conditions.flash_temperature import CONCRETE, STONE
-from gripscale.half_space.condition_errors import condition_changes
+from gripscale.half_space.sampling_error import condition_changes
 from gripscale.questions.answer.page import HYSTERESIS_ALONE
-from gripscale.rubber.softening import softening_of_sweeps
-from gripscale.rubber.typical_tread import SOFTER_TREAD, TYPICAL_TREAD
+from gripscale.rubber.softening import SOFTER_TREAD, TYPICAL_TREAD, softening_of_sweeps
 from gripscale.surface import self_affine_profile
 from studies.treads import SERIES_S, compound, sweeps
 

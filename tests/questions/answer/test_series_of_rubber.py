@@ -11,7 +11,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions
-from gripscale.half_space.condition_errors import SERIES
+from gripscale.half_space.sampling_error import SERIES
 from gripscale.half_space.sensitivity import FrictionAdjoint
 from gripscale.half_space.solve import solve_rough_contact
 from gripscale.rubber import fit_prony, fit_prony_report, read_master_curve

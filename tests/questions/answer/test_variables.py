@@ -11,7 +11,7 @@ import xarray as xr
 from gripscale.io import netcdf
 from gripscale.questions.answer.answer import Answer
 from gripscale.questions.answer.variables import believed, described
-from gripscale.questions.stored import load
+from gripscale.questions.page_of_folder import load
 
 
 def with_interval(start: str, value: float) -> dict[str, float]:

@@ -13,7 +13,7 @@ from gripscale.conditions import Conditions
 from gripscale.io.table import as_text, significant
 from gripscale.questions import SolvedLadder
 from gripscale.questions.answer.page import answer_lines
-from gripscale.questions.compare.page import comparison_table, temperature_only
+from gripscale.questions.compare.question import comparison_table, temperature_only
 from gripscale.surface import self_affine_profile
 from tests.samples import SOFTENING
 

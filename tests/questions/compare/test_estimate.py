@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 from scipy import stats
 
-from gripscale.half_space.large_strain import finite_over_small
+from gripscale.half_space.line_to_map import finite_over_small
 from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.answer.estimate import (
     ESTIMATED,

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale import surface as surfaces
 from gripscale.case import BelowMeasurement
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.prepare import case_surface
@@ -105,12 +104,10 @@ def test_command_and_page_lead_with_the_answer(folder, shell: Shell):
 
 def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell: Shell, data):
     """Its answer is that without it, times the ratio of the curve."""
-    answers = {}
-    for name in ("case", "below"):
-        result = shell("run", folder / f"{name}.toml", "--output", folder / name)
-        assert result.exit_code == 0, result.output
-        answers[name] = netcdf.load_dataset(folder / name / "answer.nc")
-    without, with_it = answers["case"], answers["below"]
+    result = shell("run", folder / "below.toml", "--output", folder / "below")
+    assert result.exit_code == 0, result.output
+    with_it = netcdf.load_dataset(folder / "below" / "answer.nc")
+    without = gs.answer(read_case(folder / "case.toml")).data
     for quantity, curve in (("friction", FRICTION), ("contact_fraction", AREA)):
         ratio = float(with_it[f"answer_{quantity}"] / without[f"answer_{quantity}"])
         expected = float(data[curve][-1]) / at_cut_off(data, curve, 0.5e-3)
@@ -121,7 +118,6 @@ def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell: Shell, data)
     assert "roughness continued from 0.5 mm to 0.15 mm" in " ".join(report.split())
     assert (folder / "below" / "cut_off.nc").is_file()
     assert (folder / "below" / "figures" / "cut_off.png").is_file()
-    assert not (folder / "case" / "cut_off.nc").exists()
 
 
 def test_an_answer_on_roughness_that_is_not_foretold_says_so():
@@ -149,29 +145,6 @@ def test_a_road_that_is_measured_coarsely_hides_its_microtexture(data):
     assert not list(continuation_doubts(data))
     coarse = data.assign(resolved=1.2e-3)
     assert ["below 0.5 mm" in doubt.sentence for doubt in continuation_doubts(coarse)] == [True]
-
-
-def test_the_cut_off_by_the_slope_in_contact_lies_on_the_curve(folder, data, monkeypatch):
-    """The slope is interpolated between octaves; the contact there has it within a few per cent."""
-    cleaned = []
-    clean = surfaces.clean
-    monkeypatch.setattr(
-        surfaces, "clean", lambda line, **given: cleaned.append(line.name) or clean(line, **given)
-    )
-    text = (folder / "case.toml").read_text()
-    wanted = float(np.sqrt(data.curve_slope_in_contact[3] * data.curve_slope_in_contact[4]))
-    path = folder / "slope.toml"
-    path.write_text(text.replace('"0.5 mm"', f"{{ contact_slope = {wanted:.4f} }}"))
-    surface = case_surface(read_case_file(path))
-    assert cleaned == ["road"]
-    assert str(surface.rule) == f"rms slope {wanted:.4g} in the contact"
-    assert data.cut_off[4] < surface.cutoff_wavelength < data.cut_off[3]
-    assert surface.cut_off.rule == str(surface.rule)
-    path.write_text(text.replace('"0.5 mm"', "{ contact_slope = 9.0 }"))
-    with pytest.raises(
-        InputError, match=r"a slope in contact that the measurement reaches, .*got 9"
-    ):
-        case_surface(read_case_file(path))
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ import gripscale as gs
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
-from gripscale.questions.slip import question
+from gripscale.questions.slip import friction_table, question
 from gripscale.questions.slip.friction_table import AXES, FORMULAS, TABLE, TableFriction
 from gripscale.theory import Brush
 from tests.questions.answer.test_answer_object import CASE
@@ -23,6 +24,14 @@ INTERFACE = '\n[conditions.shear_stress]\nkind = "constant"\nstress_0 = "6 MPa"\
 DRY, WET = (1.2801, 23.99, 0.52), (0.857, 33.82, 0.347)
 """Burckhardt's parameters of a tyre on dry and on wet asphalt."""
 SLIPS = np.geomspace(0.003, 1.0, 30)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _few_speeds() -> Iterator[None]:
+    """Half the speeds of a table, and half the contacts."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(friction_table, "_SPEEDS", 3)
+        yield
 
 
 @pytest.fixture(scope="module")

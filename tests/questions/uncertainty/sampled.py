@@ -10,7 +10,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.questions import Uncertainty
 from gripscale.questions.uncertainty import propagation
-from gripscale.questions.uncertainty.propagation import stated_options
+from gripscale.questions.uncertainty.sampling import stated_options
 
 
 def changed(case: Case, **parts: Any) -> Case:

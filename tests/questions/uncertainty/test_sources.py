@@ -14,8 +14,8 @@ from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
 from gripscale.questions import Range, Uncertainty
-from gripscale.questions.uncertainty.propagation import draws
 from gripscale.questions.uncertainty.sampled_inputs import Inputs, LongerLoad
+from gripscale.questions.uncertainty.sampling import draws
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.rubber import WLF
 from gripscale.surface import (
@@ -197,7 +197,7 @@ def spiky(known):
         # between its neighbours, but for the jump
         z[at + 1 :] += slope * line.step - (z[at + 1] - z[at])
     raw = replace(line, z=z)
-    options = {"spikes": "iso13473", "spike_slope": 3.0, "across_gaps": False, "detrend": "none"}
+    options = {"spikes": "iso13473", "spike_slope": 3.0, "detrend": "none"}
     measured = Measured([(raw, clean(raw, **options)[0])], [], None, "")
     correlation = height_difference(measured.cleaned)
     surface = replace(known.surface, measured=measured, correlation=correlation)

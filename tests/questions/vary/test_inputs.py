@@ -82,7 +82,7 @@ def test_cut_off_and_top_height_fraction_are_fitted_anew(measured: Path) -> None
         road, waves=cut, fit={**road.fit, "smallest_wavelength": None, "cut_off": 0.2e-3}
     )
     assert back.varied(smallest_wavelength=0.3e-3).sines.wavelength[-1] == pytest.approx(0.3e-3)
-    for factor in (2.2, 3.5, 6.5):
+    for factor in (2.2, 6.5):
         pair = back.varied(factors=(factor, 2.0)).sines
         assert pair.cut_off == pytest.approx(pair.wavelength[-1] / np.sqrt(factor))
         assert 0.2e-3 <= pair.cut_off < 0.2e-3 * factor

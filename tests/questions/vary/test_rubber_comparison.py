@@ -11,7 +11,7 @@ from scipy import stats
 
 import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.conditions.alternatives import TREADS
+from gripscale.conditions.conditions import TREADS
 from gripscale.core.errors import InputError
 from gripscale.io.table import significant
 from gripscale.questions import Compounds, at_one_temperature, compare_compounds

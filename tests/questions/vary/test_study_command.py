@@ -52,17 +52,6 @@ def test_over_one_axis_of_numbers_every_wave_is_drawn(
     assert names == {"totals", "wavelength", "stacked", "decades"}
 
 
-def test_table_keeps_its_status_beside_long_names(shell: Shell, case: Path, tmp_path: Path) -> None:
-    named = "surface=case,synthetic_dense_asphalt"
-    asked = ("study", case, "--vary", "rubber=styrene_butadiene", "--vary", named)
-    result = shell(*asked, "--output", tmp_path)
-    assert result.exit_code == 0, result.output
-    rows = [line for line in result.stdout.splitlines() if line.startswith("styrene butadiene")]
-    assert len(rows) == 2
-    assert all(row.rstrip().endswith("converged") for row in rows)
-    assert "…" not in result.stdout
-
-
 def test_failed_chain_ends_with_its_own_code(
     shell: Shell, case: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

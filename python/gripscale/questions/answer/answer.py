@@ -48,7 +48,8 @@ from gripscale.questions.result import NO_WIDTHS, Result
 from gripscale.report.elements import Page
 from gripscale.report.failures import explained, failures_in
 
-ANSWER_FILE = "answer.nc"  # name of the saved answer in a results folder
+# Names of the saved answer in a results folder, and of what is beside it.
+ANSWER_FILE, CHAIN_FILE, CURVE_FILE = "answer.nc", "chain.nc", "cut_off.nc"
 
 
 # Names until the next version, with a warning.

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts import chart, draw
-from gripscale.charts.page_elements import Chart
+from gripscale.charts.draw import Chart
 from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, RED, SKY, WIDE
 from gripscale.core.units import MEGA, MICRO, MILLI
 from gripscale.half_space.location import contact_trace, traces_of

@@ -3,7 +3,7 @@
     A/A_0 = (direct contact) x (finite strain/small strain) x (isotropic surface/its lines)
 
 and friction likewise. The first factor is a law measured on windows of other roads
-(`gripscale.half_space.large_strain`). A comparison also solves it, as a ratio of two models on the
+(`gripscale.half_space.line_to_map`). A comparison also solves it, as a ratio of two models on the
 same windows, and says what the answer becomes with it. The second is a law measured on synthetic
 surfaces (`gripscale.half_space.line_to_map`). The interval (`intervals`) is for the mean over the
 road with the roughness down to the cut-off, from the sampling of the road and the errors of grids
@@ -20,14 +20,13 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from gripscale.conditions.conditions import Conditions
-from gripscale.conditions.dry_road import DRY_TREAD, STRESS_SCATTER
-from gripscale.conditions.strain_rule import LOG_AREA, LOG_FRICTION
+from gripscale.conditions.area_term import DRY_TREAD, STRESS_SCATTER
+from gripscale.conditions.conditions import LOG_AREA, LOG_FRICTION, Conditions
 from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
-from gripscale.half_space.large_strain import finite_over_small
+from gripscale.half_space.line_to_map import finite_over_small
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import LINE_UNDER_LOAD

@@ -14,7 +14,7 @@ import xarray as xr
 
 from gripscale.case import SHEAR_STRESS
 from gripscale.chain.chain import Chain
-from gripscale.conditions.dry_road import DRY_ASSUMPTIONS, DRY_TREAD, STRESS_SCATTER
+from gripscale.conditions.area_term import DRY_ASSUMPTIONS, DRY_TREAD, STRESS_SCATTER
 from gripscale.core.finding import FILLED, Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.half_space.model import DirectContact

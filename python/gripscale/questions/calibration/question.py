@@ -19,8 +19,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.charts.style import BLUE, FAINT, GREY, ORANGE, WIDE
 from gripscale.conditions import Conditions
 from gripscale.conditions.area_term import (
@@ -169,7 +168,7 @@ class Calibration(Result):
         values = ", ".join(f"{e.words} = {e.text(3)} ({e.interval})" for e in self.estimates)
         doubts = sentences(input_doubts_of(data))
         lead = f"none to rely on. {doubts} It would be an area term" if doubts else "area term"
-        answer = f"Answer: {lead} with {values} ({data.attrs['level']:.0%} intervals)."
+        answer = f"Answer: {lead} with {values} ({percent(data.attrs['level'])} intervals)."
         if not bool(data["area_term"].notnull().any()):
             return (answer,)
         term, hysteresis = (least_to_most(data[name]) for name in ("area_term", "hysteresis"))
@@ -205,7 +204,7 @@ class Calibration(Result):
         """Return value, standard error and interval of each fitted parameter."""
         fitted = self.estimates
         errors = [written(e.standard_error, e.unit, 2) if e.determined else "" for e in fitted]
-        level = f"{self.data.attrs['level']:.0%} by profile likelihood".replace("%", " %")
+        level = f"{percent(self.data.attrs['level'])} by profile likelihood"
         columns = [
             Column("parameter", [e.name for e in fitted]),
             Column("value", [e.text(4) for e in fitted], words=False),

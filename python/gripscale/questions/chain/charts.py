@@ -73,7 +73,18 @@ def _total_panel(views: Views, name: str) -> Panel:
         for mark in _total_marks(view, name, colour, abscissa)
     ]
     failed = (mark for view in views if view.waves for mark in _failed(view, name))
-    return Panel(abscissa, axis, [*marks, *failed])
+    caption = (
+        f"{HEADINGS[name]} by wave: running total down to each wave (filled), and of each wave "
+        "(open); dashed beyond the measured band."
+    )
+    return Panel(
+        abscissa,
+        axis,
+        [*marks, *failed],
+        name=f"{name.replace('_', '-')}-by-wave",
+        caption=caption[0].upper() + caption[1:],
+        alt="Points against wavelength, which falls to the right.",
+    )
 
 
 def _wavelengths(views: Views) -> PlotAxis:

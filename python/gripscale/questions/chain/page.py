@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gripscale.charts.draw import image
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import panels_on_page
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import (
@@ -69,10 +68,6 @@ _HEAT = [
     Column("temperature", (), "temperature", "where lost, °C", **_CELSIUS),
     Column("contact_temperature", (), "temperature", "in contact, °C", **_CELSIUS),
 ]
-BRIEF = {
-    *("wavelength", "amplitude", "pressure_received", "modulus", "loss_factor"),
-    *("contact_fraction", "running_contact_fraction", "friction", "running_friction"),
-}
 # Columns that say nothing of rubber at rest.
 MOVING_ONLY = {"loss_factor", "friction", "running_friction", "friction_from_dissipation"}
 # Columns in the unit of a key of the case.
@@ -164,9 +159,10 @@ def chain_tables(chain: xr.Dataset) -> list[Table]:
 def waves_in_brief(chain: xr.Dataset) -> Table:
     """Return the waves of a chain with the columns that a screen has room for."""
     view = PredictionView(chain)
-    shown = (replace(column, group="") for column in OF_WAVES if column.name in BRIEF)
-    columns = [filled(view, column) for column in shown]
-    title = f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}, figures/contact_and_friction"
+    dropped = ("slope", "friction_from_dissipation")
+    kept = (replace(column, group="") for column in OF_WAVES if column.name not in dropped)
+    columns = [filled(view, column) for column in kept]
+    title = f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}"
     return Table("waves", [numbers("wave", view.waves, "#"), *columns], title, bad=~view.converged)
 
 
@@ -202,12 +198,5 @@ def chain_section(chain: xr.Dataset, answer: xr.Dataset) -> Section:
     elements += [replace(waves, name="chain"), *heat]
     if view.waves:
         models = {view.name: chain, **({} if judge is None else {JUDGE: judge})}
-        picture = Picture(
-            "contact_and_friction",
-            contact_sheet(models).on_paper(),
-            "Area and friction: running total down to each wave (filled), and of each wave (open); "
-            "dashed beyond the measured band.",
-            "Two panels of points against wavelength, which falls to the right.",
-        )
-        elements.append(image(picture))
+        elements += panels_on_page(panel for panel in contact_sheet(models).panels if panel.marks)
     return Section("chain", title, elements)

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from gripscale.charts import chart, style
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.charts.style import BEYOND_LABEL, BLUE, FAINT, FLAG, GREY, INK, ORANGE, WIDE
 from gripscale.core.units import DisplayUnit, display_unit_of
 from gripscale.experiment.measured_friction import MeasuredSeries, measured_series

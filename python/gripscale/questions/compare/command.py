@@ -10,8 +10,6 @@ import typer
 from gripscale.questions import terminal
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from gripscale.questions.compare.comparison import SolvedLadder
 
 
@@ -51,16 +49,13 @@ def compare_command(
     cluster: terminal.Cluster = None,
 ) -> None:
     """Show what each assumption of the chain costs; resumes where it was stopped."""
-    from gripscale.charts.figure_folder import FigureFolder
     from gripscale.experiment.measured_friction import read_measured_friction
     from gripscale.experiment.task import PREDICTIONS
     from gripscale.io import netcdf
     from gripscale.questions.answer.page import answer_lines
     from gripscale.questions.answer.variables import has_answer
-    from gripscale.questions.calibration.question import residual_table
-    from gripscale.questions.compare import charts, comparison, ladder, page, question
+    from gripscale.questions.compare import comparison, ladder, question
     from gripscale.questions.page_of_folder import write_report
-    from gripscale.questions.result import warning_lines
     from gripscale.questions.vary import axis
 
     axes = None if vary is None else axis.parse_axes([vary], comparison.COMPARED_OVER)
@@ -91,39 +86,16 @@ def compare_command(
         on_stage=print_stage,
         **solving,
     )
-    result.save(target / result.file)
-    text = f"{Path(result.file).stem}.txt"
-    terminal.end_steps()
-    console.print()
-    terminal.print_parts(
-        console, [*result.lines, *warning_lines(result.findings, text, result.half_widths)]
-    )
-    parts = list(result.parts())
-    residuals: xr.Dataset | None = None
     if axes is None:
         assert result.ladder is not None
         residuals = comparison.at_measured(result.ladder, target / PREDICTIONS, **bench)
-    if residuals is not None:
-        netcdf.save(residuals, target / "at_measured.nc")
-        parts.append(residual_table(residuals))
-    if axes is None and has_answer(result.data):
-        parts += ["", page.best_line(result.data)]
-
-    def draw() -> None:
-        figures = FigureFolder(target, work.file.case.output.figures)
-        for name, figure in result.figures():
-            figures.save(figure, name)
         if residuals is not None:
-            data = result.data
-            labels = dict(zip(data.model.values.tolist(), data.label.values.tolist(), strict=True))
-            figures.save(charts.at_measured_figure(residuals, labels), "at_measured")
-
-    work.conclude(
+            netcdf.save(residuals, target / "at_measured.nc")
+            result.at_measured = residuals
+    work.finish(
         result,
-        parts,
-        answer_printed=True,
-        text=text,
-        closing=f"Tables, figures and result ({result.file}) are in",
-        draw=draw,
+        "tables and figures",
+        text=f"{Path(result.file).stem}.txt",
+        drawings="",
         page=lambda page: write_report(target, page),
     )

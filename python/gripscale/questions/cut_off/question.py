@@ -16,7 +16,7 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.charts import chart, draw
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.charts.style import BLUE, COLOURS, GREY, ORANGE, WIDE
 from gripscale.core import Finding
 from gripscale.core.units import MILLI, in_mm, si_value

@@ -27,7 +27,6 @@ from gripscale.experiment.task import Task
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
 from gripscale.questions.answer.variables import believed
-from gripscale.questions.design.compound_gain import DESIGN_TOLERANCE, Gain, SolvedCompound, gain
 from gripscale.questions.design.compound_limits import (
     PointLimit,
     all_moduli,
@@ -46,6 +45,7 @@ from gripscale.questions.design.compound_search import (
     best_change,
     nearest_design,
 )
+from gripscale.questions.design.goal_friction import DESIGN_TOLERANCE, Gain, SolvedCompound, gain
 from gripscale.questions.vary.friction_ratio import series_error
 from gripscale.questions.vary.inputs import at_temperature, model_of
 from gripscale.questions.vary.ranking import at_one_temperature

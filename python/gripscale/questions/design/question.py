@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.core import InputError, checks, doubt, parse_quantity
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask
@@ -35,7 +35,6 @@ from gripscale.questions.design.compound_design import (
     todays_answers,
     todays_compound,
 )
-from gripscale.questions.design.compound_gain import SolvedCompound
 from gripscale.questions.design.compound_limits import (
     LIMITED_QUANTITIES,
     CompoundLimits,
@@ -43,7 +42,7 @@ from gripscale.questions.design.compound_limits import (
     changed,
 )
 from gripscale.questions.design.compound_search import PRECISION, design_problem
-from gripscale.questions.design.goal_friction import CompoundGoal
+from gripscale.questions.design.goal_friction import CompoundGoal, SolvedCompound
 from gripscale.questions.inputs import record
 from gripscale.questions.result import Result
 from gripscale.questions.vary.axis import values_by_name
@@ -126,9 +125,7 @@ class CompoundDesign(Result):
             notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
 
         columns += [
-            Column(
-                "limited_share", data.limited_share.values, "at a limit", format="{:.0%}".format
-            ),
+            Column("limited_share", data.limited_share.values, "at a limit", format=percent),
             Column("gap", data.gap.values, "left to gain", format=change),
         ]
         title = "Trade-off: each row is the admissible compound of most friction"

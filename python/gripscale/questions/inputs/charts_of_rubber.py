@@ -24,8 +24,7 @@ from gripscale.charts.chart import (
     Series,
     ShadedBand,
 )
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Chart
+from gripscale.charts.draw import Chart, Sheet
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
 from gripscale.core import Array, InputError
 from gripscale.core.units import MEGA, ZERO_CELSIUS
@@ -46,7 +45,7 @@ from gripscale.rubber.superposition import temperatures_in
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gripscale.charts.figure_folder import FigureFolder
+    from gripscale.charts.draw import FigureFolder
     from gripscale.rubber.measured_rubber import MeasuredRubber
 
 OMEGA = PlotAxis("angular frequency $\\omega$ [rad/s]", log=True)

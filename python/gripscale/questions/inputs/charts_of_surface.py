@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from gripscale.charts import draw
 from gripscale.charts.chart import (
@@ -27,76 +26,32 @@ from gripscale.charts.chart import (
     ValueMap,
     wavelength_axis,
 )
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Chart
+from gripscale.charts.draw import Chart, Sheet
 from gripscale.charts.style import BLUE, COLOURS, GREY, INK, NARROW, ORANGE, WIDE
 from gripscale.core.arrays import Array
 from gripscale.core.units import MILLI, SQUARE_MM
-from gripscale.questions.inputs.record import CLOSE_UP, close_up, envelope, sine_curves
+from gripscale.questions.inputs.record import drawn_profiles, envelope, sine_curves
 from gripscale.surface import HeightDifference, SelfAffineFit, SineStack
 from gripscale.surface.profile import HeightMap, Profile
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from gripscale.charts.figure_folder import FigureFolder
+    from gripscale.charts.draw import FigureFolder
     from gripscale.surface import Surface
 
 DISTANCE, _HEIGHT = PlotAxis("distance $x$ [mm]"), PlotAxis("height $z$ [mm]")
 SELF_AFFINE = "correlation_self_affine"
-MANY = 500  # removed points whose dots are small, or they would hide the profile
 
 
 def profile_figure(pairs: Sequence[tuple[Profile, Profile]]) -> Figure:
-    """Draw (as read, cleaned) pairs of profiles side by side.
-
-    Rows: as read, with the points cleaning removed or cut off; cleaned; 30 mm of it close up,
-    where the missing heights are gaps.
-    """
-    columns = [_profile_panels(raw, cleaned, i) for i, (raw, cleaned) in enumerate(pairs)]
-    sheet = Sheet(
-        [panel for row in zip(*columns, strict=True) for panel in row],
-        columns=len(pairs),
-        width=WIDE if len(pairs) > 1 else 0.7 * WIDE,
-        height=5.2,
-        legend_columns=4,
-        keys=[Series([], [], ORANGE, "read and removed", dash="", marker=".")],
-        gap=0.02,
-        layout={"sharey": "row"},
-    )
+    """Draw (as read, cleaned) pairs of profiles side by side: the whole of them and a piece."""
+    panels = _profile_panels(xr.Dataset(drawn_profiles(pairs)))
+    width = WIDE if len(pairs) > 1 else 0.7 * WIDE
+    layout = {"sharey": "row"}
+    rows = [*panels[::2], *panels[1::2]]
+    sheet = Sheet(rows, len(pairs), width, 4.0, legend_columns=4, gap=0.02, layout=layout)
     return sheet.on_paper()
-
-
-def _profile_panels(raw: Profile, cleaned: Profile, number: int) -> list[Panel]:
-    kept = kept_points(raw, cleaned)
-    removed = ~kept & np.isfinite(raw.z)
-    x, z = close_up(cleaned)
-    # Removed points stand at their cleaned level: less the trend, where a height is left.
-    both = np.interp(cleaned.x, raw.x, raw.z) - cleaned.z
-    trend = np.polyfit(cleaned.x[np.isfinite(both)], both[np.isfinite(both)], 1)
-    piece = (raw.x >= x[0]) & (raw.x <= x[0] + CLOSE_UP) & ~kept
-    level = raw.z[piece] - np.polyval(trend, raw.x[piece])
-    dots: dict[str, Any] = {"colour": ORANGE, "dash": "", "marker": ".", "coarse": True}
-    rows: dict[str, list[Mark]] = {
-        "as read": [
-            _outline(raw.x, [np.where(kept, raw.z, np.nan)] * 2, "read and kept", GREY),
-            Series(raw.x[removed] / MILLI, raw.z[removed] / MILLI, order=3.0,
-                   size=2.5 if np.count_nonzero(removed) < MANY else 1.4, **dots),
-        ],
-        "cleaned": [_outline(cleaned.x, [cleaned.z] * 2, "", BLUE)],
-        "close up": [
-            Series(x / MILLI, z / MILLI, label="cleaned", width=0.9),
-            Series(raw.x[piece] / MILLI, level / MILLI, size=4.5, **dots),
-        ],
-    }  # fmt: skip
-    ends: dict[str, Any] = {"low": float(raw.x[0]) / MILLI, "high": float(raw.x[-1]) / MILLI}
-    panels = []
-    for row, marks in rows.items():
-        abscissa = {"as read": PlotAxis(**ends), "cleaned": PlotAxis(DISTANCE.label, **ends)}
-        title = (raw.name or f"profile {number + 1}") if row == "as read" else ""
-        ordinate = PlotAxis(f"{_HEIGHT.label}\n{row}")
-        panels.append(Panel(abscissa.get(row, DISTANCE), ordinate, marks, title))
-    return panels
 
 
 def _outline(x: Array, ends: Sequence[Array], label: str, colour: str) -> Outline:
@@ -106,18 +61,14 @@ def _outline(x: Array, ends: Sequence[Array], label: str, colour: str) -> Outlin
     return Outline(x[inside] / MILLI, low, high, colour, label, width=0.45)
 
 
-def kept_points(raw: Profile, cleaned: Profile) -> NDArray[np.bool_]:
-    """Return which points of `raw` still have a height in `cleaned`."""
-    still = cleaned.x[np.isfinite(cleaned.z)]
-    at = np.clip(np.searchsorted(still, raw.x), 1, max(still.size - 1, 1))
-    nearest = np.minimum(np.abs(raw.x - still[at - 1]), np.abs(raw.x - still[at % still.size]))
-    return np.asarray((nearest < 0.1 * raw.step) & np.isfinite(raw.z))
-
-
 def profile_charts(inputs: xr.Dataset) -> list[Chart]:
     """Return, for each profile of recorded inputs, the whole of it and a piece close up."""
+    return draw.panels_on_page(_profile_panels(inputs))
+
+
+def _profile_panels(inputs: xr.Dataset) -> list[Panel]:
     panels = []
-    for i, name in enumerate(str(name) for name in inputs["profile_name"].values):
+    for i, name in enumerate(inputs["profile_name"].values):
         profile = inputs.isel(profile=i)
         outlines = [
             _outline(profile[f"{part}_x"].values,
@@ -125,27 +76,21 @@ def profile_charts(inputs: xr.Dataset) -> list[Chart]:
                      label, colour)
             for part, label, colour in (("read", "as read", GREY), ("cleaned", "cleaned", BLUE))
         ]  # fmt: skip
-        panels.append(Panel(
-            DISTANCE,
-            _HEIGHT,
-            outlines,
-            name=f"profile-{i + 1}",
-            caption=f"{name}: as read and cleaned, lowest and highest height of each of "
-            f"{profile.sizes['bin']} pieces.",
-            alt=f"Height of profile {name} against distance, as read and after cleaning.",
-            height=300,
-        ))  # fmt: skip
         x, z = profile["close_up_x"].values / MILLI, profile["close_up_z"].values / MILLI
-        panels.append(Panel(
-            DISTANCE,
-            _HEIGHT,
-            [Series(x, z, label="cleaned, every point", width=1.1)],
-            name=f"close-up-{i + 1}",
-            caption=f"{name}: a piece from the middle, every point. Missing heights are gaps.",
-            alt=f"Close-up of the cleaned profile {name}.",
-            height=300,
-        ))  # fmt: skip
-    return draw.panels_on_page(panels)
+        every_point = [Series(x, z, label="cleaned, every point", width=1.1)]
+        for kind, marks, caption in (
+            ("profile", outlines, f"as read and cleaned, lowest and highest height of each of "
+             f"{profile.sizes['bin']} pieces."),
+            ("close-up", every_point, "a piece from the middle, every point. Missing heights are "
+             "gaps."),
+        ):  # fmt: skip
+            alt = f"Height of profile {name} against distance: {caption}"
+            title = str(name) if kind == "profile" else ""
+            panels.append(
+                Panel(DISTANCE, _HEIGHT, marks, title, f"{kind}-{i + 1}", f"{name}: {caption}",
+                      alt, height=300)
+            )  # fmt: skip
+    return panels
 
 
 MOST_PIXELS = 400  # points of a map along each side that are drawn

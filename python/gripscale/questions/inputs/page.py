@@ -87,7 +87,7 @@ _TEXTURE_UNITS = {"m": ("mm", MILLI), "rad": ("°", math.radians(1.0))}
 
 
 def texture_levels_table(data: xr.Dataset) -> Table:
-    """Return texture levels by wavelength, as `gripscale.surface.texture_levels`."""
+    """Return texture levels by wavelength, as `gripscale.surface.texture`."""
     columns = [
         Column("wavelength", data.wavelength.values, "λ", "mm", MILLI, format=digits(3)),
         Column("level", data.level.values, "L_tx", "dB", format=fixed(1)),

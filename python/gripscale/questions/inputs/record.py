@@ -171,11 +171,28 @@ def _cut_off(surface: Surface, measured: Measured) -> _Part:
     }
 
 
+def drawn_profiles(pairs: Sequence[tuple[Profile, Profile]]) -> Variables:
+    """Return pairs of profiles, as read and cleaned, as they are drawn."""
+    raw, cleaned = (list(column) for column in zip(*pairs, strict=True))
+    data: Variables = {
+        "profile_name": ("profile", _texts([p.name or Path(p.source).name for p in raw]))
+    }
+    for name, profiles in (("read", raw), ("cleaned", cleaned)):
+        drawn = np.array([envelope(profile.x, profile.z) for profile in profiles])
+        for i, part in enumerate(("x", "lowest", "highest")):
+            data[f"{name}_{part}"] = (("profile", "bin"), drawn[:, i], {"units": "m"})
+    pieces = [close_up(profile) for profile in cleaned]
+    longest = min(piece.shape[1] for piece in pieces)
+    for i, part in enumerate("xz"):
+        values = np.array([piece[i, :longest] for piece in pieces])
+        data[f"close_up_{part}"] = (("profile", "close_up_point"), values, {"units": "m"})
+    return data
+
+
 def _profiles(measured: Measured) -> Variables:
     """Return the profiles as drawn, and what each step of their cleaning did."""
-    raw, cleaned = (list(column) for column in zip(*measured.profiles, strict=True))
-    data: Variables = {
-        "profile_name": ("profile", _texts([p.name or Path(p.source).name for p in raw])),
+    raw = [profile for profile, _ in measured.profiles]
+    data = drawn_profiles(measured.profiles) | {
         "profile_step": ("profile", np.array([p.step for p in raw]), {"units": "m"}),
         "profile_length": ("profile", np.array([p.length for p in raw]), {"units": "m"}),
         "profile_points": ("profile", np.array([len(p) for p in raw])),
@@ -188,15 +205,6 @@ def _profiles(measured: Measured) -> Variables:
             data[f"cleaning_{field}"] = (("profile", "cleaning_step"), np.array(counts))
         notes = [[step.note for step in report] for report in measured.cleaning]
         data["cleaning_note"] = (("profile", "cleaning_step"), _texts(notes))
-    for name, profiles in (("read", raw), ("cleaned", cleaned)):
-        drawn = np.array([envelope(profile.x, profile.z) for profile in profiles])
-        for i, part in enumerate(("x", "lowest", "highest")):
-            data[f"{name}_{part}"] = (("profile", "bin"), drawn[:, i], {"units": "m"})
-    pieces = [close_up(profile) for profile in cleaned]
-    longest = min(piece.shape[1] for piece in pieces)
-    for i, part in enumerate("xz"):
-        values = np.array([piece[i, :longest] for piece in pieces])
-        data[f"close_up_{part}"] = (("profile", "close_up_point"), values, {"units": "m"})
     return data
 
 

@@ -17,8 +17,7 @@ import xarray as xr
 from gripscale.case import Case
 from gripscale.charts import draw
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.charts.style import BLUE, GREEN, NARROW, ORANGE, PURPLE
 from gripscale.core import Array, InputError, Quantity, Topic, checks, doubt
 from gripscale.core.units import MEGA

@@ -21,7 +21,7 @@ from gripscale.core import ZERO_CELSIUS, Array, InputError
 from gripscale.experiment.design import Design, Point, solve_design, variable_attributes
 from gripscale.experiment.solve import Bench
 from gripscale.questions.answer.variables import of_hysteresis
-from gripscale.questions.vary.answer_model import AnswerModel
+from gripscale.questions.vary.inputs import AnswerModel
 from gripscale.questions.vary.study import study_numbers
 
 # Name of the friction over `kind`, `bound` and the three axes of the table.

@@ -23,8 +23,7 @@ from numpy.typing import ArrayLike
 from gripscale.case import Case
 from gripscale.charts import style
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.charts.style import WIDE
 from gripscale.core import Array, Finding, InputError, Severity, Topic, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius, in_mm, si_value

@@ -9,8 +9,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.charts.chart import Bars, CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.charts.style import BLUE, COLOURS, INK, ORANGE
 from gripscale.questions.answer.variables import (
     ANSWER,

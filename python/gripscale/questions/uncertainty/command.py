@@ -82,13 +82,9 @@ def uncertainty_command(
     from gripscale.half_space.model import DirectContact
     from gripscale.questions.answer.page import answer_lines
     from gripscale.questions.uncertainty import question
-    from gripscale.questions.uncertainty.propagation import (
-        SAMPLED_OVER,
-        Uncertainty,
-        stated_models,
-        stated_options,
-    )
+    from gripscale.questions.uncertainty.propagation import SAMPLED_OVER, stated_models
     from gripscale.questions.uncertainty.sampled_inputs import length
+    from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
     from gripscale.questions.uncertainty.sources import BOTH
     from gripscale.questions.vary.axis import parse_axes, values_by_name
 

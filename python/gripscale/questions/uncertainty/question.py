@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.experiment.solve import OnTask
 from gripscale.io.table import Column, Table, percent
@@ -26,17 +26,15 @@ from gripscale.questions.answer.page import answer_cards, answer_lines
 from gripscale.questions.answer.reliance import is_measured, is_moving
 from gripscale.questions.answer.variables import SYMBOLS, has_answer, of_hysteresis
 from gripscale.questions.uncertainty.charts import axis_of, uncertainty_pictures
-from gripscale.questions.uncertainty.next_measurement import next_measurements
 from gripscale.questions.uncertainty.propagation import (
     LEVELS,
     PROPAGATED_QUANTITIES,
     OnAnswer,
     Plan,
-    Uncertainty,
     propagate,
-    stated_options,
 )
-from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE
+from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, next_measurements
+from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.report.elements import Card
@@ -82,11 +80,14 @@ class SampledAnswer(NumbersWithIntervals):
             yield view.table(data, columns, "answers", f"Answer by {axis}")
         yield from self._part_tables()
         yield self._quantile_table()
-        shared = [(title, part) for title, part in _by_model(data) if part.model != DIRECT]
-        known = [np.isfinite(part.friction_share).any() for _, part in shared]
-        yield from (_share_table(*each) for each, tell in zip(shared, known, strict=True) if tell)
-        if not all(known):
-            yield f"{data.sizes['sample']} samples are too few to split the error between inputs."
+        for title, part in _by_model(data):
+            if part.model == DIRECT:
+                continue
+            if np.isfinite(part.friction_share).any():
+                yield _share_table(title, part)
+            else:
+                count = data.sizes["sample"]
+                yield f"{count} samples are too few to split the error between inputs ({title})."
         yield from (f"Not sampled: {each}." for each in json.loads(data.attrs["left_out"]))
 
     def table(self) -> Table:

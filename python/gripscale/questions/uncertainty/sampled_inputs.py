@@ -16,7 +16,8 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
-from gripscale.core import Checked, InputError, checked, checks, parse_quantity, provenance
+from gripscale.core import Checked, InputError, checked, checks, provenance
+from gripscale.core.units import si_value
 from gripscale.experiment.task import Task
 from gripscale.model import Load, Model, OnProgress
 from gripscale.questions.vary.axis import plain_number
@@ -229,12 +230,7 @@ def count(text: Any) -> float:
 
 def _quantity(text: Any, kind: str, unit: str) -> float:
     """Return a quantity [SI] above zero; raise `InputError` for what is none."""
-    value = plain_number(text)
-    if isinstance(value, str):
-        try:
-            value = parse_quantity(value, kind)
-        except ValueError as error:
-            raise InputError(f"{text!r}: {error}") from error
+    value = si_value(f"a {kind}", plain_number(text), unit, kind)
     return checks.positive(f"a {kind}", value, unit=unit)
 
 

@@ -25,7 +25,13 @@ import numpy as np
 
 from gripscale.core.arrays import Array
 from gripscale.rubber import MasterCurve, PronyFit
-from gripscale.rubber.maxwell_fit import LEAST_SCATTER, Curve, Equations, Spectrum, non_negative
+from gripscale.rubber.maxwell_fit import (
+    LEAST_SCATTER,
+    Curve,
+    Equations,
+    MaxwellSpectrum,
+    non_negative,
+)
 from gripscale.rubber.prony import DECADES_BEYOND, largest_modulus, open_equations
 
 _FEWEST_BLOCKS = 8  # blocks there are at least to draw from
@@ -116,7 +122,7 @@ class SeriesScatter:
         prior = self.problem.matrix[2 * len(self.omega) : -1, 1:-1]
         return np.asarray((np.abs(prior) @ outside > 0.0).astype(float))
 
-    def draw(self, random: np.random.Generator) -> Spectrum:
+    def draw(self, random: np.random.Generator) -> MaxwellSpectrum:
         """Return the spectrum of one disturbed fit."""
         rows, block = len(self.omega), self._block
         first = random.integers(rows, size=-(-rows // block))

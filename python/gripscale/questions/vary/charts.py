@@ -15,8 +15,7 @@ import xarray as xr
 
 from gripscale.charts import chart, style
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
-from gripscale.charts.draw import Sheet
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.charts.style import BEYOND_LABEL, COLOURS, GREY, INK, NARROW
 from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.io.table import significant

@@ -16,7 +16,7 @@ and what is left has these sources:
   themselves: both errors count.
 - surface: the step from lines to their surface changes with the contact area, and is missed by
   `LOAD_SENSITIVITY` times the difference of the logarithms of both areas.
-- conditions: what is not known of softening and heat (`gripscale.conditions.alternatives`) is the
+- conditions: what is not known of softening and heat (`gripscale.conditions.conditions`) is the
   same of both, and the difference of its changes counts; the scatter between treads of each
   compound that has a typical softening counts by itself, and so does what its series misses.
 
@@ -33,15 +33,15 @@ from typing import ClassVar
 import numpy as np
 import xarray as xr
 
-from gripscale.conditions.alternatives import TREADS
+from gripscale.conditions.conditions import TREADS
 from gripscale.core import Array, ComplexArray, labelled
-from gripscale.half_space.condition_errors import SERIES
 from gripscale.half_space.line_to_map import LOAD_SENSITIVITY
 from gripscale.half_space.model import CONDITION_ERRORS, DirectContact
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sampling_error import (
     FEWEST_PIECES,
     PIECE,
+    SERIES,
     error_of_residuals,
     friction_residuals,
     pieces_that_carry,

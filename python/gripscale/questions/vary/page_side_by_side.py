@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.charts.style import power_of_ten
 from gripscale.core.finding import sentences
 from gripscale.core.units import MILLI, ZERO_CELSIUS
@@ -115,7 +115,7 @@ class SideBySide(Variation):
                 continue
             parts = self.data[name].fillna(0.0)
             apart = parts.sel({self.dim: high}) - parts.sel({self.dim: low})
-            most = apart[int(np.abs(apart).argmax())]
+            most = apart[int(np.abs(apart.values).argmax())]
             end = float(most[dim])
             where = f"waves of {significant(end / MILLI)} to {significant(2.0 * end / MILLI)} mm"
             if dim == "decade":

@@ -16,7 +16,7 @@ from typing import Any
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.page_elements import Picture
+from gripscale.charts.draw import Picture
 from gripscale.core.finding import Finding, Severity, Topic, sentences
 from gripscale.core.units import display_unit_of
 from gripscale.experiment.design import CONVERGED

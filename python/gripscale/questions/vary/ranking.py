@@ -22,11 +22,11 @@ from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.model import input_doubts
 from gripscale.questions.answer.variables import believed
-from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.questions.vary.friction_ratio import RANKED, FrictionRatio, answer_ratio
 from gripscale.questions.vary.inputs import (
     READING_NOTES,
     TEMPERATURE,
+    AnswerModel,
     default_model,
     measured_rubber_of,
     model_of,

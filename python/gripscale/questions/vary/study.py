@@ -40,7 +40,6 @@ from gripscale.model import METHOD, Model, input_doubts
 from gripscale.questions.answer.variables import HYSTERESIS, described
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.vary import inputs
-from gripscale.questions.vary.answer_model import AnswerModel
 from gripscale.questions.vary.axis import VARIED_INPUTS, Axis, axes_of
 from gripscale.questions.vary.friction_parts import (
     friction_by_decade,
@@ -48,6 +47,7 @@ from gripscale.questions.vary.friction_parts import (
     waves_by_octave,
     with_decades,
 )
+from gripscale.questions.vary.inputs import AnswerModel
 from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import Surface
