@@ -90,28 +90,16 @@ def prepare_surface(
     if surface.sines is not None:
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
+    measured: surfaces.Measured | surfaces.Spectrum
     if surface.spectrum is not None:
         options, longest = _options(surface, surfaces.read_spectrum), surface.longest_wavelength
         known = surfaces.read_spectrum(resolve(surface.spectrum), **options)
-        known = known if longest is None else known.without_long_waves(longest)
-        return _described(surface, known, resolve, footprint)
-    raw = raw_surface(surface, resolve) if raw is None else raw
-<<<<<<< HEAD
-=======
-    return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
-
-
-def _described(
-    surface: SurfaceTable,
-    measured: surfaces.Measured | surfaces.Spectrum,
-    resolve: Resolve,
-    footprint: float,
-) -> surfaces.Surface:
-    """Return a cleaned measurement, or a spectrum, with its waves, as the keys of `surface` ask."""
->>>>>>> main
+        measured = known if longest is None else known.without_long_waves(longest)
+    else:
+        raw = raw_surface(surface, resolve) if raw is None else raw
+        measured = _cleaned(surface, raw, resolve)
     paths = [resolve(name) for name in surface.measured_files]
     where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
-    measured = _cleaned(surface, raw, resolve)
     by_rule = not (surface.cut_off is None or isinstance(surface.cut_off, float))
     with about_file(where, InputError) if by_rule else nullcontext():
         return described_surface(
@@ -125,45 +113,9 @@ def _described(
 
 
 def case_surface(file: CaseFile) -> surfaces.Surface:
-<<<<<<< HEAD
     """Return the surface of a case."""
     footprint = file.case.load.footprint
     return prepare_surface(file.case.surface, file.resolve, footprint=footprint)
-=======
-    """Return the surface of a case, its cut-off by the slope in contact solved."""
-    table = file.case.surface
-    rule = table.cut_off
-    load = file.case.load
-    if not isinstance(rule, surfaces.ContactSlope):
-        return prepare_surface(table, file.resolve, footprint=load.footprint)
-    if table.files is None:
-        raise InputError(f"cut_off = {rule} needs measured profiles; got a map or spectrum")
-    measured = _cleaned(table, raw_surface(table, file.resolve), file.resolve)
-    lines = measured.cleaned
-    curve = contact_by_cut_off(
-        prepare_rubber(file.case.rubber, file.resolve).rubber,
-        lines,
-        pressure=load.pressure,
-        speed=load.speed,
-        down_to=max(line.resolution_limit for line in lines),
-        conditions=prepare_conditions(file.case.conditions, file.resolve),
-        footprint=load.footprint,
-        thickness=file.case.rubber.thickness,
-    )
-    slopes = curve.values("slope_in_contact")
-    wavelength = cut_off_at(rule.contact_slope, curve.wavelength, slopes)
-    if not wavelength > 0.0:
-        raise InputError(
-            f"{file.path}: [surface] cut_off must be a slope in contact that the measurement "
-            f"reaches, from {slopes[0]:.3g} to {slopes[-1]:.3g} at "
-            f"{in_mm(curve.wavelength[-1], 3)}; got {rule.contact_slope:g} (`gripscale cut-off` "
-            "continues the roughness below it)"
-        )
-    solved = replace(rule, wavelength=wavelength)
-    with about_keys("surface"):
-        table = table.model_copy(update={"cut_off": solved})
-        return _described(table, measured, file.resolve, load.footprint)
->>>>>>> main
 
 
 def _require_few_points(file: CaseFile) -> None:
