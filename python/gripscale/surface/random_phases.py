@@ -6,12 +6,9 @@ With J_0 the Bessel function, the lines of an isotropic surface have (Wiener and
     C_1(k) = 4 int_k^inf q C(q) dq / sqrt(q^2 - k^2).
 
 A line of N steps d has waves k_n = 2 pi n/(N d) of the amplitudes sqrt(2 C_1(k_n) k_1). Their
-phases are drawn, and its heights are Gaussian. Those of a real surface are not: worn tops touch in
-more places and are smooth. What this changes, `REAL_PHASES`, is measured on families of surfaces
-(`python -m studies.spectrum_phases`).
-
-Lines, not maps, are solved: a spectrum has waves from decimetres to micrometres, and a map of four
-million points two and a half decades of them.
+phases are drawn: its heights are Gaussian. Those of a real surface are not, and what this changes,
+`REAL_PHASES`, is measured (`python -m studies.spectrum_phases`). Lines are solved, not maps: of a
+spectrum from decimetres to micrometres a map of four million points holds two and a half decades.
 """
 
 from __future__ import annotations
@@ -47,8 +44,7 @@ class Spectrum(ArealSpectrum, eq=False):
 
         <z^2> = 2 pi int_0^inf q C(q) dq
 
-    Outside its points there are no waves. Raises `InputError` if lengths differ, a value is out of
-    range, or all of C is zero.
+    Outside its points there are no waves. Raises `InputError` as `ArealSpectrum` does.
     """
 
     name: str = checked(checks.text, default="")
@@ -89,11 +85,10 @@ class Spectrum(ArealSpectrum, eq=False):
     ) -> tuple[list[Profile], HeightDifference]:
         """Return lines of it with random phases, always the same ones, and its correlation.
 
-        Each line has the whole variance, waves to a quarter of the smallest wavelength [m], by
-        default that of the spectrum, and sixteen of the longest or of 1.5 footprints [m]; fewer
-        where these are too many points. As of profiles, waves that the footprint does not hold are
-        left out if they are most of the mean square height. Raises `InputError` if one has too many
-        points.
+        Each has the whole variance, waves to a quarter of the smallest wavelength [m], and sixteen
+        of the longest or of 1.5 footprints [m], or fewer where these are too many points. As of
+        profiles, waves that the footprint does not hold are left out if they are most of the mean
+        square height. Raises `InputError` if one longest wave has too many points.
         """
         shortest, longest = (2.0 * np.pi / self.wavenumber[[-1, 0]]).tolist()
         longest = min(longest, PER_FOOTPRINT * footprint)
