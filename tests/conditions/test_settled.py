@@ -107,6 +107,8 @@ def test_the_grids_of_all_passes_are_kept():
     assert found.coarse_passes > 0
     finest = sum(record.points == found.grid.shape[0] for record in found.grids)
     assert finest >= found.passes
+    # last that of the result: what another rubber changes is taken from a grid of the same rubber
+    assert found.grids[-1].friction == found.friction
 
 
 def test_errors_are_told_from_as_many_grids_as_without_conditions():
