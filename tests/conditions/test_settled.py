@@ -107,7 +107,13 @@ def test_the_grids_of_all_passes_are_kept():
     assert found.coarse_passes > 0
     finest = sum(record.points == found.grid.shape[0] for record in found.grids)
     assert finest >= found.passes
-    # last that of the result: what another rubber changes is taken from a grid of the same rubber
+
+
+def test_the_grids_of_the_result_come_last():
+    """Not of a coarse pass after it: what another rubber changes is taken from its own grids."""
+    load = DIRECT | {"tolerance": 0.02}
+    found = gs.solve_rough_contact(RUBBER, LINE, conditions=EFFECTS[0], **load)
+    assert found.coarse_passes > 4
     assert found.grids[-1].friction == found.friction
 
 
