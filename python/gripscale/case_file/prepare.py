@@ -93,8 +93,8 @@ def prepare_surface(
     measured: surfaces.Measured | surfaces.Spectrum
     if surface.spectrum is not None:
         options, longest = _options(surface, surfaces.read_spectrum), surface.longest_wavelength
-        known = surfaces.read_spectrum(resolve(surface.spectrum), **options)
-        measured = known if longest is None else known.without_long_waves(longest)
+        spectrum = surfaces.read_spectrum(resolve(surface.spectrum), **options)
+        measured = spectrum if longest is None else spectrum.without_long_waves(longest)
     else:
         raw = raw_surface(surface, resolve) if raw is None else raw
         measured = _cleaned(surface, raw, resolve)

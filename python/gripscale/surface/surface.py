@@ -325,8 +325,8 @@ class Surface(Described):
     def doubts(self) -> tuple[Finding, ...]:
         """Findings that make the answer unreliable."""
         of_noise = (f for f in self.noise if f.severity == Severity.DOUBT)
-        known = None if self.spectrum else self.measured
-        return () if known is None else (*known.doubts, *of_noise)
+        heights = None if self.spectrum else self.measured
+        return () if heights is None else (*heights.doubts, *of_noise)
 
     @property
     def extrapolated(self) -> tuple[Finding, ...]:
