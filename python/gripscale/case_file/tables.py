@@ -258,9 +258,9 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SpectrumKeys, SourceKeys
         of_heights = {*CleaningKeys.model_fields, *ReadingKeys.model_fields, "top_height_fraction"}
         of_heights = (of_heights | {"max_lag"}) - {"longest_wavelength"}
         keys = set(SpectrumKeys.model_fields) if self.spectrum is None else of_heights
-        if self.sines is None and (wrong := self.model_fields_set & keys - {"assumed"}):
-            other = "heights" if self.spectrum is not None else "spectrum"
-            raise ValueError(f"{min(wrong)} belongs to a surface from {other}")
+        if self.sines is None and (others := self.model_fields_set & keys - {"assumed"}):
+            source = "heights" if self.spectrum is not None else "spectrum"
+            raise ValueError(f"{min(others)} belongs to a surface from {source}")
         if self.sines is not None:
             if self.cut_off is not None:
                 raise ValueError("cut_off belongs to a measured surface, not to waves by hand")

@@ -94,7 +94,7 @@ class Spectrum(ArealSpectrum, eq=False):
         longest = min(longest, PER_FOOTPRINT * footprint)
         held = self.without_long_waves(longest)
         decide = held.rms_height**2 < (1.0 - MOST_SHARE) * self.rms_height**2
-        pressing = held if decide and longest == PER_FOOTPRINT * footprint else self
+        spectrum = held if decide and longest == PER_FOOTPRINT * footprint else self
         step = max(smallest_wavelength or shortest, shortest) / _POINTS_IN_WAVE
         if longest > MOST_PROFILE_POINTS * step:
             end = _POINTS_IN_WAVE * longest / MOST_PROFILE_POINTS
@@ -103,7 +103,7 @@ class Spectrum(ArealSpectrum, eq=False):
             0.5 * max(min(_WAVES * longest / step, _ENOUGH_POINTS), longest / step)
         )
         x, first = step * np.arange(points), 2.0 * np.pi / (points * step)
-        amplitude = np.sqrt(2.0 * first * pressing.of_lines(first * np.arange(1, points // 2)))
+        amplitude = np.sqrt(2.0 * first * spectrum.of_lines(first * np.arange(1, points // 2)))
         lines = []
         for number in range(_LINES):
             phase = np.random.default_rng(number).uniform(0.0, 2.0 * np.pi, amplitude.size)
@@ -111,7 +111,7 @@ class Spectrum(ArealSpectrum, eq=False):
             name = f"{self.name or 'spectrum'} {number + 1}"
             lines.append(Profile(x, np.fft.irfft(waves, points), name, self.source, shortest))
         lags = np.geomspace(step, 0.25 * x[-1], int(_LAGS_PER_DECADE * math.log10(points)))
-        return lines, pressing.height_difference(lags)
+        return lines, spectrum.height_difference(lags)
 
     @property
     def finding(self) -> Finding:

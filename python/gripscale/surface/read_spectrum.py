@@ -91,9 +91,9 @@ def holds_spectrum(path: Path) -> bool:
     return False
 
 
-def _size(path: Path, title: ColumnTitle, key: str, chosen: str | None) -> tuple[float, int]:
-    """Return size [m^n] and n of a unit of powers of lengths, stated with a key or by the title."""
-    unit, expected = chosen or title.unit, _UNITS[key]
+def _size(path: Path, title: ColumnTitle, key: str, option: str | None) -> tuple[float, int]:
+    """Return size [m^n] and n of a unit of powers of lengths, from an option or by the title."""
+    unit, expected = option or title.unit, _UNITS[key]
     if unit is None:
         why = f" must be given ({expected}): nothing states it of {title.name}"
         raise unstated(f"{path}: ", key, why)
