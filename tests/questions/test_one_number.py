@@ -19,7 +19,7 @@ from gripscale.conditions import Conditions
 from gripscale.conditions.area_term import ConstantStress
 from gripscale.io.table import significant
 from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, answer_number, believed
-from gripscale.questions.page_of_folder import page_of, read_result
+from gripscale.questions.page_of_folder import read_result
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane
 from tests.samples import GENTLE_SINES, SHIFTED_RUBBER, Shell
@@ -178,7 +178,7 @@ def test_pages_and_app_show_it(asked: Asked) -> None:
     shown = app.answer_elements(SimpleNamespace(folder=asked.folder))
     for cards in (
         asked.answer.page_content().cards,
-        page_of(read_result(asked.folder)).cards,
+        read_result(asked.folder).page_content().cards,
         next(element.cards for element in shown if hasattr(element, "cards")),
     ):
         assert all(isinstance(card, Card) for card in cards)
