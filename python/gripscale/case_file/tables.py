@@ -125,8 +125,7 @@ class SpectrumKeys(CaseTable):
     normalization: Literal["q", "1/wavelength", "contact.engineering"] | None = None
     """What its density is: over q, over 1/wavelength, or that of contact.engineering."""
     phases: Literal["real", "worn", "random"] = "real"
-    """Phases of the waves that an answer is for: those of any surface, of one with worn or flat
-    tops as most roads have, or random ones."""
+    """Phases of its waves: of any surface, of one with worn or flat tops as most roads, or random."""
 
 
 class UnitKeys(CaseTable):

@@ -99,9 +99,8 @@ class Spectrum(ArealSpectrum, eq=False):
         if longest > MOST_PROFILE_POINTS * step:
             end = _POINTS_IN_WAVE * longest / MOST_PROFILE_POINTS
             raise InputError(f"smallest_wavelength must be at least {end:.2g} m; got {8 * step:g}")
-        points = 2 * math.ceil(
-            0.5 * max(min(_WAVES * longest / step, _ENOUGH_POINTS), longest / step)
-        )
+        enough = max(min(_WAVES * longest / step, _ENOUGH_POINTS), longest / step)
+        points = 2 * math.ceil(0.5 * enough)
         x, first = step * np.arange(points), 2.0 * np.pi / (points * step)
         amplitude = np.sqrt(2.0 * first * spectrum.of_lines(first * np.arange(1, points // 2)))
         lines = []

@@ -119,9 +119,8 @@ def read_spectrum(
 ) -> Spectrum:
     """Read the power spectrum of a surface, or of its lines, from a text or Excel file.
 
-    Columns go by their titles (`gripscale.surface.read_spectrum`). Raises `FileError` if the file
-    cannot be read, and `InputError` if it has no such columns, a unit or the normalization is not
-    stated, or a unit is unknown.
+    Raises `FileError` if the file cannot be read, and `InputError` if its titles name no columns of
+    a spectrum, or a unit or the normalization is not stated or unknown.
 
     Parameters
     ----------

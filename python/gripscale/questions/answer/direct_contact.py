@@ -160,8 +160,8 @@ def continued_curve(case: Case, load: Load, folder: str | Path | None = None) ->
 def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
     """Return the factor of the roughness of a `continued_curve` below the cut-off of its case.
 
-    Its error is that of the continuation; none without a curve, or one that was refused. Of a
-    surface known by its spectrum also that from random to real phases.
+    Its error is that of the continuation; none without a curve, or one that was refused. A surface
+    known by its spectrum has that of its phases.
     """
     spectrum, phases = case.surface.spectrum, list[Factor]()
     if spectrum is not None and spectrum.phases in REAL_PHASES:
