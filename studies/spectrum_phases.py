@@ -23,6 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.stats
+import xarray as xr
 
 import gripscale as gs
 from gripscale.experiment.design import Design, Point, solve_design
@@ -30,6 +31,7 @@ from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import Task
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.questions import Factor, LogNormalValue
+from gripscale.questions.answer.direct_contact import continuation_factors
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_samples
 from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.samples import sample_numbers
@@ -51,7 +53,7 @@ TABLE = Path(__file__).with_suffix(".csv")
 SEEDS = 4
 STATIONS = ("station 0", "station 1")
 SMALL_STRAIN = Factor("finite_strain", "none", LogNormalValue(1.0, 0.0), LogNormalValue(1.0, 0.0))
-"""Maps and lines are solved at small strain both."""
+"""Maps, and the lines of their spectra, are solved at small strain."""
 
 
 class Pair(NamedTuple):
@@ -73,8 +75,8 @@ class Pair(NamedTuple):
         return ratio / (1.0 - self.spectrum_contact_fraction)
 
 
-def small_strain(case: gs.Case) -> dict[str, float]:
-    """Return area and friction of the surface that the lines of a case lie on, at small strain."""
+def answered(case: gs.Case) -> xr.Dataset:
+    """Return the answer of the surface that the lines of a case lie on, at small strain."""
     direct = DirectContact(tolerance=JUDGED_TO, conditions=case.conditions)
     lines = each_measured(case.surface)
     points = [
@@ -83,19 +85,24 @@ def small_strain(case: gs.Case) -> dict[str, float]:
     ]
     subjects = {"subject": ("sample", [name for name, _ in lines])}
     design = Design({"sample": len(points)}, points, subjects)
-    samples = solve_design(design, Bench(None), sample_numbers)
-    best = answer_of_samples(samples.expand_dims(model=[DIRECT]), [SMALL_STRAIN])
+    samples = solve_design(design, Bench(None), sample_numbers).expand_dims(model=[DIRECT])
+    return answer_of_samples(samples, [SMALL_STRAIN, *continuation_factors(case, None)])
+
+
+def small_strain(case: gs.Case) -> dict[str, float]:
+    """Return area and friction of `answered`."""
+    best = answered(case)
     return {name: float(best[f"answer_{name}"]) for name in ESTIMATED}
 
 
-def spectrum_of(heights: gs.HeightMap | gs.Profile) -> gs.Spectrum:
+def spectrum_of(heights: gs.HeightMap | gs.Profile, phases: str = "random") -> gs.Spectrum:
     """Return the spectrum of one period of a map or of a line, with all its flanks."""
     if isinstance(heights, gs.HeightMap):
         steps: dict[str, Any] = dict(zip(("x_step", "y_step"), heights.step, strict=True))
         areal = map_spectrum(heights.z, taper="none", steepest=math.inf, **steps)
     else:
         areal = areal_spectrum(profile_spectrum(heights, steepest=math.inf))
-    return gs.Spectrum(areal.wavenumber, areal.density, name=heights.name)
+    return gs.Spectrum(areal.wavenumber, areal.density, name=heights.name, phases=phases)
 
 
 def solved(family: str, seed: int) -> Pair | None:

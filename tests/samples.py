@@ -159,6 +159,14 @@ def write_master_curve(
     _write(path, "# Frequency (Hz) E' (MPa) E'' (MPa)", rows)
 
 
+def sine_profile(stack: SineStack, length: float, step: float, seed: int) -> Profile:
+    """Return a profile of superposed sine waves, each with a random phase."""
+    x = step * np.arange(round(length / step) + 1)
+    phases = np.random.default_rng(seed).random(len(stack))
+    waves = zip(stack.wavelength, stack.amplitude, phases, strict=True)
+    return Profile(x, sum(a * np.cos(2.0 * np.pi * (x / w + phase)) for w, a, phase in waves))
+
+
 def three_waves(phase: float = 0.0) -> Profile:
     """Return a road of three waves, 0.4 m long; `phase` is that of the longest."""
     x = np.arange(4000) * 0.1  # mm

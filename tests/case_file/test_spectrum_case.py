@@ -95,6 +95,7 @@ def test_questions_on_a_spectrum():
         case.surface.varied(top_height_fraction=0.5)
     with pytest.raises(InputError, match="cleaning must be left out for a spectrum"):
         case.replace(cleaning={})
+    assert "random to real phases" in str(gs.compare(case, models=["direct"]))
     shorter = case.replace(smallest_wavelength=2e-3)
     assert shorter.surface.measured.cleaned[0].step == pytest.approx(2e-3 / 8)
 
@@ -104,12 +105,9 @@ def test_questions_on_a_spectrum():
     [
         ('spectrum = "psd.csv"\nscales = 8\ncrop = [0, "1 m"]', "crop belongs to a surface from"),
         ('spectrum = "psd.csv"\nscales = 8\nz_unit = "mm"', "z_unit belongs to a surface from"),
+        ('spectrum = "psd.csv"\nscales = 8\nmax_lag = "1 mm"', "max_lag belongs to a surface from"),
         ('files = ["psd.csv"]\nscales = 8\nphases = "random"', "phases belongs to .* spectrum"),
         ('files = ["psd.csv"]\nspectrum = "psd.csv"\nscales = 8', "expected either files"),
-        (
-            'spectrum = "psd.csv"\ncut_off = { contact_slope = 0.5 }',
-            "needs measured profiles; got a map or spectrum",
-        ),
     ],
 )
 def test_keys_that_do_not_belong(folder, surface, message):

@@ -109,6 +109,14 @@ def test_the_grids_of_all_passes_are_kept():
     assert finest >= found.passes
 
 
+def test_the_grids_of_the_result_come_last():
+    """Not of a coarse pass after it: what another rubber changes is taken from its own grids."""
+    load = DIRECT | {"tolerance": 0.02}
+    found = gs.solve_rough_contact(RUBBER, LINE, conditions=EFFECTS[0], **load)
+    assert found.coarse_passes > 4
+    assert found.grids[-1].friction == found.friction
+
+
 def test_errors_are_told_from_as_many_grids_as_without_conditions():
     """A law that softens nothing: grid and errors are those of the rubber."""
     nothing = Conditions(softening=Kraus(1.0, 1.0, 0.02, 1e-3, "shear"))

@@ -222,9 +222,7 @@ def _surface() -> Iterator[PublicFunction]:
     )
     grid = {"z": MAP.z, "x_step": 4e-4, "y_step": 4e-4, "taper": "hann", "per_decade": 10}
     yield PublicFunction(surface.map_spectrum, grid)
-    yield PublicFunction(
-        surface.areal_spectrum, {"spectrum": SPECTRUM, "hurst": None, "per_decade": 10}
-    )
+    yield PublicFunction(surface.areal_spectrum, {"spectrum": SPECTRUM, "per_decade": 10})
     yield PublicFunction(surface.slope_by_wavelength, {"surface": LONG})
     yield PublicFunction(SLOPES.down_to, {"wavelength": 1e-3, "of": "surface"})
     yield PublicFunction(SLOPES.reaches, {"slope": 0.1, "of": "surface"})
@@ -239,9 +237,9 @@ def _surface() -> Iterator[PublicFunction]:
     road = {"hurst": 0.8, "xi_parallel": 1e-2, "xi_perpendicular": 1e-3}
     size = {"length": 1e-2, "step": 2e-4, "seed": 1}
     yield PublicFunction(surface.self_affine_profile, {**road, **size})
-    yield PublicFunction(surface.sine_profile, {"stack": SINES, **size})
     density = {"wavenumber": [1e3, 2e3], "density": [1e-12, 1e-13], "interpolated": 0.0}
     yield PublicFunction(surface.ArealSpectrum, density)
+    yield PublicFunction(gs.Spectrum, {**density, "phases": "worn", "name": "", "source": ""})
     yield PublicFunction(surface.ProfileSpectrum, density)
     lag = {"lag": [1e-3, 2e-3], "value": [1e-8, 2e-8], "resolution_limit": None}
     yield PublicFunction(gs.HeightDifference, lag)

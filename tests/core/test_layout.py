@@ -191,6 +191,7 @@ READERS = {
     "surface.cut_off": "rules as typed",
     "surface.header": "measured files",
     "surface.height_grids": "measured files",
+    "surface.read_spectrum": "measured files",
     "surface.text_files": "measured files",
     "surface.triangles": "measured files",
 }

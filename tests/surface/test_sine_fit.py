@@ -13,9 +13,9 @@ from gripscale.surface import (
     height_difference,
     read_profile,
     self_affine_profile,
-    sine_profile,
 )
 from gripscale.surface.sine_fit import as_fitted, first_consistent_lag
+from tests.samples import sine_profile
 
 from .surface_cases import ROAD, ROAD_ONLY, exact_curve, geometric_stack
 

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.surface import SineStack, height_difference, sine_profile
+from gripscale.surface import SineStack, height_difference
+from tests.samples import sine_profile
 
 from .surface_cases import geometric_stack
 

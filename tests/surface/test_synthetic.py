@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.surface import height_difference, self_affine_profile, sine_profile
+from gripscale.surface import height_difference, self_affine_profile
+from tests.samples import sine_profile
 
 from .surface_cases import geometric_stack
 

@@ -90,22 +90,14 @@ def prepare_surface(
     if surface.sines is not None:
         waves = np.array([(wave.wavelength, wave.amplitude) for wave in surface.sines])
         return surfaces.Surface(surfaces.SineStack(*waves.T), "sine waves stated in the case")
+    measured: surfaces.Measured | surfaces.Spectrum
     if surface.spectrum is not None:
         options, longest = _options(surface, surfaces.read_spectrum), surface.longest_wavelength
-        known = surfaces.read_spectrum(resolve(surface.spectrum), **options)
-        known = known if longest is None else known.without_long_waves(longest)
-        return _described(surface, known, resolve, footprint)
-    raw = raw_surface(surface, resolve) if raw is None else raw
-    return _described(surface, _cleaned(surface, raw, resolve), resolve, footprint)
-
-
-def _described(
-    surface: SurfaceTable,
-    measured: surfaces.Measured | surfaces.Spectrum,
-    resolve: Resolve,
-    footprint: float,
-) -> surfaces.Surface:
-    """Return a cleaned measurement, or a spectrum, with its waves, as the keys of `surface` ask."""
+        spectrum = surfaces.read_spectrum(resolve(surface.spectrum), **options)
+        measured = spectrum if longest is None else spectrum.without_long_waves(longest)
+    else:
+        raw = raw_surface(surface, resolve) if raw is None else raw
+        measured = _cleaned(surface, raw, resolve)
     paths = [resolve(name) for name in surface.measured_files]
     where = str(paths[0]) if len(paths) == 1 else f"{len(paths)} profiles"
     by_rule = not (surface.cut_off is None or isinstance(surface.cut_off, float))

@@ -112,8 +112,7 @@ class SourceKeys(CaseTable):
     @property
     def measured_files(self) -> list[str]:
         """Names of the files it was measured in."""
-        single = self.map or self.spectrum
-        return [single] if single is not None else self.files or []
+        return [single] if (single := self.map or self.spectrum) else self.files or []
 
 
 class SpectrumKeys(CaseTable):
@@ -256,13 +255,12 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SpectrumKeys, SourceKeys
                 "expected either files (measured profiles), map (a measured map), spectrum (of a "
                 "surface without heights) or sines (waves by hand)"
             )
-        of_heights = {*CleaningKeys.model_fields, *ReadingKeys.model_fields} - {
-            "longest_wavelength"
-        }
+        of_heights = {*CleaningKeys.model_fields, *ReadingKeys.model_fields, "top_height_fraction"}
+        of_heights = (of_heights | {"max_lag"}) - {"longest_wavelength"}
         keys = set(SpectrumKeys.model_fields) if self.spectrum is None else of_heights
-        if self.sines is None and (stated := self.model_fields_set & keys - {"assumed"}):
-            other = "heights" if self.spectrum is not None else "spectrum"
-            raise ValueError(f"{min(stated)} belongs to a surface from {other}")
+        if self.sines is None and (others := self.model_fields_set & keys - {"assumed"}):
+            source = "heights" if self.spectrum is not None else "spectrum"
+            raise ValueError(f"{min(others)} belongs to a surface from {source}")
         if self.sines is not None:
             if self.cut_off is not None:
                 raise ValueError("cut_off belongs to a measured surface, not to waves by hand")

@@ -316,7 +316,10 @@ class DirectContact(Checked, model.Model):
             slower = load.speed * 10.0 ** (-DECADES_PER_KELVIN * rise)
             others["heat"] = replace(load, speed=max(slower, 1e-9 * load.speed))
         for which, other in others.items():
-            signed[which] = log_change(contact, solve(rubber, contact.by_scale, other))
+            # what is far from the contact needs the grid that judges it, started from a coarser one
+            near = solve(rubber, contact.by_scale, other)
+            whole = dry.contact(rubber, surface, measured, other, near, contact.by_scale)
+            signed[which] = log_change(contact, whole)
         for which, of_both in signed.items():
             for name, change in of_both._asdict().items():
                 text = f"change of ln {name} by {which}"

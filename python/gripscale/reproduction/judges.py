@@ -34,11 +34,9 @@ Verdict = tuple[str, str, bool | None, str]
 _MODULUS_ERROR = 0.10
 _POWER_LAW_DECADES, _POWER_LAW_RESIDUAL = 1.0, 0.02
 _TWO_FACTORS_RESIDUAL, _ONE_FACTOR_RATIO = 0.1, 1.5
-_SAME_AREA = 0.25
 _MICRO = 0.5e-3  # macrotexture ends here [m]
-_LESS = 0.05
-_ALIKE, _AGAIN = 0.2, 0.5
-_LOSSIER, _SCATTER = 0.1, 0.1
+_SAME_AREA, _LESS = 0.25, 0.05
+_ALIKE, _AGAIN, _LOSSIER, _SCATTER = 0.2, 0.5, 0.1, 0.1
 _FULL = "in full contact the loss no longer grows with pressure, and friction falls as one over it"
 
 

@@ -34,6 +34,5 @@ from .surface import Measured as Measured
 from .surface import Surface as Surface
 from .surface import SurfacePart as SurfacePart
 from .synthetic import self_affine_profile as self_affine_profile
-from .synthetic import sine_profile as sine_profile
 from .texture import texture as texture
 from .texture import texture_levels as texture_levels

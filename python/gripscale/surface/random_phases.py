@@ -6,12 +6,9 @@ With J_0 the Bessel function, the lines of an isotropic surface have (Wiener and
     C_1(k) = 4 int_k^inf q C(q) dq / sqrt(q^2 - k^2).
 
 A line of N steps d has waves k_n = 2 pi n/(N d) of the amplitudes sqrt(2 C_1(k_n) k_1). Their
-phases are drawn, and its heights are Gaussian. Those of a real surface are not: worn tops touch in
-more places and are smooth. What this changes, `REAL_PHASES`, is measured on families of surfaces
-(`python -m studies.spectrum_phases`).
-
-Lines, not maps, are solved: a spectrum has waves from decimetres to micrometres, and a map of four
-million points two and a half decades of them.
+phases are drawn: its heights are Gaussian. Those of a real surface are not, and what this changes,
+`REAL_PHASES`, is measured (`python -m studies.spectrum_phases`). Lines are solved, not maps: of a
+spectrum from decimetres to micrometres a map of four million points holds two and a half decades.
 """
 
 from __future__ import annotations
@@ -47,8 +44,7 @@ class Spectrum(ArealSpectrum, eq=False):
 
         <z^2> = 2 pi int_0^inf q C(q) dq
 
-    Outside its points there are no waves. Raises `InputError` if lengths differ, a value is out of
-    range, or all of C is zero.
+    Outside its points there are no waves. Raises `InputError` as `ArealSpectrum` does.
     """
 
     name: str = checked(checks.text, default="")
@@ -89,17 +85,16 @@ class Spectrum(ArealSpectrum, eq=False):
     ) -> tuple[list[Profile], HeightDifference]:
         """Return lines of it with random phases, always the same ones, and its correlation.
 
-        Each line has the whole variance, waves to a quarter of the smallest wavelength [m], by
-        default that of the spectrum, and sixteen of the longest or of 1.5 footprints [m]; fewer
-        where these are too many points. As of profiles, waves that the footprint does not hold are
-        left out if they are most of the mean square height. Raises `InputError` if one has too many
-        points.
+        Each has the whole variance, waves to a quarter of the smallest wavelength [m], and sixteen
+        of the longest or of 1.5 footprints [m], or fewer where these are too many points. As of
+        profiles, waves that the footprint does not hold are left out if they are most of the mean
+        square height. Raises `InputError` if one longest wave has too many points.
         """
         shortest, longest = (2.0 * np.pi / self.wavenumber[[-1, 0]]).tolist()
         longest = min(longest, PER_FOOTPRINT * footprint)
         held = self.without_long_waves(longest)
         decide = held.rms_height**2 < (1.0 - MOST_SHARE) * self.rms_height**2
-        known = held if decide and longest == PER_FOOTPRINT * footprint else self
+        spectrum = held if decide and longest == PER_FOOTPRINT * footprint else self
         step = max(smallest_wavelength or shortest, shortest) / _POINTS_IN_WAVE
         if longest > MOST_PROFILE_POINTS * step:
             end = _POINTS_IN_WAVE * longest / MOST_PROFILE_POINTS
@@ -108,7 +103,7 @@ class Spectrum(ArealSpectrum, eq=False):
             0.5 * max(min(_WAVES * longest / step, _ENOUGH_POINTS), longest / step)
         )
         x, first = step * np.arange(points), 2.0 * np.pi / (points * step)
-        amplitude = np.sqrt(2.0 * first * known.of_lines(first * np.arange(1, points // 2)))
+        amplitude = np.sqrt(2.0 * first * spectrum.of_lines(first * np.arange(1, points // 2)))
         lines = []
         for number in range(_LINES):
             phase = np.random.default_rng(number).uniform(0.0, 2.0 * np.pi, amplitude.size)
@@ -116,7 +111,7 @@ class Spectrum(ArealSpectrum, eq=False):
             name = f"{self.name or 'spectrum'} {number + 1}"
             lines.append(Profile(x, np.fft.irfft(waves, points), name, self.source, shortest))
         lags = np.geomspace(step, 0.25 * x[-1], int(_LAGS_PER_DECADE * math.log10(points)))
-        return lines, known.height_difference(lags)
+        return lines, spectrum.height_difference(lags)
 
     @property
     def finding(self) -> Finding:

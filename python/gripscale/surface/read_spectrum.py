@@ -1,17 +1,15 @@
 """Read the power spectrum of a surface from a file, in the units and the convention it states.
 
-Titles of its columns are q, wavenumber or wavevector; 1/wavelength or spatial frequency; or
-wavelength; and a density. Units are powers of lengths (um^-1, nm^2 um^2); a density in m^4 is that
-of a surface, in m^3 that of lines, which becomes that of their isotropic surface. log10 and ln of a
-column are raised. Programs differ in what their density is:
+Units are powers of lengths (um^-1, nm^2 um^2). A density in m^4 is that of a surface, in m^3 that
+of lines, which becomes that of their isotropic surface. Logarithms are raised. Programs differ in
+what their density is:
 
     "q"                     <z^2> = int C_1 dq = 2 pi int q C dq        C, C(q): B. N. J. Persson
     "1/wavelength"          <z^2> = int C_1 df = 2 pi int f C df        f = 1/wavelength: ISO 8608
     "contact.engineering"   <z^2> = int C_1 dq/pi = int q C dq/(2 pi)   C_iso, 1D PSD, q/π × 2D PSD
 
 (T. D. B. Jacobs, T. Junge, L. Pastewka, Surf. Topogr. Metrol. Prop. 5 (2017) 013001,
-doi:10.1088/2051-672X/aa51f8). They differ by up to 40, and a title "PSD" may be any: it is asked
-for.
+doi:10.1088/2051-672X/aa51f8). They differ by up to 40; a title "PSD" may be any: it is asked for.
 """
 
 from __future__ import annotations
@@ -31,11 +29,9 @@ from gripscale.surface.random_phases import Spectrum
 from gripscale.surface.spectrum import ProfileSpectrum, areal_spectrum
 
 # What the densities of lines and of surfaces are divided by.
-NORMALIZATIONS = {
-    "q": (1.0, 1.0),
-    "1/wavelength": (2.0 * math.pi, 4.0 * math.pi**2),
-    "contact.engineering": (math.pi, 4.0 * math.pi**2),
-}
+_CYCLE = 2.0 * math.pi
+NORMALIZATIONS = {"q": (1.0, 1.0), "1/wavelength": (_CYCLE, _CYCLE**2)}
+NORMALIZATIONS |= {"contact.engineering": (0.5 * _CYCLE, _CYCLE**2)}
 _TITLES = {
     "1/wavelength": r"1 ?/ ?(wave ?length|λ|lambda|wellenlänge)|spatial freq|ortsfreq",
     "wavelength": r"wave ?length|wellenlänge|λ|lambda",
@@ -85,8 +81,7 @@ def is_spectrum(table: TextTable) -> bool:
 
 
 def _table(path: Path) -> TextTable:
-    expected = "a row of a spectrum, wavenumber and density"
-    return read_table(path, expected, kinds=(), named=lambda name: bool(kind_of(name)))
+    return read_table(path, "a row of a spectrum", kinds=(), named=lambda name: bool(kind_of(name)))
 
 
 def holds_spectrum(path: Path) -> bool:
@@ -96,9 +91,9 @@ def holds_spectrum(path: Path) -> bool:
     return False
 
 
-def _size(path: Path, title: ColumnTitle, key: str, stated: str | None) -> tuple[float, int]:
-    """Return size [m^n] and n of a unit of powers of lengths, stated with a key or by the title."""
-    unit, expected = stated or title.unit, _UNITS[key]
+def _size(path: Path, title: ColumnTitle, key: str, option: str | None) -> tuple[float, int]:
+    """Return size [m^n] and n of a unit of powers of lengths, from an option or by the title."""
+    unit, expected = option or title.unit, _UNITS[key]
     if unit is None:
         why = f" must be given ({expected}): nothing states it of {title.name}"
         raise unstated(f"{path}: ", key, why)
@@ -107,9 +102,7 @@ def _size(path: Path, title: ColumnTitle, key: str, stated: str | None) -> tuple
     parts = [_FACTOR.fullmatch(part) for part in re.split(r"[\s·*.]+", text.strip("/() "))]
     factors = [(spelled(p[1], "length"), sign * int(p[2] or 1)) for p in parts if p is not None]
     power = sum(exponent for _, exponent in factors)
-    powers = (
-        (3, 4) if key == "density_unit" else (1 if kind_of(title.name) == "wavelength" else -1,)
-    )
+    powers = {"density": (3, 4), "wavelength": (1,)}.get(kind_of(title.name), (-1,))
     if None in (*parts, *(length for length, _ in factors)) or power not in powers:
         problem = f"{path}: {title.name} is in {checks.short_repr(unit)}, which is no unit of it ("
         raise InputError(Words(f"{problem}{expected}); give ", CaseKey(key)))
@@ -126,19 +119,18 @@ def read_spectrum(
 ) -> Spectrum:
     """Read the power spectrum of a surface, or of its lines, from a text or Excel file.
 
-    Raises `FileError` if the file cannot be read, and `InputError` if it has no such columns, a
-    unit or the normalization is not stated, or a unit is unknown.
+    Columns go by their titles (`gripscale.surface.read_spectrum`). Raises `FileError` if the file
+    cannot be read, and `InputError` if it has no such columns, a unit or the normalization is not
+    stated, or a unit is unknown.
 
     Parameters
     ----------
-    path : path-like
-        Columns by their titles, see `gripscale.surface.read_spectrum`.
     wavenumber_unit, density_unit : str, optional
         Such as "1/um" and "um^4", in place of those of the titles.
     normalization : str, optional
         What the density is, one of `NORMALIZATIONS`, where its title does not tell.
     phases : str
-        "real", "worn" or "random", see `gripscale.Spectrum`.
+        As of `gripscale.Spectrum`.
     """
     file = file_path(path)
     table = _table(file)

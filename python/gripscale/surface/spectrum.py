@@ -22,13 +22,8 @@ A line crosses a wave of wavenumber q at an angle phi and sees one of q cos(phi)
 
 The first is Abel's integral equation, the second its solution (R. N. Bracewell, The Fourier
 Transform and Its Applications, 3rd ed. (2000), ch. 13; for surfaces P. R. Nayak, J. Lubr.
-Technol. 93 (1971) 398, doi:10.1115/1.3451608). For C_1 ~ q^(-1 - 2H) it is, by the beta function,
-
-    C(q) = C_1(q) / (2 sqrt(pi) q Gamma(H + 1/2) / Gamma(H + 1)),
-
-1.6 to 2 times (H from 0.5 to 1) the C_1/(2 pi q) that takes every wave to run along the line. The
-solution needs the derivative of a measured, scattered curve. Instead, `areal_spectrum` solves the
-first equation by least squares with C >= 0.
+Technol. 93 (1971) 398, doi:10.1115/1.3451608). The solution needs the derivative of a measured,
+scattered curve. Instead, `areal_spectrum` solves the first equation by least squares with C >= 0.
 """
 
 from __future__ import annotations
@@ -325,27 +320,22 @@ _TAIL_POINTS = 4  # last points of a spectrum whose power law is continued
 _SLOWEST_FALL = 1.0  # least exponent of C_1 beyond them: with less the variance would be infinite
 
 
-def areal_spectrum(
-    spectrum: ProfileSpectrum, *, hurst: float | None = None, per_decade: int = _PER_DECADE
-) -> ArealSpectrum:
+def areal_spectrum(spectrum: ProfileSpectrum, *, per_decade: int = _PER_DECADE) -> ArealSpectrum:
     """Return the spectrum of the isotropic surface whose lines have a measured one.
 
     The Abel equation is solved for the C >= 0 at the averaged wavenumbers that fits C_1 there best,
     relative to its scatter. Beyond the last point C_1 is continued as the power law of its last
     points: lines see those waves at smaller k, too, but they are no part of the result. Raises
-    `InputError` if `hurst` is not above 0 and up to 1, or there are fewer than four points.
+    `InputError` if there are fewer than four points.
 
     Parameters
     ----------
     spectrum : ProfileSpectrum
         Of lines in any direction.
-    hurst : float, optional
-        Hurst exponent of a surface that is self-affine all over: the closed form is used then.
     per_decade : int
         Wavenumbers a decade to which the spectrum is averaged first.
     """
     from scipy.optimize import nnls
-    from scipy.special import gamma
 
     checks.instance("spectrum", spectrum, ProfileSpectrum)
     mean = spectrum.averaged(per_decade)
@@ -355,10 +345,6 @@ def areal_spectrum(
             f"spectrum must have at least {_TAIL_POINTS} points above zero to be turned into that "
             f"of a surface; got {int((density >= checks.LEAST).sum())}"
         )
-    if hurst is not None:
-        exponent = checks.fraction("hurst", hurst)
-        ratio = gamma(exponent + 0.5) / gamma(exponent + 1.0)
-        return ArealSpectrum(q, density / (2.0 * np.sqrt(np.pi) * q * ratio), mean.interpolated)
     certainty = np.sqrt(mean.width) / density
     size = density / q
     matrix = certainty[:, None] * _abel_matrix(q, density) * size

@@ -291,7 +291,7 @@ class Surface(Described):
     def findings(self) -> tuple[Finding, ...]:
         """What may change the answer: of the measurement, and of the end of the waves."""
         of_measurement = () if self.measured is None else (*self.measured.findings, *self.noise)
-        of_measurement = of_measurement if self.spectrum is None else (self.spectrum.finding,)
+        of_measurement = (self.spectrum.finding,) if self.spectrum else of_measurement
         if self.correlation is None:
             return of_measurement
         ridges = [f for f in self.direction if f.severity != Severity.GOOD]
@@ -313,8 +313,7 @@ class Surface(Described):
     @cached_property
     def noise(self) -> tuple[Finding, ...]:
         """What white noise of the measured heights changes; nothing without a cut-off."""
-        ends = self.end is not None or self.waves is not None
-        if self.measured is None or self.spectrum is not None or not ends:
+        if self.measured is None or self.spectrum or (self.end is None and self.waves is None):
             return ()
         lines, whole = self.measured.cleaned, self.measured.map
         across = None if whole is None else whole.step[1]
@@ -326,8 +325,8 @@ class Surface(Described):
     def doubts(self) -> tuple[Finding, ...]:
         """Findings that make the answer unreliable."""
         of_noise = (f for f in self.noise if f.severity == Severity.DOUBT)
-        drawn = self.measured is None or self.spectrum is not None
-        return () if drawn or self.measured is None else (*self.measured.doubts, *of_noise)
+        heights = None if self.spectrum else self.measured
+        return () if heights is None else (*heights.doubts, *of_noise)
 
     @property
     def extrapolated(self) -> tuple[Finding, ...]:

@@ -8,11 +8,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from gripscale.core import Array, InputError, Quantity, checks
+from gripscale.core import InputError, Quantity, checks
 from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import FEWEST_POINTS, MOST_PROFILE_POINTS, Profile
 from gripscale.surface.sine_fit import fit_sines
-from gripscale.surface.sines import SineStack
 from gripscale.surface.surface import Measured, Surface
 
 
@@ -52,8 +51,13 @@ def self_affine_profile(
     exponent = 2.0 * checks.fraction("hurst", hurst)
     cut_off = checks.positive("xi_parallel", xi_parallel, unit="m")
     variance = 0.5 * checks.positive("xi_perpendicular", xi_perpendicular, unit="m") ** 2
-    x = _points(length, step)
     step = checks.positive("step", step, unit="m")
+    points = round(checks.positive("length", length, unit="m") / step) + 1
+    if not FEWEST_POINTS <= points <= MOST_PROFILE_POINTS:
+        raise InputError(
+            f"length / step must give {FEWEST_POINTS} to {MOST_PROFILE_POINTS} points; got {points}"
+        )
+    x = step * np.arange(points, dtype=np.float64)
     # A period twice as long as needed, and ten cut-offs more, keeps the spectrum positive.
     if x.size + 10.0 * cut_off / step > MOST_PROFILE_POINTS:
         raise InputError(
@@ -67,31 +71,6 @@ def self_affine_profile(
     noise = random.standard_normal(lag.size) + 1j * random.standard_normal(lag.size)
     drawn = np.fft.fft(np.sqrt(np.maximum(spectrum, 0.0) / lag.size) * noise).real
     return Profile(x, drawn[: x.size], name=f"self-affine, H = {hurst:g}", source=f"seed {seed}")
-
-
-def sine_profile(stack: SineStack, length: Quantity, step: Quantity, seed: int) -> Profile:
-    """Return a profile of superposed sine waves, each with a random phase.
-
-    `stack` are the waves, `length` and `step` those of the profile [m], `seed` is that of the
-    phases. Raises `InputError` if an argument is out of range.
-    """
-    checks.instance("stack", stack, SineStack)
-    x = _points(length, step)
-    random = np.random.default_rng(checks.whole("seed", seed, least=0, most=2**32 - 1))
-    z = np.zeros(x.size)
-    for wavelength, amplitude in zip(stack.wavelength, stack.amplitude, strict=True):
-        z += amplitude * np.cos(2.0 * np.pi * (x / wavelength + random.random()))
-    return Profile(x, z, name=f"{len(stack)} sine waves", source=f"seed {seed}")
-
-
-def _points(length: float, step: float) -> Array:
-    step = checks.positive("step", step, unit="m")
-    points = round(checks.positive("length", length, unit="m") / step) + 1
-    if not FEWEST_POINTS <= points <= MOST_PROFILE_POINTS:
-        raise InputError(
-            f"length / step must give {FEWEST_POINTS} to {MOST_PROFILE_POINTS} points; got {points}"
-        )
-    return np.asarray(step * np.arange(points), dtype=np.float64)
 
 
 @dataclass(frozen=True)

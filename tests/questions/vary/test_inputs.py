@@ -14,7 +14,7 @@ from gripscale.case_file.named_inputs import read_rubber, read_surface
 from gripscale.case_file.prepare import case_surface
 from gripscale.core.errors import FileError, InputError
 from gripscale.questions.vary.inputs import measured_rubber_of, surface_of
-from tests.samples import EXAMPLES, write_road
+from tests.samples import EXAMPLES, sine_profile, write_road
 
 EXAMPLE = EXAMPLES / "road_and_tread" / "case.toml"
 STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.2 ** np.arange(5))
@@ -23,7 +23,7 @@ STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.
 @pytest.fixture
 def measured(tmp_path: Path) -> Path:
     """A case on a made-up road of five waves, and a copy of the road under another name."""
-    profile = gs.surface.sine_profile(STACK, length=0.5, step=1e-4, seed=3)
+    profile = sine_profile(STACK, length=0.5, step=1e-4, seed=3)
     for name in ("road.txt", "other.txt"):
         write_road(tmp_path / name, profile)
     path = tmp_path / "case.toml"

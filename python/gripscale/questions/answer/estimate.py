@@ -74,8 +74,7 @@ class Factor(Described):
     friction: LogNormalValue = UNKNOWN_VALUE
     freedom: float = math.inf
     """Degrees of freedom of its uncertainties."""
-    of_small_contact: bool = False
-    """Whether its logarithms fall to nothing at full contact, as 1 - A."""
+    of_small_contact: bool = False  # its logarithms fall to nothing at full contact, as 1 - A
 
 
 # Models whose ratio is the factor of finite strain.

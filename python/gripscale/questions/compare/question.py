@@ -351,9 +351,10 @@ def compare(
         Called with the `SolvedLadder` as it stands, while more samples are solved.
     """
     doubtful: list[Finding] = []
-    if vary is None and (curve := continued_curve(case, case.load, folder)) is not None:
+    curve = None if vary is not None else continued_curve(case, case.load, folder)
+    if curve is not None:
         doubtful = list(continuation_doubts(curve))
-        factors = [*continuation_factors(case, curve), *factors]
+    factors = [*continuation_factors(case, curve), *factors]
     setups, axis, rubbers = comparison_setups(case, vary, seeds, tolerance)
     wanted = chosen(models)
     answering = [m for m in wanted if m.name == DIRECT] if vary is None else []
