@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import signal
 from collections.abc import Iterator
 from contextlib import nullcontext
 from typing import Any
@@ -32,6 +33,14 @@ def _own_core() -> Iterator[None]:
     """Let a process of pytest-xdist use one core: the others have theirs."""
     with sharing(1) if "PYTEST_XDIST_WORKER" in os.environ else nullcontext():
         yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _heeds_interrupts() -> Iterator[None]:
+    """Heed Ctrl-C where a shell has the tests in the background, too: some send it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="session", autouse=True)

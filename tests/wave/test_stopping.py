@@ -8,7 +8,6 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Iterator
 from contextlib import closing
 
 import pytest
@@ -22,14 +21,6 @@ LOAD = {"wavelength": 1e-3, "amplitude": 1.5e-4, "pressure": 3e6, "speed": 1.0, 
 LATE = 1.0
 """Seconds until a stop is heeded: 0.05 to the next question and some 0.05 for the longest piece of
 work, on a machine with other work."""
-
-
-@pytest.fixture(autouse=True)
-def _interrupts() -> Iterator[None]:
-    """Heed Ctrl-C where a shell has this process in the background, too."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
 
 
 def long_solve(columns: int) -> gs.ScaleResult:
