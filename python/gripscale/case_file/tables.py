@@ -125,7 +125,7 @@ class SpectrumKeys(CaseTable):
     normalization: Literal["q", "1/wavelength", "contact.engineering"] | None = None
     """What its density is: over q, over 1/wavelength, or that of contact.engineering."""
     phases: Literal["real", "worn", "random"] = "real"
-    """Phases of its waves: of any surface, of one with worn or flat tops as most roads, or random."""
+    """Phases of its waves: of any surface, of one with worn tops as most roads, or random."""
 
 
 class UnitKeys(CaseTable):
