@@ -33,9 +33,9 @@ from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.answer.direct_contact import continuation_factors
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_samples
-from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.surface import areal_spectrum, map_spectrum, profile_spectrum
+from gripscale.surface.surface import each_measured
 from studies.line_to_map import (
     CUT_OFF,
     NEARLY_FULL,

@@ -21,8 +21,7 @@ from typing import Any
 import numpy as np
 
 from gripscale.chain.chain import Chain
-from gripscale.conditions.conditions import Conditions
-from gripscale.conditions.defaults import DRY, Interface, with_defaults
+from gripscale.conditions.conditions import DRY, Conditions, Interface, with_defaults
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
 from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, Words, checks

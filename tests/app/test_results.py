@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from gripscale.app.elements import Cards, Folded, html, notice_elements
-from gripscale.app.run_tabs import ComparedRun, answer_elements, numbers_of, runs_table
+from gripscale.app.run_tabs import answer_elements, compared_elements
 from gripscale.core.finding import Finding, Severity
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import Answer
@@ -55,17 +55,17 @@ def read_answer(folder: Path) -> Answer:
 
 
 def test_runs_are_compared_by_their_answers(ran: Path) -> None:
-    stored = read_answer(ran)
-    longer = Answer(stored.data.assign(answer_friction_low=0.1, answer_friction_high=0.2))
-    run = SimpleNamespace(name="run-1", text=(ran / "case.toml").read_text())
-    compared = [ComparedRun(run, longer), ComparedRun(run, stored)]
-    columns = {
-        column.name: column.values for column in runs_table(compared, numbers_of(compared)).columns
-    }
-    assert columns["answer_friction"][0] == stored.friction
-    assert columns["answer_friction_interval"][0].tolist() == [0.1, 0.2]
-    assert "answer_contact_fraction_interval" not in columns
-    assert list(columns["status"]) == ["not to be relied on"] * 2
+    text = (ran / "case.toml").read_text()
+    faster = text.replace('speed = "', 'speed = "1')
+    runs = [
+        SimpleNamespace(name=f"run-{number}", text=case, folder=ran, running=False)
+        for number, case in enumerate((text, faster), start=1)
+    ]
+    (table,) = compared_elements(SimpleNamespace(all=runs))
+    columns = {column.name: list(column.values) for column in table.columns}
+    assert columns["answer"] == [read_answer(ran).lines[0]] * 2
+    assert columns["changes"][0] == ""
+    assert columns["changes"][1].startswith("load.speed = 1")
 
 
 def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:

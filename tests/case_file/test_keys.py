@@ -11,10 +11,9 @@ from pydantic import BaseModel
 from typer.testing import CliRunner
 
 from gripscale.case_file import CaseTables
-from gripscale.case_file.keys import NEEDED, KeyQuantity, sections
+from gripscale.case_file.keys import NEEDED, sections
 from gripscale.case_file.schema import Reading, table_of
 from gripscale.cli import app
-from gripscale.core.units import UNITS, example_unit
 from gripscale.rubber.strain_energy import STRAIN_ENERGIES
 from tests.samples import DOCS
 
@@ -76,21 +75,6 @@ def test_a_key_is_described_as_it_is_read(section: str, key: str, takes: str, de
     found = next(found for found in one.keys if found.name == key)
     assert found.takes.startswith(takes)
     assert found.default == default
-
-
-def test_a_key_with_a_quantity_says_which() -> None:
-    """A form takes the units from it."""
-    for section in sections():
-        for key in section.keys:
-            one = key.quantity is not None and not key.quantity.pair
-            words = "" if key.quantity is None else f"a {key.quantity.kind} such as"
-            place = f"{section.title} {key.name}"
-            if key.quantity is not None:
-                assert example_unit(key.quantity.kind) in UNITS[key.quantity.kind], place
-                assert key.takes.startswith(words if one else f"a list of 2, each {words}"), place
-    load = next(section for section in sections() if section.name == "load")
-    quantities = {key.name: key.quantity for key in load.keys}
-    assert quantities["footprint"] == KeyQuantity("length", pair=False)
 
 
 def test_the_command_prints_all_tables_or_one_with_what_belongs_to_it() -> None:

@@ -13,8 +13,8 @@ from gripscale.half_space import DirectContact
 from gripscale.half_space.line_to_map import finite_over_small, pressure_over_modulus
 from gripscale.half_space.response import HalfSpace
 from gripscale.model import Load
-from gripscale.questions.answer.measurements import with_single_measurement
 from gripscale.surface import SineStack, Surface
+from gripscale.surface.surface import with_single_measurement
 
 RUBBER = gs.Rubber(3e6, [2e7], [1e-3], bulk_modulus=2e9)
 QUANTITIES = ("contact_fraction", "friction")

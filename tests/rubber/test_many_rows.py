@@ -5,7 +5,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.rubber import blocks
-from gripscale.rubber.many_rows import MOST_ROWS, ROWS_PER_DECADE, thinned
+from gripscale.rubber.sweeps import MOST_ROWS, ROWS_PER_DECADE, thinned
 
 
 def moduli(hertz):

@@ -10,13 +10,13 @@ import pytest
 import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.core.finding import Finding
-from gripscale.questions.answer.measurements import each_measured
 from gripscale.surface.direction import (
     area_over_truth,
     direction_of_map,
     direction_of_profiles,
     texture_lengths,
 )
+from gripscale.surface.surface import each_measured
 from tests.samples import ZENER
 from tests.verification.known_surfaces import LARGEST, surface, two_lines
 

@@ -41,11 +41,11 @@ from gripscale.half_space import RoughContact
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_samples
-from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.rubber import styrene_butadiene
 from gripscale.rubber.softening import softening_of_sweeps
 from gripscale.surface import HeightMap, Profile
+from gripscale.surface.surface import each_measured
 from studies import surface_families
 from studies.treads import compound, sweeps
 from tests.samples import MEASURED_DMA, ROOT

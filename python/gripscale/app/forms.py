@@ -22,10 +22,9 @@ from gripscale.app.elements import (
     work_button,
 )
 from gripscale.case_file import CaseFile
-from gripscale.case_file.keys import NEEDED, NOTHING, Key, KeyQuantity, KeySection, sections
+from gripscale.case_file.keys import NEEDED, NOTHING, Key, KeySection, sections
 from gripscale.case_file.schema import choices_of
 from gripscale.conditions.conditions import DEFAULTED, OFF
-from gripscale.core.units import UNITS, example_unit, number_and_unit
 
 BY_DEFAULT = "by default"
 LOOK: dict[str, Any] = {
@@ -105,10 +104,8 @@ def law_form(state: CaseState, name: str) -> pn.Column:
 
 
 def field(state: CaseState, section: KeySection, key: Key) -> Any:
-    """Return what shows and changes one key of a table; numbers stand apart from their unit."""
+    """Return what shows and changes one key of a table, written as in the case: `3 bar`."""
     path = (*section.name.split("."), key.name)
-    if key.quantity is not None:
-        return quantity_field(state, path, key, key.quantity)
     kind = key.schema.get("type")
     choices = [True, False] if kind == "boolean" else choices_of(key.schema)
     is_text = kind == "string"
@@ -146,69 +143,10 @@ def field(state: CaseState, section: KeySection, key: Key) -> Any:
     return widget
 
 
-def quantity_field(
-    state: CaseState, path: Sequence[str], key: Key, quantity: KeyQuantity
-) -> pn.Row:
-    """Return the number of a quantity, or two, and the choice of their unit.
-
-    What is typed as a number may be anything else the key takes, such as a quantity with its unit.
-    """
-    kind, pair = quantity
-    words = _words(key)
-    numbers = [
-        pn.widgets.TextInput(
-            label=label,
-            width=max(80, 40 + 7 * len(label)),  # the label, and the mark that explains it
-            margin=(2, 4, 2, 8),
-            description=words["description"],
-            placeholder="" if key.default in (NEEDED, NOTHING) else key.default,
-        )
-        for label in [words["label"], "to"][: 1 + pair]
-    ]
-    look: dict[str, Any] = {"label": "unit", "width": 90, "margin": (2, 8, 2, 4)}
-    unit = pn.widgets.Select(options=list(UNITS[kind]), value=example_unit(kind), **look)
-
-    def edit() -> None:
-        texts = [str(number.value or "").strip() for number in numbers]
-        values: list[Any] = [
-            f"{text} {unit.value}" if _NUMBER.fullmatch(text) else field_value(text)
-            for text in texts
-        ]
-        value: Any = None
-        if any(texts):
-            value = [text or "" for text in values] if pair else values[0]
-        if value != state.get(path):
-            state.set(path, value)
-
-    def follow() -> None:
-        value = state.get(path)
-        values = value if pair and isinstance(value, list) else [value]
-        parts = []  # anything but a quantity is shown as it is, without a unit
-        for each in values:
-            if isinstance(each, int | float) and not isinstance(each, bool):
-                parts.append((field_text(each), next(iter(UNITS[kind]))))
-            else:
-                parts.append(number_and_unit(each, kind) or (field_text(each or None), ""))
-        units = {part[1] for part in parts if part[1]}
-        if len(units) > 1:
-            parts = [(field_text(each), "") for each in values]
-        texts = [*(text for text, _ in parts), *[""] * len(numbers)]
-        for number, text in zip(numbers, texts, strict=False):
-            number.value = text
-        if len(units) == 1:
-            unit.value = units.pop()
-
-    _bind(state, [*numbers, unit], edit, follow)
-    return pn.Row(*numbers, unit, margin=0)
-
-
 def _words(key: Key) -> dict[str, str]:
     """Return label and description of the field of a key."""
     label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
     return {"label": label, "description": f"{key.meaning} Takes {key.takes}."}
-
-
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 
 
 def _bind(

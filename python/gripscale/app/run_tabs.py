@@ -7,27 +7,21 @@ from __future__ import annotations
 
 import asyncio
 import io
-import math
 import shlex
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 import panel as pn
-import xarray as xr
 
 from gripscale.app import elements
 from gripscale.app.case import CaseState, case_tables, field_text
 from gripscale.app.case_panel import file_upload, problem_pane
 from gripscale.app.runs import COMMANDS, AppRun, Runs
-from gripscale.charts.draw import Picture, Sheet, image
 from gripscale.core.errors import FileError, GripscaleError, InputError
-from gripscale.core.units import display_unit_of
 from gripscale.io.table import Column, Table
-from gripscale.questions import page_of_folder, view
+from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import Answer
-from gripscale.questions.answer.reliance import is_measured, no_answer
-from gripscale.questions.answer.variables import SYMBOLS, described, has_answer
 from gripscale.questions.registry import Form
 from gripscale.report.elements import Element, Text
 
@@ -219,74 +213,26 @@ def all_runs_tab(runs: Runs) -> pn.Column:
     return body
 
 
-class ComparedRun(NamedTuple):
-    """A run and its answer."""
-
-    run: AppRun
-    answer: Answer
-
-
 def compared_elements(runs: Runs) -> elements.PageElements:
-    """Return table and figures of all runs that have an answer."""
-    compared: list[ComparedRun] = []
+    """Return the answer of each run that has one, and the keys in which its case differs."""
+    answers: list[tuple[AppRun, Answer]] = []
     for run in runs.all:
         try:
             result = None if run.running else page_of_folder.read_result(run.folder)
         except GripscaleError:
             continue  # stopped or failed before its answer
         if isinstance(result, Answer):
-            compared.append(ComparedRun(run, result))
-    if not compared:
+            answers.append((run, result))
+    if not answers:
         return [Text(NONE_TO_COMPARE)]
-    answered = any(has_answer(each.answer.data) for each in compared)
-    data = numbers_of(compared)
-    return [runs_table(compared, data), *([image(answers_picture(data))] if answered else [])]
-
-
-def numbers_of(compared: Sequence[ComparedRun]) -> xr.Dataset:
-    """Return friction and contact area of the runs with their intervals, over `run`."""
-    names = ["total_friction", *(f"answer_{n}{e}" for n in SYMBOLS for e in ("", "_low", "_high"))]
-    data = xr.Dataset(coords={"run": [run.name for run, _ in compared]})
-    for name in names:
-        values = [float(answer.data.get(name, math.nan)) for _, answer in compared]
-        data[name] = ("run", values)
-    return described(data)
-
-
-def answers_picture(data: xr.Dataset) -> Picture:
-    """Return friction and contact area of the runs with their intervals, from `numbers_of` them."""
-    panels = [view.panel(data, name, "run") for name in view.answers(data)]
-    words = "Friction and contact area of each run, with their 90 % intervals."
-    return Picture("answers", Sheet(panels).on_paper(), words, words)
-
-
-def runs_table(compared: Sequence[ComparedRun], data: xr.Dataset) -> Table:
-    """Return the answer of each run, from `numbers_of` them, and the keys in which cases differ."""
-    first = compared[0].run.text
-    answers = [answer.data for _, answer in compared]
-    speeds = [display_unit_of(data.attrs, "speed").text(float(data.nominal_speed), 3)
-              for data in answers]  # fmt: skip
+    first = answers[0][0].text
+    changes = [", ".join(changed_keys(first, run.text)) for run, _ in answers]
     columns = [
-        Column("run", [run.name for run, _ in compared]),
-        Column("speed", speeds, words=False),
-    ]
-    columns += view.number_columns(data, view.answers(data))
-    states = [_state(answer) for _, answer in compared]
-    changes = [", ".join(changed_keys(first, run.text)) for run, _ in compared]
-    columns += [
-        Column("status", states),
+        Column("run", [run.name for run, _ in answers]),
+        Column("answer", [answer.lines[0] for _, answer in answers], words=True),
         Column("changes", changes, "keys that differ from the first", words=True),
     ]
-    return Table("runs", columns, "The runs of this visit")
-
-
-def _state(answer: Answer) -> str:
-    """Return how far an answer is to be trusted, in words."""
-    if not has_answer(answer.data):
-        return "no answer"
-    if no_answer(answer.data):
-        return "not to be relied on"
-    return "" if is_measured(answer.data) else "chain of waves"
+    return [Table("runs", columns, "The runs of this visit")]
 
 
 def changed_keys(first: str, other: str) -> Iterator[str]:

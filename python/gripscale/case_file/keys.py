@@ -18,7 +18,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from gripscale.case_file.schema import expected, table_schema, toml_text
 from gripscale.case_file.tables import CaseTables
@@ -58,14 +58,6 @@ _CHAPTERS_OF_KEYS = {
 }
 
 
-class KeyQuantity(NamedTuple):
-    """A quantity with a unit that a key takes."""
-
-    kind: str
-    pair: bool
-    """Whether it takes a list of two, such as both ends of a range."""
-
-
 @dataclass(frozen=True)
 class Key:
     """One key: its name, what it takes, its default, its meaning, the page that explains it."""
@@ -77,13 +69,6 @@ class Key:
     chapter: str
     schema: Mapping[str, Any] = field(repr=False)
     """JSON Schema of what it takes."""
-
-    @property
-    def quantity(self) -> KeyQuantity | None:
-        """The quantity with a unit that it takes; None for anything else."""
-        pair = self.schema.get("maxItems") == 2
-        kind = (self.schema["items"] if pair else self.schema).get("quantity")
-        return KeyQuantity(kind, pair) if kind else None
 
 
 @dataclass(frozen=True)

@@ -27,8 +27,7 @@ from gripscale.case_file.schema import (
     unit_of_file,
 )
 from gripscale.conditions.area_term import SHEAR_STRESSES
-from gripscale.conditions.conditions import OFF, water_film
-from gripscale.conditions.defaults import Interface
+from gripscale.conditions.conditions import OFF, Interface, water_film
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.io.text_table import MOST_LINES
 from gripscale.rubber.shift import SHIFTS, ShiftTable

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import ast
 import difflib
-import inspect
 import json
 import math
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cache
-from itertools import pairwise
 from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal, cast, get_args, get_origin, get_type_hints
 
@@ -20,8 +16,10 @@ from pydantic import (
     ConfigDict,
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
+    TypeAdapter,
     ValidationError,
     create_model,
+    with_config,
 )
 from pydantic import Field as PydanticField
 from pydantic.json_schema import GenerateJsonSchema
@@ -109,36 +107,12 @@ def table_schema(law: type) -> dict[str, Any]:
     table = table_of(law)
     linked = table.model_json_schema(schema_generator=_PlainSchema)
     schema: dict[str, Any] = _inlined(linked, linked.get("$defs", {}))
-    _describe(schema, law)  # the class of the law explains its fields, not the table made of it
+    if table is not law:  # the class of the law explains its fields, not the table made of it
+        options = ConfigDict(use_attribute_docstrings=True, arbitrary_types_allowed=True)
+        explained = TypeAdapter(with_config(options)(law)).json_schema()
+        for name, key in explained.get("properties", {}).items():
+            schema["properties"][name]["description"] = key["description"]
     return schema
-
-
-def _describe(schema: dict[str, Any], law: type) -> None:
-    """Add the texts below the fields of a class to the keys of its JSON Schema."""
-    for part in reversed(law.__mro__):
-        for name, text in _texts_below_fields(part.__module__).get(part.__name__, {}).items():
-            if name in schema["properties"]:
-                schema["properties"][name]["description"] = text
-
-
-@cache
-def _texts_below_fields(module: str) -> dict[str, dict[str, str]]:
-    """Return the texts below the fields of each class of a module, of which only ours have some.
-
-    pydantic would look for them as each class is made, half a second for every command.
-    """
-    if not module.startswith("gripscale."):
-        return {}
-    classes: dict[str, dict[str, str]] = {}
-    for part in ast.parse(inspect.getsource(sys.modules[module])).body:
-        if isinstance(part, ast.ClassDef):
-            texts = classes[part.name] = {}
-            for pair in pairwise(part.body):
-                match pair:
-                    case ast.AnnAssign(ast.Name(name), of), ast.Expr(ast.Constant(str(text))):
-                        if "ClassVar" not in ast.unparse(of):
-                            texts[name] = inspect.cleandoc(text)
-    return classes
 
 
 def _inlined(schema: Any, definitions: Mapping[str, Any]) -> Any:
@@ -231,7 +205,6 @@ def _location(loc: tuple[int | str, ...], *, in_table: bool) -> str:
 
 def _explain(schema: dict[str, Any], model: type[BaseModel]) -> None:
     """Say what a table is about, and list its keys before those it shares with others."""
-    _describe(schema, model)
     keys = schema["properties"]
     first = {name: keys[name] for name in keys if name in model.__annotations__}
     schema["properties"] = first | keys
@@ -251,6 +224,7 @@ class CaseTable(BaseModel):
         strict=True,
         frozen=True,
         defer_build=True,
+        use_attribute_docstrings=True,
         json_schema_extra=_explain,
     )
     # keys of earlier versions, and what to state instead
@@ -259,6 +233,8 @@ class CaseTable(BaseModel):
 
 class _LawTable(CaseTable):
     """A table that is made of the class of a law, which has the text below each key."""
+
+    model_config = ConfigDict(use_attribute_docstrings=False)
 
 
 def _positive(value: float) -> float:

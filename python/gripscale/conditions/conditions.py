@@ -33,28 +33,35 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gripscale.conditions.area_term import (
+    DRY_TREAD,
     InterfacialShearStress,
     adhesive_friction,
     shear_stress_from_dict,
     shear_stress_to_dict,
 )
-from gripscale.conditions.flash_temperature import THERMAL_SCATTER, ThermalProperties
+from gripscale.conditions.flash_temperature import (
+    COUNTERFACE_BY_KIND,
+    THERMAL_SCATTER,
+    ThermalProperties,
+)
 from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks, units
 from gripscale.rubber import Rubber
 from gripscale.rubber.softening import (
     SOFTER_TREAD,
+    TYPICAL_TREAD,
     Kraus,
     SofteningLaw,
     SofteningTable,
     TypicalTread,
     softened,
 )
+from gripscale.surface.surface import SurfaceKind
 
 StrainNorm = Literal["slope", "stretch"]
 STRAIN_NORMS = ("slope", "stretch")
@@ -429,3 +436,37 @@ LOG_AREA, LOG_FRICTION = 0.10, 0.05
 """Scatter of ln area and ln friction of a direct contact, the filler healing or not [-]."""
 SLOPE_FACTOR = 0.4
 """Strain of a wave of a chain over the rms slope in its contact [-]."""
+
+
+Interface = Literal["dry"]
+DRY = get_args(Interface)
+
+
+def with_defaults(
+    conditions: Conditions | None,
+    rubber: Rubber,
+    *,
+    filled: bool | None,
+    interface: Interface | None,
+    kind: SurfaceKind,
+) -> Conditions | None:
+    """Return conditions with what they leave open, or None if nothing changes rubber and contact.
+
+    Every tread is filled, and softens; a rubber with a temperature shift warms by its friction; a
+    dry road shears the real contact area. A case has typical laws where it states none of its own.
+    Raises `InputError` if an unfilled rubber is to soften.
+    """
+    effects = conditions or Conditions()
+    if filled is False and effects.softening is not None:
+        raise InputError("filled must be true with softening, which unfilled rubber has none of")
+    if effects.water is None:
+        if filled and effects.softening is None and "softening" not in effects.off:
+            effects = replace(effects, softening=TYPICAL_TREAD)
+        warms = rubber.shift is not None and effects.temperature_of(rubber) is not None
+        if warms and effects.heat is None and "heat" not in effects.off:
+            effects = replace(effects, heat=ThermalProperties())
+        if effects.heat is not None and effects.counterface is None:
+            effects = replace(effects, counterface=COUNTERFACE_BY_KIND[kind])
+    if interface == "dry" and effects.shear_stress is None:
+        effects = replace(effects, shear_stress=DRY_TREAD)
+    return None if effects == Conditions() else effects

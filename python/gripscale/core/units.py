@@ -256,13 +256,6 @@ def unit_of(value: object, kind: str) -> str:
     return "" if match is None else spelled(match[2], kind) or ""
 
 
-def number_and_unit(value: object, kind: str) -> tuple[str, str] | None:
-    """Return the number of a quantity such as "3 bar" as written and its usual unit, or None."""
-    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
-    unit = unit_of(value, kind)
-    return (match[1], unit) if match is not None and unit else None
-
-
 def _finite(value: float, kind: str) -> float:
     if not abs(value) <= MOST:
         raise ValueError(f"expected a finite {kind} {such_as(kind)}")
@@ -281,11 +274,6 @@ def such_as(kind: str) -> str:
 def celsius(kelvin: float, form: str = "z.3g") -> str:
     """Return a temperature [K] in degrees Celsius, its number as the format `form`."""
     return f"{kelvin - ZERO_CELSIUS:{form}} °C"
-
-
-def example_unit(kind: str) -> str:
-    """Return the unit of the example of `such_as`, one that people use."""
-    return _EXAMPLES[kind].partition(" ")[2]
 
 
 DISPLAY_UNITS = "display_units"  # attribute of a result: the units its case states, by key, as JSON

@@ -18,8 +18,8 @@ from gripscale.io.text_table import TextTable, file_path
 from gripscale.rubber import columns
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import APART, THREE, FileLayout
-from gripscale.rubber.many_rows import thinned
 from gripscale.rubber.shift import Shift, shift_at, shown_state
+from gripscale.rubber.sweeps import thinned
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -30,7 +30,6 @@ from gripscale.rubber.columns import (
     unit_in,
     young_moduli,
 )
-from gripscale.rubber.many_rows import thinned
 from gripscale.rubber.shift import WLF
 
 # Temperatures of one sweep follow each other within this [K]: instruments print 19.9 and 20.1.
@@ -394,3 +393,29 @@ def row_temperatures(block: Block, layout: FileLayout, temperature: float | None
     kelvin = np.asarray(quantity_in_si(degrees, unit, "temperature"))
     check_rows(table, column, kelvin > 0.0, kelvin, "a temperature above absolute zero")
     return kelvin
+
+
+MOST_ROWS = 5000  # rows up to which all are kept: instruments that log on write 1e5 or 1e6
+ROWS_PER_DECADE = 100  # rows of a decade of frequency, at one temperature, that are kept of more
+_SAME_TEMPERATURE = 0.2  # width of a step of temperature [K]
+
+
+def thinned(rows: Array) -> tuple[Array, tuple[str, ...]]:
+    """Return rows without those too many, and a note of it: the middle one of each bin stays.
+
+    The first two of `rows` are temperature [K] and frequency [Hz], shape (columns, rows). Rows are
+    kept as measured: the mean of a thousand has the scatter of none, and a series fitted within
+    that follows the drift of the instrument with a hundred elements.
+    """
+    count = rows.shape[1]
+    if count <= MOST_ROWS:
+        return rows, ()
+    temperature, frequency = np.round(rows[0] / _SAME_TEMPERATURE), np.log10(rows[1])
+    bins = 1e6 * temperature + np.round(ROWS_PER_DECADE * frequency)
+    order = np.lexsort((frequency, bins))
+    _, first, each = np.unique(bins[order], return_index=True, return_counts=True)
+    kept = order[first + each // 2]
+    return rows[:, kept], (
+        f"{kept.size} of {count} rows kept, at most {ROWS_PER_DECADE} of a decade of frequency at "
+        "one temperature",
+    )

@@ -462,3 +462,20 @@ def _beyond_the_largest(largest: float, smallest: float | None) -> str:
     return (
         f"smallest_wavelength must not exceed the largest wave, {largest:g} m; got {smallest:g} m"
     )
+
+
+def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> Surface:
+    """Return the waves of `surface` with one profile or map as the only measurement."""
+    heights = measured if isinstance(measured, HeightMap) else [measured]
+    return Surface(surface.sines, measured.name, measured=Measured.of(heights))
+
+
+def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
+    """Return names of the profiles of `surface`, or of its map, each with a surface of it alone."""
+    measured: Sequence[Profile | HeightMap] = (
+        [] if surface.measured is None else surface.measured.surfaces
+    )
+    return [
+        (part.name or f"profile {i}", with_single_measurement(surface, part))
+        for i, part in enumerate(measured, 1)
+    ]

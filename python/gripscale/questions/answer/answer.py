@@ -27,7 +27,6 @@ from gripscale.experiment.task import PREDICTIONS, Store
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact
 from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
-from gripscale.questions.answer.filler import with_filled
 from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
 from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import is_measured, no_answer
@@ -37,6 +36,7 @@ from gripscale.questions.answer.variables import (
     answer_number,
     has_answer,
     of_hysteresis,
+    with_filled,
 )
 from gripscale.questions.answer.waves import waves_answer
 from gripscale.questions.chain.charts import contact_sheet

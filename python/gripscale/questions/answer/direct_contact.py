@@ -33,7 +33,6 @@ from gripscale.questions.answer.estimate import (
     SampledErrors,
     answer_of_samples,
 )
-from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.reliance import WORTH_NAMING, estimated_names
 from gripscale.questions.answer.variables import has_answer
 from gripscale.questions.cut_off.curve import (
@@ -47,6 +46,7 @@ from gripscale.questions.cut_off.curve import (
 )
 from gripscale.questions.inputs.record import in_words
 from gripscale.surface.random_phases import REAL_PHASES
+from gripscale.surface.surface import each_measured
 
 
 def direct_contact_design(

@@ -23,7 +23,6 @@ from gripscale.questions.answer import reliance
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
 from gripscale.questions.answer.estimate import LINES_TO_SURFACE
-from gripscale.questions.answer.filler import both_answers
 from gripscale.questions.answer.findings import (
     MEASURED_FRICTION,
     measured_words,
@@ -37,6 +36,7 @@ from gripscale.questions.answer.variables import (
     SYMBOLS,
     AnswerNumber,
     answer_number,
+    both_answers,
     has_answer,
     of_hysteresis,
 )

@@ -27,13 +27,13 @@ from gripscale.experiment.task import Store, Task
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import Load, Model
 from gripscale.questions.answer.direct_contact import direct_contact_totals
-from gripscale.questions.answer.measurements import each_measured
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.answer.variables import HYSTERESIS, INTERFACE
 from gripscale.questions.cut_off.curve import contact_curves
 from gripscale.rubber import Rubber
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import Surface
+from gripscale.surface.surface import each_measured
 
 
 class Predicted(Checked, eq=False):

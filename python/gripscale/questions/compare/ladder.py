@@ -22,10 +22,10 @@ from gripscale.half_space.model import BlockOnProfile, DirectContact
 from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
 from gripscale.model import Load, Model
 from gripscale.questions.answer.estimate import DIRECT
-from gripscale.questions.answer.measurements import each_measured, with_single_measurement
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, SineStack, Surface, fit_sines, height_difference
 from gripscale.surface.spectrum import ArealSpectrum, areal_spectrum, profile_spectrum
+from gripscale.surface.surface import each_measured, with_single_measurement
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 from gripscale.theory.persson import Persson
