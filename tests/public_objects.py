@@ -104,4 +104,6 @@ def write_files(folder: Path, objects: dict[str, Any]) -> None:
     (folder / "sweeps.csv").write_text("\n".join([titles, *rows, ""]), encoding="utf-8")
     friction = "speed (m/s),friction\n0.01,0.5\n0.1,0.7\n1.0,0.9\n"
     (folder / "friction.csv").write_text(friction, encoding="utf-8")
+    spectrum = "q (1/m),C (m^4)\n1e3,1e-14\n1e4,2e-18\n1e5,5e-22\n"
+    (folder / "psd.csv").write_text(spectrum, encoding="utf-8")
     objects["case"].save(folder / "case.toml")

@@ -229,4 +229,5 @@ def test_the_package_has_the_data_with_their_origin() -> None:
 
 
 def shell(*arguments: str) -> Result:
-    return CliRunner().invoke(app, ["reproduce", *arguments])
+    """Run the command in a terminal of 100 columns, whatever the tests run in."""
+    return CliRunner().invoke(app, ["reproduce", *arguments], env={"COLUMNS": "100"})

@@ -1,4 +1,4 @@
-"""The example of the page on inputs runs and prints what stands below it; its case is one."""
+"""The example of the page on inputs runs and prints what stands below it; each case is one."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ def test_the_example_prints_what_stands_below_it(monkeypatch, capsys):
 
 
 def test_the_case_shown_is_one():
-    tables = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
-    [table] = [text for text in tables if "[surface]" in text]
-    surface = SurfaceTable(**tomllib.loads(table)["surface"])
-    assert surface.crop_across == pytest.approx([5e-3, 45e-3])
+    tables = [tomllib.loads(text) for text in re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)]
+    surfaces = [table["surface"] for table in tables if "surface" in table]
+    of_map, of_spectrum = (SurfaceTable(**keys) for keys in surfaces)
+    assert of_map.crop_across == pytest.approx([5e-3, 45e-3])
+    assert (str(of_spectrum.spectrum), of_spectrum.phases) == ("psd.csv", "worn")

@@ -5,10 +5,9 @@ With J_0 the Bessel function, the lines of an isotropic surface have (Wiener and
     C_z(l) = 4 pi int_0^inf q C(q) (1 - J_0(q l)) dq,
     C_1(k) = 4 int_k^inf q C(q) dq / sqrt(q^2 - k^2).
 
-A line of N steps d has waves k_n = 2 pi n/(N d) of the amplitudes sqrt(2 C_1(k_n) k_1). Their
-phases are drawn: its heights are Gaussian. Those of a real surface are not, and what this changes,
-`REAL_PHASES`, is measured (`python -m studies.spectrum_phases`). Lines are solved, not maps: of a
-spectrum from decimetres to micrometres a map of four million points holds two and a half decades.
+A line of N steps d has waves k_n = 2 pi n/(N d) of the amplitudes sqrt(2 C_1(k_n) k_1), and drawn
+phases: Gaussian heights. Those of a real surface are not, which changes an answer by `REAL_PHASES`
+(`python -m studies.spectrum_phases`). A map of four million points holds too few decades of waves.
 """
 
 from __future__ import annotations
@@ -40,11 +39,12 @@ _PER_DECADE, _LAGS_PER_DECADE = 200, 20  # points of an integral and of a correl
 
 
 class Spectrum(ArealSpectrum, eq=False):
-    """A surface known by its power spectrum C(q), the mean over directions, only.
+    """A surface known by its power spectrum only: <z^2> = 2 pi int_0^inf q C(q) dq.
 
-        <z^2> = 2 pi int_0^inf q C(q) dq
+    C is the mean over directions, zero outside its points. Raises as `ArealSpectrum` does.
 
-    Outside its points there are no waves. Raises `InputError` as `ArealSpectrum` does.
+        >>> round(gs.Spectrum([1e3, 1e4, 1e5], [1e-14, 2e-18, 5e-22]).rms_height, 6)
+        0.000207
     """
 
     name: str = checked(checks.text, default="")
@@ -52,9 +52,8 @@ class Spectrum(ArealSpectrum, eq=False):
     source: str = checked(checks.text, default="")
     """Where it comes from, such as a file name."""
     phases: str = checked(checks.one_of, choices=(*REAL_PHASES, "random"), default="real")
-    """What an answer is for: the "real" phases of any surface, which are not known, or those of one
-    with "worn" or flat tops, as most roads (negative skewness of the heights), both with their
-    scatter; or "random" ones, those of a Gaussian surface."""
+    """What an answer is for: "real" phases of any surface, or "worn" ones, of flat tops (negative
+    skewness), as most roads, both with their scatter; or "random" ones, of Gaussian heights."""
 
     def of_lines(self, wavenumber: ArrayLike) -> Array:
         """Return C_1 [m^3] of its lines at wavenumbers above zero [rad/m], shape (points,)."""
@@ -85,10 +84,9 @@ class Spectrum(ArealSpectrum, eq=False):
     ) -> tuple[list[Profile], HeightDifference]:
         """Return lines of it with random phases, always the same ones, and its correlation.
 
-        Each has the whole variance, waves to a quarter of the smallest wavelength [m], and sixteen
-        of the longest or of 1.5 footprints [m], or fewer where these are too many points. As of
-        profiles, waves that the footprint does not hold are left out if they are most of the mean
-        square height. Raises `InputError` if one longest wave has too many points.
+        Each has the whole variance, waves to a quarter of the smallest wavelength [m], and up to
+        sixteen of the longest or of 1.5 footprints [m]. Waves beyond the footprint are left out if
+        they hold most of it, as of profiles. Raises `InputError` if one has too many points.
         """
         shortest, longest = (2.0 * np.pi / self.wavenumber[[-1, 0]]).tolist()
         longest = min(longest, PER_FOOTPRINT * footprint)

@@ -1,8 +1,7 @@
 """Read the power spectrum of a surface from a file, in the units and the convention it states.
 
-Units are powers of lengths (um^-1, nm^2 um^2). A density in m^4 is that of a surface, in m^3 that
-of lines, which becomes that of their isotropic surface. Logarithms are raised. Programs differ in
-what their density is:
+Units are powers of lengths. A density in m^4 is that of a surface; in m^3, of lines, it becomes
+that of their isotropic surface. Logarithms are raised. Programs differ in what their density is:
 
     "q"                     <z^2> = int C_1 dq = 2 pi int q C dq        C, C(q): B. N. J. Persson
     "1/wavelength"          <z^2> = int C_1 df = 2 pi int f C df        f = 1/wavelength: ISO 8608
@@ -121,6 +120,9 @@ def read_spectrum(
 
     Raises `FileError` if the file cannot be read, and `InputError` if its titles name no columns of
     a spectrum, or a unit or the normalization is not stated or unknown.
+
+        >>> gs.read_spectrum("psd.csv").wavenumber.size
+        3
 
     Parameters
     ----------

@@ -200,8 +200,8 @@ def design(
     cannot be used, a temperature needs a shift that the rubber does not have, or today's compound
     has no friction.
 
-        >>> gs.design(case, levels=[1.0]).lines[0]
-        'Answer: friction 0.036 now → 0.056 with the design at the same rolling resistance: +57 %.'
+        >>> print(gs.design(case, levels=[1.0]).lines[0])
+        Answer: friction 0.036 now → 0.056 with the design at the same rolling resistance: +57.4 %.
 
     Parameters
     ----------
