@@ -122,7 +122,7 @@ def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
     numbers, *_ = answer_elements(run)
     assert isinstance(numbers, Cards)
     assert numbers.cards[0].label == "μ of case-1"
-    assert numbers.cards[0].detail == "over other (50 %: no significant difference)"
+    assert numbers.cards[0].detail == "over other 0.0160 (50 %: no significant difference)"
     assert numbers.basis[1].startswith("Answer: friction μ ranks case-1 0.")
     assert "table-texture" in run.page().read_text(encoding="utf-8")
 

@@ -43,8 +43,7 @@ from gripscale.questions.result import Result
 from gripscale.questions.vary.charts import study_pictures
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.vary.study import BEYOND_SHIFT, Study
-from gripscale.report.again import case_title
-from gripscale.report.elements import Card, Section, percent_text
+from gripscale.report.elements import Card, Section, case_title, percent_text
 from gripscale.report.equations import method_section
 from gripscale.report.failures import failures_in, first_of
 
