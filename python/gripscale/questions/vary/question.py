@@ -190,6 +190,10 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if LINES_TO_SURFACE in data.factor_label.values:
         yield ISOTROPY_ASSUMED
+    if INTERFACE in data:
+        yield f"{least_to_most(data[INTERFACE].values)} of the friction is the area term"
+    if math.isfinite(sampling) and not {"surface", "rubber"} & set(view.dimensions(data)):
+        yield "most of an interval is common to all points: their differences are known better"
     if math.isfinite(sampling):
         yield "intervals leave out errors of the master curve"
 
