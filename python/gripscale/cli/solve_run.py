@@ -61,17 +61,16 @@ def solve_run(
     result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
     findings = warning_lines(result.findings, TEXT, result.half_widths)
-    terminal.print_parts(
-        console, ["", *result.lines, *findings, *(["", *inputs] if verbose else [])]
-    )
+    more = ["", *inputs] if verbose else []
+    terminal.print_parts(console, ["", *result.lines, *findings, *more])
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
         result.chain = solved_chain(case, bench_of(target))
         terminal.end_steps()
     _save(result, case, target)
-    page = all(map(find_spec, ("bokeh", "jinja2")))
-    kinds = [*(work.file.case.output.figures or (["png"] if figures or not page else []))]
+    by_default = ["png"] if figures or not all(map(find_spec, ("bokeh", "jinja2"))) else []
+    kinds: list[str] = [*(work.file.case.output.figures or by_default)]
     opening: Lines = [f"{header}: {case.title}", "", *inputs]
     _conclude(work, result, opening, verbose=verbose, kinds=kinds)
 
