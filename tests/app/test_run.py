@@ -104,7 +104,7 @@ def test_what_decides_the_grip_is_run_and_shown(tmp_path: Path, small: Path) -> 
     page = run.page()
     assert page == run.folder / "report.html"
     text = page.read_text(encoding="utf-8")
-    assert 'id="plot-sensitivity-loss"' in text or "sensitivity-loss" in text
+    assert "the per cent of friction for a per cent of" in text, "below the figure"
     again = runs.start(by_name("sensitivity"))
     assert again is run
     assert len(runs.all) == 1, "what is finished is not repeated"
@@ -122,8 +122,8 @@ def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
     numbers, *_ = answer_elements(run)
     assert isinstance(numbers, Cards)
     assert numbers.cards[0].label == "μ of case-1"
-    assert numbers.cards[0].detail == "over other (50 %: no significant difference)"
-    assert numbers.basis[1].startswith("Answer: friction μ ranks case-1 0.")
+    assert numbers.cards[0].detail == "over other 0.0160 (50 %: no significant difference)"
+    assert numbers.basis[0].startswith("Answer: friction μ ranks case-1 0.")
     assert "table-texture" in run.page().read_text(encoding="utf-8")
 
 

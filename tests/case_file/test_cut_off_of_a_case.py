@@ -133,7 +133,9 @@ def test_waves_by_hand_have_no_cut_off(case: Path) -> None:
 
 
 def test_a_run_keeps_and_tells_it(case: Path, tmp_path: Path) -> None:
-    outcome = CliRunner().invoke(app, ["run", str(case), "--output", str(tmp_path / "again")])
+    outcome = CliRunner().invoke(
+        app, ["run", str(case), "--output", str(tmp_path / "again"), "--verbose"]
+    )
     assert outcome.exit_code == 0, outcome.output
     inputs = netcdf.load_tree(tmp_path / "again" / "answer.nc")["inputs"]
     assert inputs.attrs["cut_off_m"] == pytest.approx(4e-4)

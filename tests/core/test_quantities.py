@@ -40,6 +40,7 @@ OTHERS = {
     ("solve_profile", "depth"),
     ("solve_transient", "depth"),
     ("ArealSpectrum", "density"),
+    ("Spectrum", "density"),
     ("ProfileSpectrum", "density"),
     ("relaxation_modulus", "time"),
     ("read_map", "step"),

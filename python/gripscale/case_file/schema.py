@@ -37,6 +37,7 @@ _TYPES = {
     "number": "a number",
     "string": "a text",
 }
+_MOST_NAMES = 20  # keys that a sentence lists
 _LIMITS = {
     "minimum": "at least {:g}",
     "exclusiveMinimum": "above {:g}",
@@ -184,7 +185,8 @@ def _instead_of(key: str, table: Mapping[str, Any]) -> str:
         return f"it is gone: {instead}"
     names = list(table["properties"])
     near = difflib.get_close_matches(key, names, n=1)
-    return f"did you mean {near[0]}?" if near else f"expected one of {', '.join(names)}"
+    listed_names = names if len(names) <= _MOST_NAMES else [*names[:_MOST_NAMES], "..."]
+    return f"did you mean {near[0]}?" if near else f"expected one of {', '.join(listed_names)}"
 
 
 def first_complaint(error: ValidationError) -> ErrorDetails:

@@ -76,10 +76,6 @@ def _channel(value: Any) -> Any:
     return None if value is None else column_key(value)
 
 
-def _spikes(rule: str | None) -> str | None:
-    return None if rule == "none" else rule
-
-
 class WaveTable(CaseTable):
     """One sine wave stated by hand: wavelength and half peak-to-valley amplitude."""
 
@@ -172,9 +168,10 @@ class CleaningKeys(CaseTable):
     """Lowest and highest height to believe; others become missing."""
     trim: float = Field(default=0.5, ge=0.0, le=1.0, allow_inf_nan=False)
     """Share of missing heights above which a border line of a map is cut off."""
-    spikes: Annotated[Literal["isolated", "iso13473", "none"] | None, AfterValidator(_spikes)] = (
-        "isolated"
-    )
+    spikes: Annotated[
+        Literal["isolated", "iso13473", "none"] | None,
+        AfterValidator(lambda rule: None if rule == "none" else rule),
+    ] = "isolated"
     """Rule by which spikes become missing: runs of up to three samples that go out and back, or
     every steep step of a profile (ISO 13473-1)."""
     spike_slope: float = Field(default=3.0, gt=0.0, allow_inf_nan=False)

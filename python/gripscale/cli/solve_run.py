@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -38,6 +37,7 @@ from gripscale.rubber.material import require_load_bearing
 if TYPE_CHECKING:
     from gripscale.case import Case
 
+Lines = list[str | Table]
 TEXT, WIDTH = "report.txt", 110  # name of the report, and characters of its lines
 
 
@@ -61,26 +61,22 @@ def solve_run(
     result, inputs = answer(case, folder=target), _inputs(case)
     terminal.end_steps()
     findings = warning_lines(result.findings, TEXT, result.half_widths)
-    terminal.print_parts(console, ["", *result.lines, *findings, *["", *inputs] * verbose])
+    more = ["", *inputs] if verbose else []
+    terminal.print_parts(console, ["", *result.lines, *findings, *more])
     folder.prepare(target, work.file)
     if measured:
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
         result.chain = solved_chain(case, bench_of(target))
         terminal.end_steps()
     _save(result, case, target)
-    page = all(map(find_spec, ("bokeh", "jinja2")))
-    kinds = work.file.case.output.figures or (["png"] if figures or not page else [])
-    opening = [f"{header}: {case.title}", "", *inputs]
+    by_default = ["png"] if figures or not all(map(find_spec, ("bokeh", "jinja2"))) else []
+    kinds: list[str] = [*(work.file.case.output.figures or by_default)]
+    opening: Lines = [f"{header}: {case.title}", "", *inputs]
     _conclude(work, result, opening, verbose=verbose, kinds=kinds)
 
 
 def _conclude(
-    work: terminal.CaseCommand,
-    result: Answer,
-    opening: list[str | Table],
-    *,
-    verbose: bool,
-    kinds: Sequence[str],
+    work: terminal.CaseCommand, result: Answer, opening: Lines, *, verbose: bool, kinds: list[str]
 ) -> None:
     """Print what stands below the answer; write report, figures and page.
 
@@ -89,7 +85,7 @@ def _conclude(
     """
     case, target = work.case, work.target
     assert result.chain is not None
-    parts: list[str | Table] = [*chain_tables(result.chain), LEGEND, *_tables(result)]
+    parts: Lines = [*chain_tables(result.chain), LEGEND, *_tables(result)]
     if case.surface.measured is not None:
         tables = parts if verbose else [waves_in_brief(result.chain)]
         terminal.print_parts(work.console, ["", *tables])
@@ -119,10 +115,10 @@ def _conclude(
         terminal.print_wrapped(work.console, result.lines[0])
 
 
-def _inputs(case: Case) -> list[str | Table]:
+def _inputs(case: Case) -> Lines:
     """Return what was read and fitted, as lines."""
     rubber = as_text(*rubber_parts(case.measured_rubber), width=10**6).splitlines()
-    lines: list[str | Table] = [
+    lines: Lines = [
         "Surface",
         *(f"  {line}" for line in surface_lines(case.surface)),
         "",
@@ -144,9 +140,9 @@ def _save(result: Answer, case: Case, target: Path) -> None:
         cut_off_result(result.curve, case).save(target / CURVE_FILE)
 
 
-def _tables(result: Answer) -> list[str | Table]:
+def _tables(result: Answer) -> Lines:
     """Return the tables of an answer: shares by slope, and the rules of the cut-off."""
-    parts: list[str | Table] = list(slopes_table(result.data))
+    parts: Lines = list(slopes_table(result.data))
     if result.curve is not None:
         curve = CutOff(result.curve)
         parts += ["", *(line.strip() for line in curve.lines[1:]), curve.rules_table()]

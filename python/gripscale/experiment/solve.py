@@ -35,6 +35,7 @@ from typing import Any
 
 import xarray as xr
 
+from gripscale.core import provenance
 from gripscale.core.errors import ConvergenceError, InputError, RubberWarning
 from gripscale.core.parallel import in_threads, sharing, worker_count
 from gripscale.core.provenance import software
@@ -225,7 +226,7 @@ def cluster(client: Any, workers: int) -> Iterator[_Solve]:
                 ) from error
             client = ending.enter_context(connected)
         here = software()
-        for worker, there in client.run(_software_there).items():
+        for worker, there in client.run(provenance.software).items():
             if there != here:  # other code, whatever its version says
                 raise InputError(
                     f"worker {worker} has {there}, this machine {here}; install the same"
@@ -254,7 +255,3 @@ def _alone(task: Task) -> Solved:
     """Solve in a worker, whose neighbours have the other cores."""
     with sharing(1):
         return task.solve()
-
-
-def _software_there() -> str:
-    return software()

@@ -26,7 +26,7 @@ from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
 from gripscale.questions.answer.variables import described
 from gripscale.questions.inputs.record import InputRecord, input_findings
-from gripscale.report.again import case_title, rerun_section
+from gripscale.report.elements import case_title, rerun_section
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import ClassVar
+from pathlib import PurePath
+from typing import Any, ClassVar
 
 from gripscale.charts.draw import Chart, Image
 from gripscale.core.finding import Finding, Severity, ranked
+from gripscale.core.provenance import CASE_TITLE, versions
 from gripscale.io import table
 from gripscale.io.table import Column, Table, on_page, significant
 
@@ -173,3 +175,33 @@ def number_text(
 def percent_text(value: object) -> str:
     """Return a ratio in per cent as a page shows it."""
     return number_text(value, format=table.percent)
+
+
+def case_name(attrs: dict[Any, Any]) -> str:
+    """Return the file name of the case of a result; empty where it is not known."""
+    return PurePath(str(attrs.get("case_file", ""))).name
+
+
+def case_title(attrs: dict[Any, Any]) -> str:
+    """Return rubber and surface of a result in words, or what its case is called."""
+    return str(attrs.get(CASE_TITLE, "")) or case_name(attrs) or "a case"
+
+
+def rerun_section(attrs: dict[object, object]) -> Section:
+    """Return versions, and the command that made the result with its case file."""
+    key, names = "prediction_key", sorted(str(n) for n in attrs if str(n).startswith("version_"))
+    solved = [(name.removeprefix("version_"), str(attrs[name])) for name in names]
+    solved += [("Key of the result", str(attrs[key]))] if key in attrs else []
+    here = ", ".join(f"{name} {version}" for name, version in versions().items())
+    elements: list[Element] = [Facts("Solved with", [*solved, ("This page written by", here)])]
+    if "case" in attrs:
+        name = case_name(attrs) or "case.toml"
+        elements += [
+            Text(
+                f"Save the text below as {name}. Paths of files start at its folder. The inputs "
+                "list their checksums."
+            ),
+            *([Code("command", "Command", str(attrs["command"]))] if "command" in attrs else []),
+            Code("case", f"Case file {name}", str(attrs["case"])),
+        ]
+    return Section("again", "Software, and how to run it again", elements)

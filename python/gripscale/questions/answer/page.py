@@ -45,8 +45,17 @@ from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.cut_off.question import CutOff
 from gripscale.questions.inputs.page import files_table, rubber_section, surface_section
 from gripscale.questions.inputs.record import InputRecord, signed_percent
-from gripscale.report.again import case_title, rerun_section
-from gripscale.report.elements import Card, Element, Facts, Page, Section, Text, percent_text
+from gripscale.report.elements import (
+    Card,
+    Element,
+    Facts,
+    Page,
+    Section,
+    Text,
+    case_title,
+    percent_text,
+    rerun_section,
+)
 from gripscale.report.equations import method_section
 from gripscale.surface import SineStack
 from gripscale.surface.direction import ERROR_OF_RIDGES

@@ -34,7 +34,7 @@ from gripscale.model import INPUT_DOUBTS, input_doubts_of
 from gripscale.questions import view
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.estimate import DIRECT, Factor, large_strain_answer
-from gripscale.questions.answer.findings import answer_notices, measured_at_load
+from gripscale.questions.answer.findings import answer_notices, measured_at_load, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards, answer_lines
 from gripscale.questions.answer.reliance import estimated_names, is_measured, no_answer
@@ -69,8 +69,7 @@ from gripscale.questions.cut_off.curve import continuation_doubts
 from gripscale.questions.inputs.record import signed_percent
 from gripscale.questions.result import Result
 from gripscale.questions.view import shown_unit
-from gripscale.report.again import case_title
-from gripscale.report.elements import Card, Section
+from gripscale.report.elements import Card, Page, Section, case_title
 from gripscale.report.failures import explained, failures_in, first_of
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
@@ -290,6 +289,11 @@ class Comparison(Result):
                 "Measured friction with its spread, and what each model says at the same points.",
                 "A panel for each measured series with a curve for each model.",
             )
+
+    def page_content(self) -> Page:
+        page = super().page_content()
+        alerts = () if self.axis else no_answer_notices(self.data)
+        return replace(page, notices=[*alerts, *page.notices])
 
     def chapters(self) -> Iterator[Section]:
         for other in self.others:

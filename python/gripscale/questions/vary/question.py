@@ -43,8 +43,7 @@ from gripscale.questions.result import Result
 from gripscale.questions.vary.charts import study_pictures
 from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.vary.study import BEYOND_SHIFT, Study
-from gripscale.report.again import case_title
-from gripscale.report.elements import Card, Section, percent_text
+from gripscale.report.elements import Card, Section, case_title, percent_text
 from gripscale.report.equations import method_section
 from gripscale.report.failures import failures_in, first_of
 
@@ -191,6 +190,10 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if LINES_TO_SURFACE in data.factor_label.values:
         yield ISOTROPY_ASSUMED
+    if INTERFACE in data:
+        yield f"{least_to_most(data[INTERFACE].values)} of the friction is the area term"
+    if math.isfinite(sampling) and not {"surface", "rubber"} & set(view.dimensions(data)):
+        yield "most of an interval is common to all points: their differences are known better"
     if math.isfinite(sampling):
         yield "intervals leave out errors of the master curve"
 
