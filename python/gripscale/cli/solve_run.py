@@ -37,7 +37,7 @@ from gripscale.rubber.material import require_load_bearing
 if TYPE_CHECKING:
     from gripscale.case import Case
 
-Lines = list[str | Table]
+Parts = list[str | Table]
 TEXT, WIDTH = "report.txt", 110  # name of the report, and characters of its lines
 
 
@@ -71,12 +71,12 @@ def solve_run(
     _save(result, case, target)
     by_default = ["png"] if figures or not all(map(find_spec, ("bokeh", "jinja2"))) else []
     kinds: list[str] = [*(work.file.case.output.figures or by_default)]
-    opening: Lines = [f"{header}: {case.title}", "", *inputs]
+    opening: Parts = [f"{header}: {case.title}", "", *inputs]
     _conclude(work, result, opening, verbose=verbose, kinds=kinds)
 
 
 def _conclude(
-    work: terminal.CaseCommand, result: Answer, opening: Lines, *, verbose: bool, kinds: list[str]
+    work: terminal.CaseCommand, result: Answer, opening: Parts, *, verbose: bool, kinds: list[str]
 ) -> None:
     """Print what stands below the answer; write report, figures and page.
 
@@ -85,7 +85,7 @@ def _conclude(
     """
     case, target = work.case, work.target
     assert result.chain is not None
-    parts: Lines = [*chain_tables(result.chain), LEGEND, *_tables(result)]
+    parts: Parts = [*chain_tables(result.chain), LEGEND, *_tables(result)]
     if case.surface.measured is not None:
         tables = parts if verbose else [waves_in_brief(result.chain)]
         terminal.print_parts(work.console, ["", *tables])
@@ -115,10 +115,10 @@ def _conclude(
         terminal.print_wrapped(work.console, result.lines[0])
 
 
-def _inputs(case: Case) -> Lines:
+def _inputs(case: Case) -> Parts:
     """Return what was read and fitted, as lines."""
     rubber = as_text(*rubber_parts(case.measured_rubber), width=10**6).splitlines()
-    lines: Lines = [
+    lines: Parts = [
         "Surface",
         *(f"  {line}" for line in surface_lines(case.surface)),
         "",
@@ -140,9 +140,9 @@ def _save(result: Answer, case: Case, target: Path) -> None:
         cut_off_result(result.curve, case).save(target / CURVE_FILE)
 
 
-def _tables(result: Answer) -> Lines:
+def _tables(result: Answer) -> Parts:
     """Return the tables of an answer: shares by slope, and the rules of the cut-off."""
-    parts: Lines = list(slopes_table(result.data))
+    parts: Parts = list(slopes_table(result.data))
     if result.curve is not None:
         curve = CutOff(result.curve)
         parts += ["", *(line.strip() for line in curve.lines[1:]), curve.rules_table()]
