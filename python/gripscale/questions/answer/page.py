@@ -82,7 +82,7 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
     if not has_answer(data):
         yield f"Answer: {statement}"
         return
-    lead = f"{statement} It would be " if statement else ""
+    lead = f"{statement} {'Otherwise' if both else 'It would be'} " if statement else ""
     if both:
         yield f"Answer: {lead}{_by_filler(data, both)}"
         yield from (f"  {line}" for line in basis_lines(data))
