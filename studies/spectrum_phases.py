@@ -26,16 +26,10 @@ import scipy.stats
 import xarray as xr
 
 import gripscale as gs
-from gripscale.experiment.design import Design, Point, solve_design
-from gripscale.experiment.solve import Bench
-from gripscale.experiment.task import Task
-from gripscale.half_space.model import JUDGED_TO, DirectContact
-from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.answer.direct_contact import continuation_factors
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_samples
-from gripscale.questions.answer.samples import sample_numbers
 from gripscale.surface import areal_spectrum, map_spectrum, profile_spectrum
-from gripscale.surface.surface import each_measured
+from studies.direct_samples import SMALL_STRAIN, direct_samples
 from studies.line_to_map import (
     CUT_OFF,
     NEARLY_FULL,
@@ -52,8 +46,6 @@ from studies.surface_families import FAMILIES, LARGEST, family_map
 TABLE = Path(__file__).with_suffix(".csv")
 SEEDS = 4
 STATIONS = ("station 0", "station 1")
-SMALL_STRAIN = Factor("finite_strain", "none", LogNormalValue(1.0, 0.0), LogNormalValue(1.0, 0.0))
-"""Maps, and the lines of their spectra, are solved at small strain."""
 
 
 class Pair(NamedTuple):
@@ -77,15 +69,7 @@ class Pair(NamedTuple):
 
 def answered(case: gs.Case) -> xr.Dataset:
     """Return the answer of the surface that the lines of a case lie on, at small strain."""
-    direct = DirectContact(tolerance=JUDGED_TO, conditions=case.conditions)
-    lines = each_measured(case.surface)
-    points = [
-        Point((at,), name, Task(case.rubber, line, case.load, direct))
-        for at, (name, line) in enumerate(lines)
-    ]
-    subjects = {"subject": ("sample", [name for name, _ in lines])}
-    design = Design({"sample": len(points)}, points, subjects)
-    samples = solve_design(design, Bench(None), sample_numbers).expand_dims(model=[DIRECT])
+    samples = direct_samples(case).expand_dims(model=[DIRECT])
     return answer_of_samples(samples, [SMALL_STRAIN, *continuation_factors(case, None)])
 
 

@@ -586,7 +586,7 @@ def described_surface(
         options["cut_off"] = find_cut_off(measured.slopes, cut_off).wavelength
     sines = fit_sines(correlation, **options)
     fitted = Surface(sines, source, correlation, options, measured, counted, cut_off)
-    return fitted if spectrum is None else replace(fitted, spectrum=spectrum)
+    return replace(fitted, spectrum=spectrum)
 
 
 def _surface(

@@ -34,19 +34,13 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.status import Status
-from gripscale.experiment.design import Design, Point, solve_design
-from gripscale.experiment.solve import Bench
-from gripscale.experiment.task import Task
 from gripscale.half_space import RoughContact
-from gripscale.half_space.model import JUDGED_TO, DirectContact
-from gripscale.questions import Factor, LogNormalValue
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_samples
-from gripscale.questions.answer.samples import sample_numbers
 from gripscale.rubber import styrene_butadiene
 from gripscale.rubber.softening import softening_of_sweeps
 from gripscale.surface import HeightMap, Profile
-from gripscale.surface.surface import each_measured
 from studies import surface_families
+from studies.direct_samples import SMALL_STRAIN, direct_samples
 from studies.treads import compound, sweeps
 from tests.samples import MEASURED_DMA, ROOT
 from tests.verification import known_families
@@ -224,10 +218,6 @@ class Estimate(NamedTuple):
     """Of the interval with 90 % confidence, in ln(value)."""
 
 
-SMALL_STRAIN = Factor("finite_strain", "none", LogNormalValue(1.0, 0.0), LogNormalValue(1.0, 0.0))
-"""Truths and lines are solved at small strain both."""
-
-
 def lines_from_files(which: Known) -> xr.Dataset:
     """Return the direct contacts of two lines, from their files.
 
@@ -245,15 +235,7 @@ def lines_from_files(which: Known) -> xr.Dataset:
         cleaning={},
         conditions=which.conditions,
     )
-    direct = DirectContact(tolerance=JUDGED_TO, conditions=case.conditions)
-    lines = each_measured(case.surface)
-    points = [
-        Point((at,), name, Task(case.rubber, line, case.load, direct))
-        for at, (name, line) in enumerate(lines)
-    ]
-    subjects = {"subject": ("sample", [name for name, _ in lines])}
-    design = Design({"sample": len(points)}, points, subjects)
-    samples = solve_design(design, Bench(None), sample_numbers)
+    samples = direct_samples(case)
     return samples[[name for name in samples.data_vars if samples[name].dims == ("sample",)]]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -183,10 +182,7 @@ def _instead_of(key: str, table: Mapping[str, Any]) -> str:
     """Return what to state in place of a key that a table does not have."""
     if instead := table["gone"].get(key):
         return f"it is gone: {instead}"
-    names = list(table["properties"])
-    near = difflib.get_close_matches(key, names, n=1)
-    listed_names = names if len(names) <= _MOST_NAMES else [*names[:_MOST_NAMES], "..."]
-    return f"did you mean {near[0]}?" if near else f"expected one of {', '.join(listed_names)}"
+    return checks.instead_of(key, [*table["properties"]], _MOST_NAMES)
 
 
 def first_complaint(error: ValidationError) -> ErrorDetails:

@@ -250,9 +250,15 @@ def allowed_names(kind: str, names: Iterable[str], allowed: Iterable[str]) -> No
     choices = list(allowed)
     for name in names:
         if name not in choices:
-            near = difflib.get_close_matches(name, choices, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"expected one of {', '.join(choices)}"
-            raise InputError(f"unknown {kind} {name}; {hint}")
+            raise InputError(f"unknown {kind} {name}; {instead_of(name, choices)}")
+
+
+def instead_of(name: str, choices: Sequence[str], most: int | None = None) -> str:
+    """Return in words the choice nearest to an unknown name, or `most` of the choices."""
+    if near := difflib.get_close_matches(name, choices, n=1):
+        return f"did you mean {near[0]}?"
+    rest = ", ..." if most and len(choices) > most else ""
+    return f"expected one of {', '.join(choices[:most])}{rest}"
 
 
 def _may_be_real(value: Any) -> bool:

@@ -108,13 +108,14 @@ class CutOff(Result):
         data = self.data
         if self.failure:
             return [f"Answer: none. {self.failure}"]
+        last = in_mm(float(self.data.cut_off[-1]), 3)
         numbers = [f"{SYMBOLS[name]} = {self._last(curve)}" for name, curve in self._curves]
         level = "" if bool(data.curve_measured[-1]) else f" ({_LEVEL} bands)"
         if any(refusals(data)):
             level = ", where the measurement ends: it foretells no octave"
         load = " and ".join(load_in_words(data))
         lines = [
-            f"Answer: {', '.join(numbers)} with {self._down_to}{level}",
+            f"Answer: {', '.join(numbers)} with roughness down to {last}{level}",
             f"  for {load}; direct contact of the measured surface, without factors",
         ]
         if not bool(data.curve_measured[-1]):
@@ -179,11 +180,6 @@ class CutOff(Result):
                 "rules of cut-off; small strain ends near a slope of 1.",
                 "Three panels of curves against the shortest wavelength of the surface.",
             )
-
-    @property
-    def _down_to(self) -> str:
-        """The last cut-off in words."""
-        return f"roughness down to {in_mm(float(self.data.cut_off[-1]), 3)}"
 
     @property
     def _curves(self) -> list[tuple[str, str]]:
