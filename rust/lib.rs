@@ -20,7 +20,7 @@
 //! | `solution` | a solved wave, with reports and counts |
 //! | `solve` | Newton, its linear problem by GMRES or a kept factor, load stepping, meshes, transfer |
 //! | `steady`, `transient` | steady sliding; sliding in time |
-//! | `line_system` | points of a line in contact with a half-space, for the bindings |
+//! | `line_system`, `gap_extension` | points of a line or a map in contact with a half-space, for the bindings |
 //! | `python` | bindings, no numerics |
 //!
 //! `KernelError` means that there is no result: an input was refused, the caller stopped, or the kernel has a
@@ -55,6 +55,8 @@ pub mod transient;
 
 internal_modules!(contact, fem, linear, material, model, outcome, solve, spectral);
 
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
+mod gap_extension;
 #[cfg_attr(not(feature = "python"), allow(dead_code))]
 mod line_system;
 #[cfg(feature = "python")]

@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
+use numpy::{
+    PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2,
+    PyUntypedArrayMethods,
+};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
@@ -11,6 +14,7 @@ use pyo3::types::PyMapping;
 use crate::cancel::Cancel;
 use crate::error::{unknown, KernelError};
 use crate::executor::{Executor, Threads};
+use crate::gap_extension::GapExtension;
 use crate::line_system::{LineSystem, Rows};
 use crate::linear::single_gmres;
 use crate::material::maxwell;
@@ -422,6 +426,29 @@ fn relaxing_moduli<'py>(
     Ok(PyArray1::from_vec(py, values))
 }
 
+/// Extends gaps of the points of a map in contact, `active`, to the open points beside them.
+#[pyclass(frozen, name = "GapExtension")]
+struct PyGapExtension(GapExtension);
+
+#[pymethods]
+impl PyGapExtension {
+    #[new]
+    fn new(active: PyReadonlyArray2<'_, bool>, far: f32) -> PyResult<Self> {
+        let columns = active.shape()[1];
+        Ok(Self(GapExtension::new(active.as_slice()?, columns, far)))
+    }
+
+    /// Set the points beside the contacts in `values`, which are zero outside.
+    fn extend(&self, mut values: PyReadwriteArray2<'_, f32>) -> PyResult<()> {
+        let values = values.as_slice_mut()?;
+        if values.len() != self.0.points() {
+            return Err(PyValueError::new_err("expected a value for each point"));
+        }
+        self.0.extend(values);
+        Ok(())
+    }
+}
+
 /// Name, default and one sentence of every setting.
 #[pyfunction]
 fn default_settings() -> Vec<(&'static str, f64, &'static str)> {
@@ -447,6 +474,6 @@ mod kernel {
     #[pymodule_export]
     use super::{
         default_settings, gmres, relaxing_moduli, solve_steady, solve_transient, statuses,
-        strain_energies, PyLine, PyRun, PySolution,
+        strain_energies, PyGapExtension, PyLine, PyRun, PySolution,
     };
 }

@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "GapExtension",
     "Line",
     "Run",
     "Solution",
@@ -16,6 +17,11 @@ __all__ = [
     "statuses",
     "strain_energies",
 ]
+
+@final
+class GapExtension:
+    def __new__(cls, active: NDArray[np.bool_], far: float) -> GapExtension: ...
+    def extend(self, values: NDArray[np.float32]) -> None: ...
 
 @final
 class Line:

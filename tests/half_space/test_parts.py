@@ -9,6 +9,7 @@ import pytest
 import scipy.fft
 
 import gripscale as gs
+from gripscale._kernel import GapExtension
 from gripscale.half_space import active_set
 from gripscale.half_space.active_set import FAR, LOSSY
 from gripscale.half_space.grid import Grid, doubled, resampled
@@ -34,22 +35,28 @@ def test_iterations_and_elimination_close_the_same_gap(monkeypatch):
     height = isotropic_map(32, shortest=3.2e-3).z.reshape(-1)
     where = np.flatnonzero(height > np.quantile(height, 0.6))
     start = np.full(len(where), 1e5)
-    full = np.zeros(grid.points)
-    full[where] = start
-    lifted = response.displacement(full.reshape(grid.shape)).reshape(-1)
-    system = (response, where, height[where], start, lifted, 1e-6)
-    iterated = active_set.close_gap(*system, check=True)
+
+    def lift(pressure):
+        full = np.zeros(grid.points)
+        full[where] = pressure
+        return response.displacement(full.reshape(grid.shape)).reshape(-1)
+
+    def closed(*, check=True):
+        gap = lift(start) - height
+        return active_set.close_gap(response, where, gap, start, 1e-6, check=check), gap
+
+    iterated, _ = closed()
     monkeypatch.setattr(active_set, "_SHORTEST", 1)
-    direct = active_set.close_gap(*system, check=True)
+    direct, left = closed()
     assert direct.products == 2
     assert iterated.products > 5
     assert direct.pressure.sum() == pytest.approx(start.sum(), rel=1e-9)
     size = np.abs(direct.pressure).max()
     assert np.abs(iterated.pressure - direct.pressure).max() < 1e-4 * size
-    assert active_set.close_gap(*system, check=False).missing < 1e-6
-    full[where] = direct.pressure
-    gap = response.displacement(full.reshape(grid.shape)).reshape(-1)[where] - height[where]
-    assert np.ptp(gap) < 1e-9 * np.ptp(height)
+    assert closed(check=False)[0].missing < 1e-6
+    gap = lift(direct.pressure) - height
+    assert np.ptp(gap[where]) < 1e-9 * np.ptp(height)
+    np.testing.assert_allclose(left, gap, atol=1e-12 * np.ptp(height))
 
 
 def test_a_gap_is_carried_to_the_points_beside_the_contact():
@@ -62,10 +69,15 @@ def test_a_gap_is_carried_to_the_points_beside_the_contact():
     )
     active = np.zeros((4, 5), dtype=bool)
     active[0, 0] = active[1, 0] = True
-    extended = active_set._around_contacts(active) @ np.array([2.0, 3.0])
+    extended = np.zeros(active.shape, dtype=np.float32)
+    extended[0, 0], extended[1, 0] = 2.0, 3.0
+    GapExtension(active, FAR).extend(extended)
     assert np.count_nonzero(extended) == 12  # over both edges of the map
     wanted = (2.0 + 3.0 / 2**1.5) / (1 + 1 / 2**1.5 + FAR)
-    assert extended[4] == pytest.approx(wanted, rel=1e-6)  # (0, 4), next to (0, 0) and (1, 0)
+    assert extended[0, 4] == pytest.approx(wanted, rel=1e-6)  # next to (0, 0) and (1, 0)
+    assert (extended[0, 0], extended[1, 0]) == (2.0, 3.0)
+    with pytest.raises(ValueError, match="a value for each point"):
+        GapExtension(active, FAR).extend(np.zeros((4, 4), dtype=np.float32))
 
 
 def test_a_gap_of_a_lossy_line_is_linear_between_its_ends():
@@ -118,7 +130,7 @@ def test_resampling_is_exact_for_what_both_grids_carry(shape, onto):
         place = np.meshgrid(*(2 * np.pi * np.arange(k) / k for k in n), indexing="ij")
         return np.cos(sum((5 - 2 * i) * p for i, p in enumerate(place)) + 0.4)
 
-    found = resampled(scipy.fft.rfftn(wave(shape)), shape, onto)
+    found = resampled(scipy.fft.rfftn(wave(shape)), shape, Grid(onto, (1.0,) * len(onto)))
     np.testing.assert_allclose(found, wave(onto), atol=1e-12)
 
 

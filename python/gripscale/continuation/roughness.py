@@ -28,7 +28,7 @@ import numpy as np
 import scipy
 
 from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks
-from gripscale.half_space.grid import periodic_heights, resampled
+from gripscale.half_space.grid import Grid, periodic_heights, resampled
 from gripscale.half_space.grid_sequence import POINTS_IN_WAVE
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import STEEPEST
@@ -67,7 +67,7 @@ class PeriodicLine:
         length, count = heights.grid.lengths[0], heights.grid.points
         steps = POINTS_IN_WAVE * length / (min(shortest, finest) * count)
         points = 2 * math.ceil(0.5 * steps) * count  # with those of the measurement
-        z = resampled(heights.spectrum, heights.grid.shape, (points,))
+        z = resampled(heights.spectrum, heights.grid.shape, Grid((points,), (length,)))
         return cls(length, points, np.asarray(scipy.fft.rfft(z)))
 
     @property
