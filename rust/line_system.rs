@@ -32,11 +32,7 @@ pub struct LineSystem<'a> {
 impl LineSystem<'_> {
     /// Whether all places and rows are of the line, for a system of so many points.
     pub fn fits(&self, points: usize) -> bool {
-        let Rows {
-            starts,
-            columns,
-            values,
-        } = &self.extension;
+        let Rows { starts, columns, values } = &self.extension;
         let within = |at: &i64| (0..self.lines.length() as i64).contains(at);
         let rising = starts.windows(2).all(|ends| ends[0] <= ends[1]);
         points == self.places.len()
@@ -44,13 +40,9 @@ impl LineSystem<'_> {
             && starts.len() == self.lines.length() + 1
             && rising
             && starts.first() == Some(&0)
-            && starts
-                .last()
-                .is_some_and(|&end| end as usize == values.len())
+            && starts.last().is_some_and(|&end| end as usize == values.len())
             && columns.len() == values.len()
-            && columns
-                .iter()
-                .all(|&at| (0..points as i64).contains(&i64::from(at)))
+            && columns.iter().all(|&at| (0..points as i64).contains(&i64::from(at)))
     }
 
     /// The pressures whose Q K is `right`, of unit length; see `gmres`.
@@ -80,11 +72,7 @@ impl LineSystem<'_> {
     }
 
     fn extend(&self, gap: &[f32], line: &mut [f32]) {
-        let Rows {
-            starts,
-            columns,
-            values,
-        } = &self.extension;
+        let Rows { starts, columns, values } = &self.extension;
         for (value, ends) in line.iter_mut().zip(starts.windows(2)) {
             let row = ends[0] as usize..ends[1] as usize;
             let parts = columns[row.clone()].iter().zip(&values[row]);

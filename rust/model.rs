@@ -37,11 +37,7 @@ impl Model {
             .filter(|_| time_unit.is_finite())
             .map(|(modulus, time)| (modulus, time / time_unit))
             .unzip();
-        let mut maxwell = Maxwell {
-            equilibrium: rubber.equilibrium_modulus,
-            moduli,
-            times,
-        };
+        let mut maxwell = Maxwell { equilibrium: rubber.equilibrium_modulus, moduli, times };
         let stress_unit = maxwell.magnitude(omega);
         maxwell.equilibrium /= stress_unit;
         maxwell.moduli.iter_mut().for_each(|g| *g /= stress_unit);
@@ -78,10 +74,7 @@ impl Model {
 
     /// The same rubber on other heights.
     pub fn with_heights(&self, heights: Heights) -> Self {
-        Self {
-            heights,
-            ..self.clone()
-        }
+        Self { heights, ..self.clone() }
     }
 
     /// Contact width in wavelengths under a small `load`, by Hertz.

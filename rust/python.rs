@@ -115,10 +115,8 @@ fn mesh<'py>(
     part: fn(&(f64, f64)) -> f64,
 ) -> PyResult<Table<'py>> {
     let layers = solution.node_positions();
-    let layers: Vec<Vec<f64>> = layers
-        .iter()
-        .map(|layer| layer.iter().map(part).collect())
-        .collect();
+    let layers: Vec<Vec<f64>> =
+        layers.iter().map(|layer| layer.iter().map(part).collect()).collect();
     Ok(PyArray2::from_vec2(py, &layers)?)
 }
 
@@ -288,16 +286,10 @@ fn solve_transient<'py>(
     let (rubber, profile, mesh) = problem.checked()?;
     let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);
-    let stage = |(duration, speed, pressure)| Stage {
-        duration,
-        speed,
-        pressure,
-    };
+    let stage = |(duration, speed, pressure)| Stage { duration, speed, pressure };
     let stages: Vec<Stage> = stages.into_iter().map(stage).collect();
     let solve = |executor: &Executor<'_>| {
-        transient::solve(
-            &rubber, &profile, &mesh, &settings, &stages, start, executor,
-        )
+        transient::solve(&rubber, &profile, &mesh, &settings, &stages, start, executor)
     };
     Ok(PyRun(run_cancellable(py, work, solve)?))
 }
@@ -365,16 +357,10 @@ impl PyLine {
         self.check_harmonics(system.stiffness)?;
         let right = right.as_slice()?.to_vec();
         if !system.fits(right.len()) {
-            return Err(PyValueError::new_err(
-                "expected points and rows of the line",
-            ));
+            return Err(PyValueError::new_err("expected points and rows of the line"));
         }
         let found = py.detach(|| system.solution(right, target, most));
-        Ok((
-            PyArray1::from_vec(py, found.x),
-            found.residual,
-            found.products,
-        ))
+        Ok((PyArray1::from_vec(py, found.x), found.residual, found.products))
     }
 }
 
@@ -402,11 +388,7 @@ fn gmres<'py>(
         Ok(image.as_slice()?.to_vec())
     };
     let found = single_gmres::gmres(apply, right.as_slice()?.to_vec(), target, most)?;
-    Ok((
-        PyArray1::from_vec(py, found.x),
-        found.residual,
-        found.products,
-    ))
+    Ok((PyArray1::from_vec(py, found.x), found.residual, found.products))
 }
 
 /// sum E_i i w tau_i / (1 + i w tau_i) at frequencies w, without the interpreter's lock.

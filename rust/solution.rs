@@ -39,9 +39,7 @@ impl Solution {
         let heights = mesh.layer_heights().into_iter().enumerate();
         heights
             .map(|(layer, z)| {
-                (0..=mesh.layer_nodes())
-                    .map(|node| position(layer, z, node))
-                    .collect()
+                (0..=mesh.layer_nodes()).map(|node| position(layer, z, node)).collect()
             })
             .collect()
     }
@@ -110,9 +108,7 @@ impl MeshSolution {
     pub(crate) fn state_on(&self, mesh: &Mesh) -> Option<&State> {
         let coarser = self.coarser.iter().map(|(mesh, state)| (mesh, state));
         let mut solved = std::iter::once((&self.mesh, &self.state)).chain(coarser);
-        solved
-            .find(|(other, _)| other.same(mesh))
-            .map(|(_, state)| state)
+        solved.find(|(other, _)| other.same(mesh)).map(|(_, state)| state)
     }
 }
 
@@ -130,12 +126,7 @@ pub struct Report {
 impl Report {
     /// The report of a solve without iterations.
     pub(crate) fn unsolved(status: Status) -> Self {
-        Self {
-            status,
-            iterations: 0,
-            products: 0,
-            residual: f64::NAN,
-        }
+        Self { status, iterations: 0, products: 0, residual: f64::NAN }
     }
 
     /// The status as an error, unless it is `Converged`.

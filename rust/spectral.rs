@@ -58,9 +58,7 @@ impl Lines {
     /// The harmonics of `line`.
     pub fn forward(&mut self, line: &[f64], spectrum: &mut [Complex64]) {
         self.line.copy_from_slice(line);
-        let done = self
-            .forward
-            .process_with_scratch(&mut self.line, spectrum, &mut self.scratch);
+        let done = self.forward.process_with_scratch(&mut self.line, spectrum, &mut self.scratch);
         debug_assert!(done.is_ok());
     }
 
@@ -88,9 +86,11 @@ impl Lines {
     /// `line` convolved round the period with a line of these harmonics.
     pub fn convolve(&mut self, with: &[Complex64], line: &mut [f64]) {
         self.line.copy_from_slice(line);
-        let done =
-            self.forward
-                .process_with_scratch(&mut self.line, &mut self.spectrum, &mut self.scratch);
+        let done = self.forward.process_with_scratch(
+            &mut self.line,
+            &mut self.spectrum,
+            &mut self.scratch,
+        );
         debug_assert!(done.is_ok());
         for (value, factor) in self.spectrum.iter_mut().zip(with) {
             *value *= factor;
@@ -105,9 +105,7 @@ impl Lines {
                 last.im = 0.0;
             }
         }
-        let done = self
-            .inverse
-            .process_with_scratch(&mut self.spectrum, line, &mut self.scratch);
+        let done = self.inverse.process_with_scratch(&mut self.spectrum, line, &mut self.scratch);
         debug_assert!(done.is_ok());
         let share = 1.0 / line.len() as f64;
         line.iter_mut().for_each(|value| *value *= share);
@@ -185,7 +183,11 @@ impl SingleFilter<'_> {
 /// Convolution round the period of every component of tensors at the points of a line, for every point
 /// of a column separately; `spectrum` are the harmonics of the weights by columns, and `values` stand
 /// `[column * points + point]`.
-pub fn convolve_points(lines: &Lines, spectrum: &[Complex64], values: &[[f64; 4]]) -> Vec<[f64; 4]> {
+pub fn convolve_points(
+    lines: &Lines,
+    spectrum: &[Complex64],
+    values: &[[f64; 4]],
+) -> Vec<[f64; 4]> {
     let mut lines = lines.clone();
     let (columns, mut out) = (lines.length(), vec![[0.0; 4]; values.len()]);
     let points = values.len() / columns;
@@ -193,9 +195,7 @@ pub fn convolve_points(lines: &Lines, spectrum: &[Complex64], values: &[[f64; 4]
     for point in 0..points {
         for k in 0..4 {
             let from = values.iter().skip(point).step_by(points);
-            line.iter_mut()
-                .zip(from)
-                .for_each(|(to, value)| *to = value[k]);
+            line.iter_mut().zip(from).for_each(|(to, value)| *to = value[k]);
             lines.convolve(spectrum, &mut line);
             let to = out.iter_mut().skip(point).step_by(points);
             to.zip(&line).for_each(|(to, value)| to[k] = *value);
@@ -216,11 +216,7 @@ impl Correlations {
     pub fn new(columns: usize) -> Self {
         let lines = Lines::new(columns);
         let zeros = vec![Complex64::default(); lines.harmonics()];
-        Self {
-            lines,
-            harmonics: [zeros.clone(), zeros.clone()],
-            sum: zeros,
-        }
+        Self { lines, harmonics: [zeros.clone(), zeros.clone()], sum: zeros }
     }
 
     /// Add `weight` times the sums of one pair.
@@ -254,9 +250,8 @@ mod tests {
             let factor = |k: usize| Complex64::new(1.0 / (1 + k) as f64, 0.1 * k as f64);
             let factors: Vec<Complex64> = (0..=length / 2).map(factor).collect();
             Lines::new(length).convolve(&factors, &mut expected);
-            let single = |values: &[f64]| -> Vec<f32> {
-                values.iter().map(|value| *value as f32).collect()
-            };
+            let single =
+                |values: &[f64]| -> Vec<f32> { values.iter().map(|value| *value as f32).collect() };
             let lines = SingleLines::new(length);
             let factors: Vec<Complex32> = factors
                 .iter()

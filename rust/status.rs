@@ -109,9 +109,7 @@ mod tests {
         for text in Status::ALL.iter().flat_map(|s| [s.sentence(), s.advice()]) {
             for sentence in text.split(". ") {
                 assert!(sentence.split_whitespace().count() <= 22, "{sentence}");
-                let bare = ["Converged,", "Solved,"]
-                    .iter()
-                    .any(|word| sentence.starts_with(word));
+                let bare = ["Converged,", "Solved,"].iter().any(|word| sentence.starts_with(word));
                 assert!(!bare, "{sentence}");
             }
         }

@@ -103,11 +103,7 @@ struct Ending {
 impl Ending {
     /// The block at rest, because nothing was solved.
     fn unsolved(mesh: &Mesh, status: Status) -> Self {
-        Self {
-            state: State::at_rest(mesh),
-            report: Report::unsolved(status),
-            load_reached: 0.0,
-        }
+        Self { state: State::at_rest(mesh), report: Report::unsolved(status), load_reached: 0.0 }
     }
 }
 
@@ -173,11 +169,7 @@ impl<'w> Wave<'w> {
         self.counts.add(&report);
         self.counts.load_steps += 1;
         match report.status {
-            Status::Converged => Some(Ending {
-                state,
-                report,
-                load_reached: 1.0,
-            }),
+            Status::Converged => Some(Ending { state, report, load_reached: 1.0 }),
             status if status.interrupts() => Some(Ending::unsolved(pressed.mesh(), status)),
             _ => None,
         }
@@ -202,11 +194,7 @@ impl<'w> Wave<'w> {
         let mesh = pressed.mesh();
         let solved = continuation.solve(mesh.columns, &mut self.counts)?;
         Some(match solved {
-            Ok((state, report)) => Ending {
-                state,
-                report,
-                load_reached: 1.0,
-            },
+            Ok((state, report)) => Ending { state, report, load_reached: 1.0 },
             Err(unsolved) => {
                 self.waves_carried = self.waves_carried.max(unsolved.waves);
                 Ending::unsolved(mesh, unsolved.status)
@@ -223,11 +211,7 @@ impl<'w> Wave<'w> {
         let (load, counts) = (self.load(), &mut self.counts);
         let mut state = State::at_rest(pressed.mesh());
         let (report, load_reached) = raise(pressed, &mut state, load, self.settings, counts);
-        Some(Ending {
-            state,
-            report,
-            load_reached,
-        })
+        Some(Ending { state, report, load_reached })
     }
 
     /// `finest` itself, or, if its mesh did not carry the load, the solution on a mesh twice as fine:
@@ -291,11 +275,7 @@ impl<'w> Wave<'w> {
         memory: &Memory,
         ending: Ending,
     ) -> Result<MeshSolution, KernelError> {
-        let Ending {
-            state,
-            mut report,
-            load_reached,
-        } = ending;
+        let Ending { state, mut report, load_reached } = ending;
         let executor = self.executor.without_deadline();
         let pressed = self.model.pressed(&mesh, memory, &executor);
         let outcome = Outcome::of(&pressed, &state, self.model.edge_law(&mesh, 1.0))

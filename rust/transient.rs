@@ -75,15 +75,9 @@ pub fn solve(
         check_start(start, rubber, profile)?;
     }
     // Stresses are in units of the modulus at the speed of the start, or of the fastest stage.
-    let fastest = stages
-        .iter()
-        .fold(0.0_f64, |v, stage| v.max(stage.speed.abs()));
+    let fastest = stages.iter().fold(0.0_f64, |v, stage| v.max(stage.speed.abs()));
     let start_speed = start.map_or(0.0, |start| start.problem.load.speed);
-    let speed = if start_speed > 0.0 {
-        start_speed
-    } else {
-        fastest
-    };
+    let speed = if start_speed > 0.0 { start_speed } else { fastest };
     let model = Model::new(rubber, profile, 1.0, TAU * speed / profile.wavelength);
     let mesh = Mesh::new(mesh);
     let mut integration =
@@ -93,11 +87,7 @@ pub fn solve(
         Err(Status::Stopped) => return Err(KernelError::Stopped),
         Err(status) => status,
     };
-    Ok(Run {
-        moments: integration.moments,
-        status,
-        counts: integration.counts,
-    })
+    Ok(Run { moments: integration.moments, status, counts: integration.counts })
 }
 
 fn check_stage(stage: &Stage, profile: &Profile, settings: &Settings) -> Result<(), KernelError> {
@@ -109,10 +99,7 @@ fn check_stage(stage: &Stage, profile: &Profile, settings: &Settings) -> Result<
     if wavelengths <= longest {
         return Ok(());
     }
-    Err(KernelError::TooLong {
-        longest,
-        wavelengths,
-    })
+    Err(KernelError::TooLong { longest, wavelengths })
 }
 
 fn check_start(start: &Solution, rubber: &Rubber, profile: &Profile) -> Result<(), KernelError> {
@@ -185,9 +172,7 @@ impl<'a> Integration<'a> {
                 self.record(stage)?;
                 pressed = true;
             }
-            self.kept_factor
-                .iter_mut()
-                .for_each(KeptFactor::forget_last_step);
+            self.kept_factor.iter_mut().for_each(KeptFactor::forget_last_step);
             for dt in self.steps(stage) {
                 self.step(stage, dt)?;
                 self.record(stage)?;
@@ -280,12 +265,8 @@ impl<'a> Integration<'a> {
     }
 
     fn record(&mut self, stage: &Stage) -> Result<(), Status> {
-        let pressed = self
-            .model
-            .pressed(self.mesh, &Memory::Relaxed, self.executor);
-        let law = self
-            .model
-            .edge_law(self.mesh, stage.speed / self.wavelength);
+        let pressed = self.model.pressed(self.mesh, &Memory::Relaxed, self.executor);
+        let law = self.model.edge_law(self.mesh, stage.speed / self.wavelength);
         let outcome = Outcome::of(&pressed, &self.state, law)?;
         self.moments.push(Moment {
             time: self.time,
@@ -322,7 +303,5 @@ fn networks(
 /// Y at all Gauss points in `state`, which the temporary networks remember.
 fn remembered(pressed: &PressedBlock<'_>, state: &State) -> Points {
     let block = &pressed.block;
-    (0..block.mesh.rows)
-        .map(|row| block.row_state(row, &state.field.u).remembered())
-        .collect()
+    (0..block.mesh.rows).map(|row| block.row_state(row, &state.field.u).remembered()).collect()
 }

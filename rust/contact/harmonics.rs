@@ -55,15 +55,11 @@ impl Harmonics {
     }
 
     fn of(coefficients: Vec<(f64, f64)>) -> Self {
-        let mut harmonics = Self {
-            coefficients,
-            range: (0.0, 0.0),
-            full_contact_pressure: 0.0,
-        };
+        let mut harmonics = Self { coefficients, range: (0.0, 0.0), full_contact_pressure: 0.0 };
         harmonics.range = harmonics.extremes();
-        harmonics.full_contact_pressure = harmonics.fine_points().fold(0.0, |most, x| {
-            most.max(-4.0 * PI * harmonics.sum(x, |n| n).0)
-        });
+        harmonics.full_contact_pressure = harmonics
+            .fine_points()
+            .fold(0.0, |most, x| most.max(-4.0 * PI * harmonics.sum(x, |n| n).0));
         harmonics
     }
 
@@ -88,10 +84,7 @@ impl Harmonics {
         let wave = |of: &Self, n: usize| of.coefficients.get(n).copied().unwrap_or_default();
         let between = |n: usize| {
             let (from, to) = (wave(self, n), wave(other, n));
-            (
-                from.0 + share * (to.0 - from.0),
-                from.1 + share * (to.1 - from.1),
-            )
+            (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
         };
         Self::of((0..self.len().max(other.len())).map(between).collect())
     }
@@ -134,11 +127,7 @@ impl Harmonics {
     /// Root of two times the rms slope: of N waves the root of the sum of their squares.
     pub fn steepness(&self) -> f64 {
         let slope = |(i, &(re, im)): (usize, &(f64, f64))| TAU * (i + 1) as f64 * re.hypot(im);
-        let squares = self
-            .coefficients
-            .iter()
-            .enumerate()
-            .map(|wave| slope(wave).powi(2));
+        let squares = self.coefficients.iter().enumerate().map(|wave| slope(wave).powi(2));
         squares.sum::<f64>().sqrt()
     }
 

@@ -36,13 +36,7 @@ pub fn solve<'a>(
         let force_scale = load / active_set.iter().filter(|&&a| a).count() as f64;
         // Positive entries violate their condition.
         let violation: Vec<f64> = (0..free_gap.len())
-            .map(|i| {
-                if active_set[i] {
-                    -force[i] / force_scale
-                } else {
-                    -gap[i] / gap_scale
-                }
-            })
+            .map(|i| if active_set[i] { -force[i] / force_scale } else { -gap[i] / gap_scale })
             .collect();
         if violation.iter().all(|&v| v <= tolerance) {
             return Ok((contact, system));
@@ -70,11 +64,7 @@ pub fn solve_on_active_set<'a>(
     let system = ActiveSetSystem::new(problem.compliance, active_set, settings)?;
     let solution = system.solve(problem.free_gap, problem.load, executor)?;
     let (force, approach) = solution.ok_or(Status::NoActiveSet)?;
-    let contact = Contact {
-        force,
-        approach,
-        active_set: active_set.to_vec(),
-    };
+    let contact = Contact { force, approach, active_set: active_set.to_vec() };
     Ok((contact, system))
 }
 

@@ -91,11 +91,7 @@ impl<'a, 's> Path<'a, 's> {
         let (_, [fixed, _]) = path.lines(executor)?;
         for (i, distance) in fixed.distance.iter().enumerate() {
             let spread = 1.0 + SPREAD * (GOLDEN * (i + 1) as f64).fract();
-            let shift = if start[i] {
-                &mut path.force_shift
-            } else {
-                &mut path.gap_shift
-            };
+            let shift = if start[i] { &mut path.force_shift } else { &mut path.gap_shift };
             shift[i] = spread * (-distance).max(0.0);
         }
         Ok(path)
@@ -140,11 +136,7 @@ impl<'a, 's> Path<'a, 's> {
                 false => gap[i] + t * self.gap_shift[i],
             })
             .collect();
-        Ok(Line {
-            force,
-            approach,
-            distance,
-        })
+        Ok(Line { force, approach, distance })
     }
 }
 

@@ -32,9 +32,7 @@ impl Heights {
     /// The same heights in units of `length`.
     pub fn over(&self, length: f64) -> Self {
         match self {
-            Self::Sine { amplitude } => Self::Sine {
-                amplitude: amplitude / length,
-            },
+            Self::Sine { amplitude } => Self::Sine { amplitude: amplitude / length },
             Self::Sampled(harmonics) => Self::Sampled(harmonics.over(length)),
         }
     }

@@ -55,10 +55,7 @@ fn no_bit_depends_on_the_number_of_threads() {
             let threads = Threads::each_worth(count, EAGER);
             let executor = Executor::new(&threads, Cancel::never());
             let together = bits(&case.solve_with(None, &executor).unwrap());
-            assert!(
-                alone == together,
-                "order {order}, speed {speed}: {count} threads"
-            );
+            assert!(alone == together, "order {order}, speed {speed}: {count} threads");
         }
     }
 }
@@ -72,9 +69,7 @@ fn every_part_is_done_once_and_by_all_threads() {
     let who = Mutex::new(BTreeSet::new());
     threads.share(60, &mut workspaces, done.iter_mut(), |workspace, part| {
         thread::sleep(Duration::from_millis(2));
-        who.lock()
-            .unwrap()
-            .insert(format!("{:?}", thread::current().id()));
+        who.lock().unwrap().insert(format!("{:?}", thread::current().id()));
         *part += 1;
         *workspace += 1;
     });

@@ -55,11 +55,7 @@ pub fn gmres(
     if !size.is_finite() {
         return Err(Status::NotFinite);
     }
-    Ok(GmresSolution {
-        y,
-        residual,
-        iterations,
-    })
+    Ok(GmresSolution { y, residual, iterations })
 }
 
 /// An orthonormal basis of a Krylov space with its Hessenberg matrix, rotated to be triangular.
@@ -154,14 +150,13 @@ impl<'t> KrylovSpace<'t> {
         let size = 4 * to.len();
         let pieces = sums.iter_mut().zip(to.chunks_mut(PIECE)).enumerate();
         let mut workspaces = vec![(); self.threads.count_for(size)];
-        self.threads
-            .share(size, &mut workspaces, pieces, |(), (piece, (sum, to))| {
-                let within = piece * PIECE..piece * PIECE + to.len();
-                if let Some((factor, x)) = added {
-                    add(to, factor, &x[within.clone()]);
-                }
-                *sum = with.map_or_else(|| dot(to, to), |with| dot(to, &with[within]));
-            });
+        self.threads.share(size, &mut workspaces, pieces, |(), (piece, (sum, to))| {
+            let within = piece * PIECE..piece * PIECE + to.len();
+            if let Some((factor, x)) = added {
+                add(to, factor, &x[within.clone()]);
+            }
+            *sum = with.map_or_else(|| dot(to, to), |with| dot(to, &with[within]));
+        });
         sums.iter().sum()
     }
 
@@ -170,12 +165,11 @@ impl<'t> KrylovSpace<'t> {
         let size = to.len() * weights.len();
         let mut workspaces = vec![(); self.threads.count_for(size)];
         let pieces = to.chunks_mut(PIECE).enumerate();
-        self.threads
-            .share(size, &mut workspaces, pieces, |(), (piece, to)| {
-                for (weight, direction) in weights.iter().zip(&self.basis) {
-                    add(to, *weight, &direction[piece * PIECE..][..to.len()]);
-                }
-            });
+        self.threads.share(size, &mut workspaces, pieces, |(), (piece, to)| {
+            for (weight, direction) in weights.iter().zip(&self.basis) {
+                add(to, *weight, &direction[piece * PIECE..][..to.len()]);
+            }
+        });
     }
 
     /// The vector of smallest residual, and that residual.

@@ -60,11 +60,7 @@ pub fn gmres<E>(
     for (weight, direction) in triangular_solution(&columns, &reduced).iter().zip(&basis) {
         add(&mut x, *weight as f32, direction);
     }
-    Ok(Approximation {
-        x,
-        residual: reduced[columns.len()].abs(),
-        products: columns.len(),
-    })
+    Ok(Approximation { x, residual: reduced[columns.len()].abs(), products: columns.len() })
 }
 
 /// Weights of the directions: the upper triangle of `columns` times them is `right`.
@@ -78,10 +74,7 @@ fn triangular_solution(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 }
 
 fn rotated((cosine, sine): (f64, f64), first: f64, second: f64) -> (f64, f64) {
-    (
-        cosine * first + sine * second,
-        cosine * second - sine * first,
-    )
+    (cosine * first + sine * second, cosine * second - sine * first)
 }
 
 fn dot(a: &[f32], b: &[f32]) -> f64 {

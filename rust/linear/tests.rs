@@ -34,9 +34,8 @@ fn a_block_times_its_inverse_is_one() {
         assert!(invert(&mut inverse, size));
         for i in 0..size {
             for j in 0..size {
-                let sum: Complex64 = (0..size)
-                    .map(|k| block[k * size + i] * inverse[j * size + k])
-                    .sum();
+                let sum: Complex64 =
+                    (0..size).map(|k| block[k * size + i] * inverse[j * size + k]).sum();
                 let expected = if i == j { 1.0 } else { 0.0 };
                 assert!((sum - expected).norm() < 1e-12, "{size}: {sum}");
             }

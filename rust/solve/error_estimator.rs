@@ -60,7 +60,8 @@ impl ErrorEstimator {
     /// The friction to which differences are relative: at least a share of k A, below which friction is not
     /// resolved.
     fn friction_scale(&self, solution: &MeshSolution) -> f64 {
-        let (traction, lost) = (solution.outcome.friction, solution.outcome.friction_from_dissipation);
+        let (traction, lost) =
+            (solution.outcome.friction, solution.outcome.friction_from_dissipation);
         let least = self.settings.small_friction * self.steepness;
         traction.abs().max(lost.abs()).max(least)
     }
@@ -103,10 +104,7 @@ impl ErrorEstimator {
         let change = (new.contact_fraction - old.contact_fraction).abs();
         let fraction = self.settings.error_safety * change.max(self.edge_error(fine, &patches));
         let friction = (new.friction - old.friction).abs().max(mismatch(fine));
-        (
-            fraction.max(self.closing_error(fine)),
-            friction.max(self.chance_error(fine, &patches)),
-        )
+        (fraction.max(self.closing_error(fine)), friction.max(self.chance_error(fine, &patches)))
     }
 
     /// Columns of the coarsest mesh that is known to meet the tolerance, if errors fall to a quarter at most
@@ -123,7 +121,11 @@ impl ErrorEstimator {
     }
 
     /// A solution with its errors, if there is a coarser one to estimate them from.
-    pub fn with_errors(&self, mut fine: MeshSolution, coarse: Option<&MeshSolution>) -> MeshSolution {
+    pub fn with_errors(
+        &self,
+        mut fine: MeshSolution,
+        coarse: Option<&MeshSolution>,
+    ) -> MeshSolution {
         fine.friction_bound = self.friction_bound(&fine);
         if let (true, Some(coarse)) = (fine.converged(), coarse) {
             fine.coarser = Some((coarse.mesh.clone(), coarse.state.clone()));
@@ -233,10 +235,7 @@ mod tests {
         let active_set = [true, false, false, true, false, true, true];
         let force = [1.0, 0.0, 0.0, 2.0, 0.0, 3.0, 4.0];
         let patch = |closed, open, load| Patch { closed, open, load };
-        assert_eq!(
-            patches(&active_set, &force),
-            [patch(1, 1, 2.0), patch(3, 2, 8.0)]
-        );
+        assert_eq!(patches(&active_set, &force), [patch(1, 1, 2.0), patch(3, 2, 8.0)]);
         assert!(patches(&[true; 4], &[1.0; 4]).is_empty());
         assert!(patches(&[false; 4], &[0.0; 4]).is_empty());
     }

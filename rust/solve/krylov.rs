@@ -41,12 +41,7 @@ pub fn increment(
     accuracy: Accuracy,
     settings: &Settings,
 ) -> Result<Increment, Status> {
-    let Iterate {
-        state,
-        rows,
-        residual,
-        ..
-    } = iterate;
+    let Iterate { state, rows, residual, .. } = iterate;
     let executor = pressed.executor;
     let jacobian = Jacobian::new(&pressed.block, &state.field, rows, executor)?;
     let average = AveragedJacobian::new(&jacobian, executor)?;
@@ -120,7 +115,8 @@ impl Step<'_> {
         self.apply_contact(&mut approximation, contact, surface, &mut work);
         let largest = norm(&self.right).max(norm(&approximation.residual));
         let target = (accuracy.share * largest).max(accuracy.least);
-        let products = self.solve_on_active_set(&mut approximation, &system, target, &mut work, settings)?;
+        let products =
+            self.solve_on_active_set(&mut approximation, &system, target, &mut work, settings)?;
         let displacements = self.jacobian.displacements();
         let mut u = approximation.y[..displacements].to_vec();
         u.resize(self.state.field.u.len(), 0.0);
@@ -201,9 +197,7 @@ impl Step<'_> {
         out: &mut [f64],
         work: &mut StepWorkspace<'_>,
     ) {
-        let by_forces = self
-            .compliance
-            .displacements(&self.compliance.nodal_forces(forces));
+        let by_forces = self.compliance.displacements(&self.compliance.nodal_forces(forces));
         for (u, by_forces) in surface.iter_mut().zip(by_forces) {
             *u += by_forces;
         }

@@ -35,9 +35,7 @@ pub fn raise(
                 return (report, 1.0);
             }
             if report.iterations <= settings.easy_iterations {
-                growth = growth
-                    .powf(settings.growth_gain)
-                    .min(settings.largest_growth);
+                growth = growth.powf(settings.growth_gain).min(settings.largest_growth);
             }
             next = (reached * growth).min(load);
         } else if report.status.interrupts() {

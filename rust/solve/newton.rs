@@ -63,10 +63,7 @@ pub(super) fn iterate(
     long_step: LongStep,
     mut next: impl FnMut(Iterate<'_>) -> Result<Increment, Status>,
 ) -> Report {
-    let mut report = Report {
-        residual: f64::INFINITY,
-        ..Report::unsolved(Status::Converged)
-    };
+    let mut report = Report { residual: f64::INFINITY, ..Report::unsolved(Status::Converged) };
     let mut run = || -> Result<(), Status> {
         let mut rows = pressed.row_states(&state.field)?;
         let (mut best, mut best_at) = (f64::INFINITY, 0);
@@ -88,12 +85,8 @@ pub(super) fn iterate(
                 return Err(Status::IterationLimit);
             }
             report.iterations += 1;
-            let increment = next(Iterate {
-                state,
-                rows: &rows,
-                residual: &residual,
-                residual_norm,
-            })?;
+            let increment =
+                next(Iterate { state, rows: &rows, residual: &residual, residual_norm })?;
             report.products += increment.products;
             step(pressed, increment, state, &mut rows, settings, long_step)?;
         }
@@ -110,11 +103,7 @@ fn forcing_share(last: f64, ratio: f64, settings: &Settings) -> f64 {
     let gamma = settings.krylov_safety;
     let cautious = gamma * last * last;
     let next = gamma * ratio * ratio;
-    let next = if cautious > 0.1 {
-        next.max(cautious)
-    } else {
-        next
-    };
+    let next = if cautious > 0.1 { next.max(cautious) } else { next };
     next.clamp(settings.krylov_least_share, settings.krylov_share)
 }
 
@@ -143,12 +132,7 @@ fn step(
     settings: &Settings,
     long_step: LongStep,
 ) -> Result<(), Status> {
-    let Increment {
-        u,
-        pressure,
-        contact,
-        ..
-    } = increment;
+    let Increment { u, pressure, contact, .. } = increment;
     if u.iter().any(|value| !value.is_finite()) {
         return Err(Status::NotFinite);
     }
@@ -185,10 +169,7 @@ pub fn residual_norm(pressed: &PressedBlock<'_>, state: &State, load: f64) -> f6
     let rows = pressed.row_states(&state.field);
     let residual = rows.and_then(|rows| Residual::new(pressed, state, &rows));
     let norm = residual.map(|residual| residual.norm(pressed, state, load));
-    norm.map_or(
-        f64::INFINITY,
-        |r| if r.is_nan() { f64::INFINITY } else { r },
-    )
+    norm.map_or(f64::INFINITY, |r| if r.is_nan() { f64::INFINITY } else { r })
 }
 
 fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> Result<f64, Status> {
@@ -197,9 +178,7 @@ fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> Result<f64, Statu
         let gradients = block.gradients(row, du, 0.0).into_iter().flatten();
         gradients.flatten().fold(1e-300, larger)
     };
-    let of_rows = pressed
-        .executor
-        .map(12 * mesh.points(), mesh.rows, of_row)?;
+    let of_rows = pressed.executor.map(12 * mesh.points(), mesh.rows, of_row)?;
     Ok(of_rows.into_iter().fold(1e-300, larger))
 }
 
@@ -215,9 +194,7 @@ fn largest_change(from: &[RowState], to: &[RowState]) -> f64 {
 }
 
 fn smallest_jacobian(rows: &[RowState]) -> f64 {
-    points(rows)
-        .map(|point| point.j)
-        .fold(f64::INFINITY, f64::min)
+    points(rows).map(|point| point.j).fold(f64::INFINITY, f64::min)
 }
 
 fn points(rows: &[RowState]) -> impl Iterator<Item = &Deformation> {

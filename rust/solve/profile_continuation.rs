@@ -81,10 +81,7 @@ impl ProfileContinuation<'_> {
         let (order, all) = (self.size.order, self.model.heights.waves());
         let resolved =
             |columns: usize| (order * columns / self.settings.nodes_per_wave).clamp(1, all);
-        let mut targets = vec![Target {
-            columns,
-            waves: all,
-        }];
+        let mut targets = vec![Target { columns, waves: all }];
         let mut columns = columns;
         while targets[0].waves > 1 {
             columns = columns.div_ceil(2);
@@ -108,9 +105,8 @@ impl ProfileContinuation<'_> {
         for (i, &target) in targets.iter().enumerate() {
             let waves = last.waves;
             let unsolved = |status| Unsolved { status, waves };
-            last = self
-                .add_waves(last, target, i + 1 == targets.len(), counts)
-                .map_err(unsolved)?;
+            last =
+                self.add_waves(last, target, i + 1 == targets.len(), counts).map_err(unsolved)?;
         }
         Ok((last.state, last.report))
     }
@@ -128,13 +124,7 @@ impl ProfileContinuation<'_> {
         let mut state = State::at_rest(&mesh);
         let (report, _) = raise(&pressed, &mut state, self.load, self.settings, counts);
         report.converged()?;
-        Ok(Stage {
-            mesh,
-            heights: model.heights,
-            state,
-            report,
-            waves: target.waves,
-        })
+        Ok(Stage { mesh, heights: model.heights, state, report, waves: target.waves })
     }
 
     /// Add the waves of `target` on its mesh, in as many parts as necessary: all of them on the `final_mesh`,
@@ -158,11 +148,7 @@ impl ProfileContinuation<'_> {
         let rougher = self.model.heights.smoothed(target.waves);
         let mut state = transfer(&last.mesh, &last.state, &mesh, 1.0);
         let (mut reached, mut added, mut part) = (None, 0.0, 1.0_f64);
-        let least = if final_mesh {
-            self.settings.smallest_roughening
-        } else {
-            0.5
-        };
+        let least = if final_mesh { self.settings.smallest_roughening } else { 0.5 };
         while part >= least {
             let share = (added + part).min(1.0);
             let model = self.model.with_heights(last.heights.toward(&rougher, share));
@@ -195,13 +181,7 @@ impl ProfileContinuation<'_> {
         match reached {
             _ if final_mesh => Err(Status::ProfileTooRough),
             None => Ok(last),
-            Some((heights, report)) => Ok(Stage {
-                mesh,
-                heights,
-                state,
-                report,
-                ..last
-            }),
+            Some((heights, report)) => Ok(Stage { mesh, heights, state, report, ..last }),
         }
     }
 }

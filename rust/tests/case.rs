@@ -91,12 +91,7 @@ impl Case {
     }
 
     pub fn run(&self, stages: &[Stage], start: Option<&Solution>) -> Result<Run, KernelError> {
-        let Problem {
-            rubber,
-            profile,
-            mesh,
-            ..
-        } = self.problem()?;
+        let Problem { rubber, profile, mesh, .. } = self.problem()?;
         let executor = Executor::serial(Cancel::never());
         let settings = &self.settings;
         transient::solve(&rubber, &profile, &mesh, settings, stages, start, &executor)
@@ -104,9 +99,7 @@ impl Case {
 }
 
 pub fn new_energy(kind: &str, parameters: &[(&str, f64)]) -> Result<Energy, KernelError> {
-    let parameters = parameters
-        .iter()
-        .map(|&(name, value)| (name.to_owned(), value));
+    let parameters = parameters.iter().map(|&(name, value)| (name.to_owned(), value));
     Energy::new(kind, &parameters.collect())
 }
 

@@ -68,18 +68,9 @@ proptest! {
 
 #[test]
 fn an_endless_way_is_refused() {
-    let stage = Stage {
-        duration: 1e9,
-        speed: 1e9,
-        pressure: 0.1,
-    };
-    let error = Case::elastic(0.1, 0.1)
-        .run(&[stage], None)
-        .map(|_| ())
-        .unwrap_err();
-    assert!(error
-        .to_string()
-        .starts_with("a stage may slide over at most 10000 wavelengths"));
+    let stage = Stage { duration: 1e9, speed: 1e9, pressure: 0.1 };
+    let error = Case::elastic(0.1, 0.1).run(&[stage], None).map(|_| ()).unwrap_err();
+    assert!(error.to_string().starts_with("a stage may slide over at most 10000 wavelengths"));
 }
 
 #[test]
@@ -90,15 +81,9 @@ fn refusals_name_the_value() {
         case.solve(None).map(|_| ()).unwrap_err()
     };
     let error = refuse(|case| case.pressure = -2.0);
-    assert_eq!(
-        error.to_string(),
-        "pressure must be greater than zero and finite; got -2"
-    );
+    assert_eq!(error.to_string(), "pressure must be greater than zero and finite; got -2");
     let columns = refuse(|case| case.columns = 2).to_string();
-    assert_eq!(
-        columns,
-        "columns must be a whole number from 4 to 4096; got 2"
-    );
+    assert_eq!(columns, "columns must be a whole number from 4 to 4096; got 2");
     assert!(refuse(|case| case.moduli = vec![1.0])
         .to_string()
         .contains("same length; got 1 and 0"));

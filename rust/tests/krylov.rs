@@ -60,16 +60,8 @@ fn figures(number: usize, factored_contacts: f64) -> [f64; 4] {
     assert_eq!(finest.report.status, Status::Converged, "wave {number}");
     let approach = finest.approach();
     let outcome = finest.outcome;
-    let highest = outcome
-        .pressure
-        .iter()
-        .fold(0.0_f64, |most, &p| most.max(p));
-    [
-        outcome.friction,
-        outcome.contact_fraction,
-        approach,
-        highest,
-    ]
+    let highest = outcome.pressure.iter().fold(0.0_f64, |most, &p| most.max(p));
+    [outcome.friction, outcome.contact_fraction, approach, highest]
 }
 
 /// Residuals of 1e-11 are far below the 1e-8 allowed to figures of order one hundredth to one. The nodes

@@ -86,10 +86,7 @@ fn friction_is_the_energy_lost() {
         (outcome.friction_from_dissipation / outcome.friction - 1.0).abs()
     };
     let (coarse, fine) = (mismatch(24, 8), mismatch(64, 14));
-    assert!(
-        coarse < 0.03 && fine < 0.01 && fine < coarse,
-        "{coarse} {fine}"
-    );
+    assert!(coarse < 0.03 && fine < 0.01 && fine < coarse, "{coarse} {fine}");
 }
 
 /// The last gaps of biquadratic elements under pressures like the modulus: there the averaged compliance

@@ -16,11 +16,7 @@ fn a_long_run_ends_in_the_steady_state() {
     case.moduli = vec![2.0];
     case.relaxation_times = vec![0.1];
     let steady = case.solve(None).unwrap();
-    let stage = Stage {
-        duration: 4.0,
-        speed: 1.0,
-        pressure: case.pressure,
-    };
+    let stage = Stage { duration: 4.0, speed: 1.0, pressure: case.pressure };
     let run = case.run(&[stage], None).unwrap();
     assert_eq!(run.status, Status::Converged);
     let last = run.moments.last().unwrap();
@@ -37,11 +33,7 @@ fn a_dwell_relaxes_from_the_glassy_to_the_equilibrium_contact() {
     case.moduli = vec![3.0];
     case.relaxation_times = vec![1.0];
     case.speed = 1.0;
-    let stage = Stage {
-        duration: 60.0,
-        speed: 0.0,
-        pressure: case.pressure,
-    };
+    let stage = Stage { duration: 60.0, speed: 0.0, pressure: case.pressure };
     let run = case.run(&[stage], None).unwrap();
     let mut elastic = case.clone();
     elastic.speed = 0.0;
@@ -69,16 +61,8 @@ fn a_run_starts_from_static_contact() {
     let mut case = lossy();
     let start = case.solve(None).unwrap();
     case.speed = 1.0;
-    let dwell = Stage {
-        duration: 1.0,
-        speed: 0.0,
-        pressure: case.pressure,
-    };
-    let slide = Stage {
-        duration: 2.0,
-        speed: 1.0,
-        ..dwell
-    };
+    let dwell = Stage { duration: 1.0, speed: 0.0, pressure: case.pressure };
+    let slide = Stage { duration: 2.0, speed: 1.0, ..dwell };
     let run = case.run(&[dwell, slide], Some(&start)).unwrap();
     assert_eq!(run.status, Status::Converged);
     let still = start.finest.outcome.contact_fraction;
@@ -87,10 +71,7 @@ fn a_run_starts_from_static_contact() {
         assert!((moment.contact_fraction - still).abs() < 1e-7 && moment.friction.abs() < 1e-7);
     }
     let from_rest = case.run(&[dwell, slide], None).unwrap();
-    let (last, other) = (
-        run.moments.last().unwrap(),
-        from_rest.moments.last().unwrap(),
-    );
+    let (last, other) = (run.moments.last().unwrap(), from_rest.moments.last().unwrap());
     // After 20 relaxation times nothing is left of the beginning.
     assert!((last.friction - other.friction).abs() < 1e-6 && last.friction > 0.01);
 }
@@ -101,11 +82,7 @@ fn a_start_of_another_rubber_or_profile_is_refused_by_name() {
     let mut case = lossy();
     case.speed = 1.0;
     let start = case.solve(None).unwrap();
-    let stage = Stage {
-        duration: 0.1,
-        speed: 2.0,
-        pressure: 1.1 * case.pressure,
-    };
+    let stage = Stage { duration: 0.1, speed: 2.0, pressure: 1.1 * case.pressure };
     let mut other_mesh = case.clone();
     (other_mesh.columns, other_mesh.rows) = (16, 6);
     let run = other_mesh.run(&[stage], Some(&start)).unwrap();
@@ -116,31 +93,16 @@ fn a_start_of_another_rubber_or_profile_is_refused_by_name() {
         changed.run(&[stage], Some(&start)).unwrap_err().to_string()
     };
     let same = "start must be of the same rubber and profile; its";
-    assert_eq!(
-        refusal(|c| c.wavelength = 2.0),
-        format!("{same} wavelength is 1.0, not 2.0")
-    );
-    assert_eq!(
-        refusal(|c| c.moduli = vec![2.5]),
-        format!("{same} moduli is [2.0], not [2.5]")
-    );
+    assert_eq!(refusal(|c| c.wavelength = 2.0), format!("{same} wavelength is 1.0, not 2.0"));
+    assert_eq!(refusal(|c| c.moduli = vec![2.5]), format!("{same} moduli is [2.0], not [2.5]"));
     for (change, name) in [
-        (
-            (|c| c.equilibrium_modulus = 1.5) as fn(&mut Case),
-            "equilibrium_modulus",
-        ),
+        ((|c| c.equilibrium_modulus = 1.5) as fn(&mut Case), "equilibrium_modulus"),
         (|c| c.relaxation_times = vec![0.2], "relaxation_times"),
         (|c| c.bulk_modulus = 999.0, "bulk_modulus"),
         (|c| c.amplitude = 0.11, "profile"),
-        (
-            |c| c.energy = ("mooney_rivlin", vec![("share", 0.1)]),
-            "strain_energy",
-        ),
+        (|c| c.energy = ("mooney_rivlin", vec![("share", 0.1)]), "strain_energy"),
     ] {
-        assert!(
-            refusal(change).starts_with(&format!("{same} {name} is ")),
-            "{name}"
-        );
+        assert!(refusal(change).starts_with(&format!("{same} {name} is ")), "{name}");
     }
 }
 
@@ -151,39 +113,21 @@ fn a_start_that_did_not_converge_is_refused() {
     case.speed = 1.0;
     case.settings = Settings::new([("max_iterations", 1.0)]).unwrap();
     let start = case.solve(None).unwrap();
-    let stage = Stage {
-        duration: 0.1,
-        speed: 1.0,
-        pressure: case.pressure,
-    };
+    let stage = Stage { duration: 0.1, speed: 1.0, pressure: case.pressure };
     let refusal = case.run(&[stage], Some(&start)).unwrap_err().to_string();
     assert!(refusal.starts_with("start must be a solution that converged; its status is"));
 }
 
 /// Forward, at rest and, more heavily loaded, backward.
 fn there_and_back(case: &Case) -> [Stage; 3] {
-    let forward = Stage {
-        duration: 0.5,
-        speed: 1.0,
-        pressure: case.pressure,
-    };
-    let still = Stage {
-        speed: 0.0,
-        ..forward
-    };
-    let back = Stage {
-        speed: -2.0,
-        pressure: 1.5 * case.pressure,
-        ..forward
-    };
+    let forward = Stage { duration: 0.5, speed: 1.0, pressure: case.pressure };
+    let still = Stage { speed: 0.0, ..forward };
+    let back = Stage { speed: -2.0, pressure: 1.5 * case.pressure, ..forward };
     [forward, still, back]
 }
 
 fn largest_difference(one: &Run, other: &Run) -> f64 {
-    assert_eq!(
-        (one.status, other.status),
-        (Status::Converged, Status::Converged)
-    );
+    assert_eq!((one.status, other.status), (Status::Converged, Status::Converged));
     assert_eq!(one.moments.len(), other.moments.len());
     let pairs = one.moments.iter().zip(&other.moments);
     let apart = pairs.flat_map(|(one, other)| {
@@ -221,10 +165,7 @@ fn a_kept_factor_gives_the_run_of_gmres() {
             let apart = largest_difference(&kept, &iterated);
             assert!(apart < 1e-8, "{order} {energy:?}: {apart}");
             let (few, many) = (kept.counts.products, iterated.counts.products);
-            assert!(
-                5 * few < many,
-                "{order} {energy:?}: {few} products of {many}"
-            );
+            assert!(5 * few < many, "{order} {energy:?}: {few} products of {many}");
         }
     }
 }
@@ -235,11 +176,8 @@ fn a_kept_factor_gives_the_run_of_gmres() {
 fn a_kept_factor_gives_up_where_a_step_would_be_cut() {
     let run = |most: f64| {
         let mut case = lossy();
-        let changes = [
-            ("residual_tolerance", 1e-11),
-            ("largest_step", 0.02),
-            ("kept_factor_nodes", most),
-        ];
+        let changes =
+            [("residual_tolerance", 1e-11), ("largest_step", 0.02), ("kept_factor_nodes", most)];
         case.settings = Settings::new(changes).unwrap();
         case.run(&there_and_back(&case), None).unwrap()
     };

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::contact::complementarity_problem::{
-    ApproximateInverse, Compliance, ComplementarityProblem, Contact,
+    ApproximateInverse, ComplementarityProblem, Compliance, Contact,
 };
 use crate::contact::linear_complementarity::solve;
 use crate::linear::{Factor, Matrix};
@@ -64,11 +64,7 @@ impl Compliance for Dense<'_> {
 
 /// With any number of nodes factored, and none.
 fn solved(c: &Matrix<f64>, free: &[f64], load: f64, start: &[bool]) -> [Contact; 2] {
-    let problem = ComplementarityProblem {
-        compliance: &Dense(c),
-        free_gap: free,
-        load,
-    };
+    let problem = ComplementarityProblem { compliance: &Dense(c), free_gap: free, load };
     [512.0, 0.0].map(|most| {
         let settings = Settings::new([("factored_contacts", most)]).unwrap();
         let executor = serial();
@@ -94,11 +90,7 @@ fn fulfils(c: &Matrix<f64>, free: &[f64], load: f64, contact: &Contact) -> bool 
             let open = !contact.active_set[i];
             contact.force[i] >= -1e-9 * scale
                 && gap >= -1e-9 * scale
-                && (if open {
-                    contact.force[i] == 0.0
-                } else {
-                    gap.abs() < 1e-9 * scale
-                })
+                && (if open { contact.force[i] == 0.0 } else { gap.abs() < 1e-9 * scale })
         })
 }
 
@@ -125,11 +117,8 @@ fn brute_force(c: &Matrix<f64>, free: &[f64], load: f64) -> Vec<f64> {
         if !Factor::new(&matrix).solve(&mut right) {
             continue;
         }
-        let mut contact = Contact {
-            force: vec![0.0; n],
-            approach: right[m],
-            active_set: vec![false; n],
-        };
+        let mut contact =
+            Contact { force: vec![0.0; n], approach: right[m], active_set: vec![false; n] };
         for (&i, &f) in set.iter().zip(&right) {
             contact.force[i] = f;
             contact.active_set[i] = true;

@@ -63,10 +63,7 @@ fn the_function_goes_through_its_samples() {
 fn the_range_bounds_the_heights_and_is_reached() {
     let heights = Heights::sine(0.3).unwrap();
     let (lowest, highest) = heights.range();
-    assert_eq!(
-        (lowest, highest),
-        (heights.height(0.5), heights.height(0.0))
-    );
+    assert_eq!((lowest, highest), (heights.height(0.5), heights.height(0.0)));
     assert_eq!(heights.half_range(), 0.3);
     assert!((0..100).all(|i| (lowest..=highest).contains(&heights.height(0.01 * f64::from(i)))));
 }
@@ -76,9 +73,7 @@ fn the_range_bounds_the_heights_and_is_reached() {
 fn the_range_of_sampled_heights_is_that_of_the_function() {
     let heights = Heights::sampled(&rough(16)).unwrap();
     let all = (0..100_000).map(|i| heights.height(1e-5 * f64::from(i)));
-    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), h| {
-        (low.min(h), high.max(h))
-    });
+    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
     let (lowest, highest) = heights.range();
     assert!(lowest <= low && low - lowest < 1e-8);
     assert!(highest >= high && highest - high < 1e-8);
@@ -114,11 +109,7 @@ fn a_sampled_sine_is_the_sine() {
         (case.moduli, case.relaxation_times) = (vec![2.0], vec![0.5]);
         (case.order, case.speed) = (order, speed);
         let sine = case.solve(None).unwrap().finest.outcome;
-        case.heights = Some(
-            (0..12)
-                .map(|i| 0.12 * (TAU * i as f64 / 12.0).cos())
-                .collect(),
-        );
+        case.heights = Some((0..12).map(|i| 0.12 * (TAU * i as f64 / 12.0).cos()).collect());
         let sampled = case.solve(None).unwrap().finest.outcome;
         assert!((sampled.contact_fraction - sine.contact_fraction).abs() < 1e-9);
         assert!((sampled.friction - sine.friction).abs() < 1e-9);
@@ -142,11 +133,7 @@ fn what_is_no_profile_is_refused() {
 #[test]
 fn a_mesh_too_coarse_for_the_smallest_wave_is_refused() {
     let mut case = Case::elastic(0.1, 0.5);
-    case.heights = Some(
-        (0..64)
-            .map(|i| 0.01 * (TAU * i as f64 / 8.0).cos())
-            .collect(),
-    );
+    case.heights = Some((0..64).map(|i| 0.01 * (TAU * i as f64 / 8.0).cos()).collect());
     (case.columns, case.rows) = (46, 8);
     let text = case.solve(None).unwrap_err().to_string();
     let expected = "columns must be at least 48 to follow the smallest wave of the heights; got 46";
@@ -169,13 +156,7 @@ fn a_start_on_other_heights_is_refused_briefly() {
     assert!(case.run(&[], Some(&start)).is_ok());
     case.heights = wave(-1.0);
     let error = case.run(&[], Some(&start)).unwrap_err();
-    assert!(matches!(
-        error,
-        KernelError::OtherStart {
-            name: "profile",
-            ..
-        }
-    ));
+    assert!(matches!(error, KernelError::OtherStart { name: "profile", .. }));
     assert!(error.to_string().len() < 400);
     assert!(Profile::new(0.0, Heights::sine(1.0).unwrap()).is_err());
 }

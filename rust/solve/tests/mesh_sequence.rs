@@ -14,11 +14,7 @@ use crate::case::Case;
 
 #[test]
 fn an_empty_sequence_is_an_internal_error() {
-    let sequence = MeshSequence {
-        sizes: vec![],
-        required: 0,
-        below: None,
-    };
+    let sequence = MeshSequence { sizes: vec![], required: 0, below: None };
     let result = sequence.solve(&estimator(None), |_, _| unreachable!());
     let error = result.map(|_| ()).unwrap_err();
     assert!(matches!(error, KernelError::Internal(_)));
@@ -71,23 +67,14 @@ fn any_number_of_columns_has_a_coarser_mesh_to_be_judged_by() {
     assert_eq!(visited(128, Some(0.01), None), refined);
     assert_eq!(visited(128, None, None), [32, 64, 128]);
     assert_eq!(visited(100, None, None), [50, 100]);
-    assert_eq!(
-        visited(100, Some(0.01), None),
-        [50, 100, 200, 400, 800, 1600]
-    );
-    assert_eq!(
-        visited(258, Some(0.01), None),
-        [33, 65, 129, 258, 516, 1032]
-    );
+    assert_eq!(visited(100, Some(0.01), None), [50, 100, 200, 400, 800, 1600]);
+    assert_eq!(visited(258, Some(0.01), None), [33, 65, 129, 258, 516, 1032]);
     assert_eq!(visited(258, None, None), [33, 65, 129, 258]);
     assert_eq!(visited(63, None, None), [32, 63]);
     assert_eq!(visited(48, None, None), [24, 48]);
     assert_eq!(visited(15, None, None), [8, 15]);
     assert_eq!(visited(14, None, None), [14]);
-    assert_eq!(
-        visited(1023, Some(0.01), None),
-        [32, 64, 128, 256, 512, 1023, 2046]
-    );
+    assert_eq!(visited(1023, Some(0.01), None), [32, 64, 128, 256, 512, 1023, 2046]);
 }
 
 /// A start leaves two of the meshes that must be solved, and all that may follow them.
@@ -146,10 +133,7 @@ fn a_contact_of_few_nodes_is_refined() {
     assert_eq!(fine.report.status, Status::Converged);
     assert!(fine.mesh.columns > 32);
     assert!(fine.state.active_set.iter().filter(|&&a| a).count() >= 4);
-    let (traction, lost) = (
-        fine.outcome.friction,
-        fine.outcome.friction_from_dissipation,
-    );
+    let (traction, lost) = (fine.outcome.friction, fine.outcome.friction_from_dissipation);
     assert!((traction - lost).abs() <= fine.friction_bound.unwrap());
 }
 

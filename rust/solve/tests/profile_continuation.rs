@@ -58,12 +58,7 @@ fn the_way_to_the_solution_does_not_matter() {
             assert!(solution.report.residual < 1e-8 && solution.load_reached == 1.0);
         }
         let (a, b) = (&smooth_first.outcome, &raised.outcome);
-        assert!(
-            (a.friction - b.friction).abs() < 1e-7,
-            "{} {}",
-            a.friction,
-            b.friction
-        );
+        assert!((a.friction - b.friction).abs() < 1e-7, "{} {}", a.friction, b.friction);
         assert!((a.contact_fraction - b.contact_fraction).abs() < 1e-7);
         // The errors of both are estimated from the mesh of half the columns, whichever was solved first.
         assert_eq!(smooth_first.coarser_columns(), Some(64));
@@ -77,11 +72,8 @@ fn the_way_to_the_solution_does_not_matter() {
 #[test]
 fn a_profile_too_rough_for_the_mesh_says_so() {
     let mut case = rough_case(20, 3.0, 1.0);
-    let hasty = [
-        ("roughening_iterations", 3.0),
-        ("smallest_roughening", 1.0),
-        ("rescue_columns", 128.0),
-    ];
+    let hasty =
+        [("roughening_iterations", 3.0), ("smallest_roughening", 1.0), ("rescue_columns", 128.0)];
     case.settings = Settings::new(hasty).unwrap();
     let solution = case.solve(None).unwrap();
     assert_eq!(solution.finest.report.status, Status::ProfileTooRough);

@@ -16,7 +16,7 @@ use crate::solve::krylov::{self, Accuracy};
 use crate::solve::newton_step::{Increment, Iterate};
 use crate::solve::residual::Residual;
 
-use crate::case::{Case};
+use crate::case::Case;
 use crate::test_fields::{mesh, serial};
 
 /// Entries and right-hand side; the unknowns are the displacements of a field, the lid's among
@@ -146,10 +146,8 @@ fn eliminated(
 ) -> Vec<f64> {
     let active_nodes: Vec<usize> = (0..active_set.len()).filter(|&a| active_set[a]).collect();
     let field = state.field.u.len() + state.field.pressure.len();
-    let mut system = System {
-        entries: Vec::new(),
-        right: vec![0.0; field + active_nodes.len() + 1],
-    };
+    let mut system =
+        System { entries: Vec::new(), right: vec![0.0; field + active_nodes.len() + 1] };
     add_elements(&mut system, pressed, state);
     add_contact(&mut system, pressed, state, &active_nodes, load);
     system.solve()
@@ -227,7 +225,8 @@ fn a_step_by_iteration_is_that_of_sparse_elimination() {
                 residual_norm: residual.norm(pressed, state, load),
             };
             let accuracy = Accuracy { share, least };
-            let step = krylov::increment(pressed, iterate, None, load, accuracy, &settings).unwrap();
+            let step =
+                krylov::increment(pressed, iterate, None, load, accuracy, &settings).unwrap();
             assert_ne!(step.contact.active_set, state.active_set);
             let active_set = step.contact.active_set.clone();
             (step, active_set)
