@@ -7,7 +7,7 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
+//! | `error`, `status`, `settings` | refusals, endings, what a user may set |
 //! | `cancel` | whether to go on: a caller who stops, a time limit |
 //! | `executor` | the one file with rayon: work shared between threads, in parts that do not depend on them |
 //! | `spectral` | the one file with realfft: transforms, convolutions and correlations of lines |

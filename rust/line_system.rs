@@ -6,7 +6,7 @@
 use std::convert::Infallible;
 
 use crate::linear::single_gmres::{gmres, Approximation};
-use crate::spectral::{Complex32, SingleLines};
+use crate::spectral::{Complex32, Lines};
 
 /// A matrix with the entries of its rows one after the other.
 pub struct Rows<'a> {
@@ -17,7 +17,7 @@ pub struct Rows<'a> {
 
 /// The operator Q K on some points of a line.
 pub struct LineSystem<'a> {
-    pub lines: &'a SingleLines,
+    pub lines: &'a Lines<f32>,
     /// Places of the points on the line, rising.
     pub places: &'a [i64],
     /// K and S of each harmonic.
@@ -47,17 +47,17 @@ impl LineSystem<'_> {
 
     /// The pressures whose Q K is `right`, of unit length; see `gmres`.
     pub fn solution(&self, right: Vec<f32>, target: f64, most: usize) -> Approximation {
-        let mut filter = self.lines.filter();
+        let mut lines = self.lines.clone();
         let mut line = vec![0.0; self.lines.length()];
         let apply = |pressure: &[f32]| {
             line.fill(0.0);
             for (&place, &value) in self.places.iter().zip(pressure) {
                 line[place as usize] = value;
             }
-            filter.apply(&mut line, self.compliance);
+            lines.convolve(self.compliance, &mut line);
             let gap = without_mean(self.at_points(&line));
             self.extend(&gap, &mut line);
-            filter.apply(&mut line, self.stiffness);
+            lines.convolve(self.stiffness, &mut line);
             let mut missing = without_mean(self.at_points(&line));
             missing.iter_mut().for_each(|value| *value *= self.factor);
             Ok::<_, Infallible>(missing)

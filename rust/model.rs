@@ -13,6 +13,7 @@ use crate::fem::block::{Block, Memory};
 use crate::fem::mesh::Mesh;
 use crate::material::energy::Energy;
 use crate::material::maxwell::Maxwell;
+use crate::material::sliding_history::SlidingHistory;
 use crate::problem::{Profile, Rubber};
 
 #[derive(Clone)]
@@ -70,6 +71,14 @@ impl Model {
             sampling: self.sampling,
             executor,
         }
+    }
+
+    /// The memory of the networks on `mesh` in steady sliding, after a load time of `passages` of the wave.
+    pub fn sliding_memory(&self, mesh: &Mesh, passages: f64) -> Memory {
+        if self.maxwell.moduli.is_empty() {
+            return Memory::Relaxed;
+        }
+        Memory::Sliding(SlidingHistory::new(mesh.columns, &self.maxwell, passages))
     }
 
     /// The same rubber on other heights.

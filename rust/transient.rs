@@ -24,6 +24,11 @@ use crate::solve::newton;
 use crate::solve::transfer::transfer;
 use crate::status::Status;
 
+/// Longest sliding distance of one stage [wavelengths].
+const LONGEST_STAGE: f64 = 10_000.0;
+/// Parts into which a change of load is cut if a time step fails.
+const LOAD_PARTS: usize = 8;
+
 /// A stretch of time with constant speed [m/s] and pressure [Pa].
 #[derive(Debug, Clone, Copy)]
 pub struct Stage {
@@ -69,7 +74,7 @@ pub fn solve(
 ) -> Result<Run, KernelError> {
     profile.check_resolved(mesh)?;
     for stage in stages {
-        check_stage(stage, profile, settings)?;
+        check_stage(stage, profile)?;
     }
     if let Some(start) = start {
         check_start(start, rubber, profile)?;
@@ -90,16 +95,15 @@ pub fn solve(
     Ok(Run { moments: integration.moments, status, counts: integration.counts })
 }
 
-fn check_stage(stage: &Stage, profile: &Profile, settings: &Settings) -> Result<(), KernelError> {
+fn check_stage(stage: &Stage, profile: &Profile) -> Result<(), KernelError> {
     positive("duration", stage.duration)?;
     positive("pressure", stage.pressure)?;
     finite("speed", stage.speed)?;
     let wavelengths = stage.duration * (stage.speed / profile.wavelength).abs();
-    let longest = settings.longest_stage;
-    if wavelengths <= longest {
+    if wavelengths <= LONGEST_STAGE {
         return Ok(());
     }
-    Err(KernelError::TooLong { longest, wavelengths })
+    Err(KernelError::TooLong { longest: LONGEST_STAGE, wavelengths })
 }
 
 fn check_start(start: &Solution, rubber: &Rubber, profile: &Profile) -> Result<(), KernelError> {
@@ -108,7 +112,7 @@ fn check_start(start: &Solution, rubber: &Rubber, profile: &Profile) -> Result<(
         | Status::ToleranceNotMet
         | Status::FrictionsDisagree
         | Status::ContactTooNarrow
-            if start.finest.load_reached == 1.0 =>
+            if start.finest.report.load_reached == 1.0 =>
         {
             start.problem.check_same(rubber, profile)
         }
@@ -187,7 +191,7 @@ impl<'a> Integration<'a> {
         let pressed = self.model.pressed(self.mesh, &memory, self.executor);
         let load = pressure / self.model.stress_unit;
         let counts = &mut self.counts;
-        let (report, _) = raise(&pressed, &mut self.state, load, self.settings, counts);
+        let report = raise(&pressed, &mut self.state, load, self.settings, counts);
         report.converged()?;
         let y = remembered(&pressed, &self.state);
         self.networks.advance(y, &self.model.maxwell, 0.0);
@@ -233,7 +237,6 @@ impl<'a> Integration<'a> {
         let (settings, counts) = (self.settings, &mut self.counts);
         let from: f64 = self.state.force.iter().sum();
         let mut trial = self.state.clone();
-        counts.load_steps += 1;
         if let Some(kept_factor) = &mut self.kept_factor {
             let report = kept_factor.solve(pressed, &mut trial, load, settings);
             counts.add(&report);
@@ -247,8 +250,8 @@ impl<'a> Integration<'a> {
         counts.add(&report);
         if report.status != Status::Converged {
             trial = self.state.clone();
-            for part in 1..=settings.load_parts {
-                let between = from + (load - from) * part as f64 / settings.load_parts as f64;
+            for part in 1..=LOAD_PARTS {
+                let between = from + (load - from) * part as f64 / LOAD_PARTS as f64;
                 report = newton::solve(pressed, &mut trial, between, settings);
                 counts.add(&report);
                 if report.status != Status::Converged {
@@ -258,7 +261,7 @@ impl<'a> Integration<'a> {
         }
         if report.status != Status::Converged {
             trial = State::at_rest(self.mesh);
-            report = raise(pressed, &mut trial, load, settings, counts).0;
+            report = raise(pressed, &mut trial, load, settings, counts);
         }
         self.state = trial;
         report

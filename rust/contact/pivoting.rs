@@ -15,6 +15,9 @@ use crate::linear::add;
 use crate::settings::Settings;
 use crate::status::Status;
 
+/// Changes of single nodes of the active set.
+const ROUNDS: usize = 2000;
+
 /// Bounds are moved further than needed by up to this share, different for each node, to avoid ties.
 const SPREAD: f64 = 0.1;
 /// Fractional parts of the multiples of the golden ratio are well separated.
@@ -29,7 +32,7 @@ pub fn solve<'a>(
 ) -> Result<(Contact, ActiveSetSystem<'a>), Status> {
     let mut path = Path::new(problem, start, settings, executor)?;
     let (mut t, mut falling) = (1.0, true);
-    for _ in 0..settings.single_node_rounds {
+    for _ in 0..ROUNDS {
         let (system, [fixed, slope]) = path.lines(executor)?;
         if let Some(node) = path.changed {
             // The force or gap that the node has gained is zero here and must grow.

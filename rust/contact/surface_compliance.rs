@@ -62,7 +62,7 @@ impl<'a> SurfaceCompliance<'a> {
 
     /// Displacements of the surface layer by nodal forces on it.
     pub fn displacements(&self, forces: &[f64]) -> Vec<f64> {
-        self.average.surface_displacements(forces, &mut self.lines.clone())
+        convolve(&self.average.surface, forces, &mut self.lines.clone())
     }
 
     /// What displacements of the surface layer add to the gaps.

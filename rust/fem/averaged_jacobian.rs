@@ -6,6 +6,8 @@
 //! costs two transforms a layer and O(rows) a harmonic. Harmonics are independent of one another and are
 //! solved in blocks of neighbours.
 
+use std::f64::consts::TAU;
+
 use super::harmonic_block::{product, Coefficients, HarmonicBlock, HarmonicWorkspace};
 use super::harmonic_row::HarmonicRow;
 use super::jacobian::Jacobian;
@@ -41,14 +43,13 @@ pub struct SolutionWorkspace<'t> {
 impl<'a> AveragedJacobian<'a> {
     pub fn new(jacobian: &Jacobian<'a>, executor: &Executor<'_>) -> Result<Self, Status> {
         let mesh = jacobian.mesh;
-        let lines = Lines::new(mesh.columns);
-        let harmonics = lines.harmonics();
+        let harmonics = mesh.columns / 2 + 1;
         let averaged =
             |row: usize| HarmonicRow::new(mesh, row, jacobian.averages(row), jacobian.bulk_modulus);
         let averaged = executor.map(jacobian.size(), mesh.rows, averaged)?;
         let factors = |k: usize| {
             let weight = jacobian.memory.as_ref().map(|weights| weights[k]);
-            (lines.phase_step(k), weight)
+            (Complex64::cis(TAU * k as f64 / mesh.columns as f64), weight)
         };
         let count = harmonics.div_ceil(BLOCK_HARMONICS);
         let eliminate = |block: usize| {
@@ -122,11 +123,6 @@ impl<'a> AveragedJacobian<'a> {
             put(&mut work.spectra, count, reduced, (block.from, block.count));
         }
         multiply(&self.surface, &work.spectra[..lowest * count], &mut work.lines[0])
-    }
-
-    /// Displacements of the surface layer by forces on it.
-    pub fn surface_displacements(&self, forces: &[f64], lines: &mut Lines) -> Vec<f64> {
-        convolve(&self.surface, forces, lines)
     }
 
     /// Complete the solution that `reduce` began, from the displacements of the surface.

@@ -24,6 +24,9 @@ use crate::linear::{gmres, norm};
 use crate::settings::Settings;
 use crate::status::Status;
 
+/// Directions kept by GMRES, and the largest number of products.
+const GMRES_LIMITS: (usize, usize) = (100, 200);
+
 /// GMRES ends at this share of the residual, or at this absolute size.
 #[derive(Debug, Clone, Copy)]
 pub struct Accuracy {
@@ -115,8 +118,7 @@ impl Step<'_> {
         self.apply_contact(&mut approximation, contact, surface, &mut work);
         let largest = norm(&self.right).max(norm(&approximation.residual));
         let target = (accuracy.share * largest).max(accuracy.least);
-        let products =
-            self.solve_on_active_set(&mut approximation, &system, target, &mut work, settings)?;
+        let products = self.solve_on_active_set(&mut approximation, &system, target, &mut work)?;
         let displacements = self.jacobian.displacements();
         let mut u = approximation.y[..displacements].to_vec();
         u.resize(self.state.field.u.len(), 0.0);
@@ -224,7 +226,6 @@ impl Step<'_> {
         system: &ActiveSetSystem<'_>,
         target: f64,
         work: &mut StepWorkspace<'_>,
-        settings: &Settings,
     ) -> Result<usize, Status> {
         let mut failure = Ok(());
         let apply = |v: &[f64], out: &mut [f64]| {
@@ -235,8 +236,7 @@ impl Step<'_> {
             }
             work.solution = solution;
         };
-        let limits = (settings.krylov_basis, settings.krylov_iterations);
-        let solution = gmres(apply, &approximation.residual, target, limits, self.executor)?;
+        let solution = gmres(apply, &approximation.residual, target, GMRES_LIMITS, self.executor)?;
         failure?;
         let mut correction = std::mem::take(&mut work.solution);
         let (force, approach) = self.precondition(&solution.y, system, &mut correction, work)?;

@@ -14,6 +14,7 @@
 use super::krylov::{self, Accuracy};
 use super::newton_step::{Increment, Iterate};
 use super::residual::Residual;
+use crate::contact::linear_complementarity::ACTIVE_SET_TOLERANCE;
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
 use crate::linear::add;
@@ -21,6 +22,15 @@ use crate::material::kinematics::Deformation;
 use crate::settings::Settings;
 use crate::solution::Report;
 use crate::status::Status;
+
+/// Smallest share of the residual forces to which the linearised problem is solved.
+const LEAST_SHARE: f64 = 1e-5;
+/// The share over the square of the last ratio of residuals.
+const GAMMA: f64 = 0.9;
+/// Residual below which the signs of forces and gaps decide the next active set.
+const SIGNS_BELOW: f64 = 0.005;
+/// Lengths tried for one Newton step, each half of the one before.
+const STEP_LENGTHS: usize = 8;
 
 /// The linearised problem is not solved below this share of the residual tolerance.
 const LEAST_SHARE_OF_TOLERANCE: f64 = 0.1;
@@ -45,11 +55,8 @@ pub fn solve(
         before = iterate.residual_norm;
         let least = LEAST_SHARE_OF_TOLERANCE * settings.residual_tolerance * load.min(1.0);
         let accuracy = Accuracy { share, least };
-        let active_set = if iterate.residual_norm > settings.signs_below {
-            None
-        } else {
-            active_set_by_signs(iterate, settings)
-        };
+        let active_set =
+            if iterate.residual_norm > SIGNS_BELOW { None } else { active_set_by_signs(iterate) };
         krylov::increment(pressed, iterate, active_set.as_deref(), load, accuracy, settings)
     })
 }
@@ -91,8 +98,9 @@ pub(super) fn iterate(
             step(pressed, increment, state, &mut rows, settings, long_step)?;
         }
     };
-    if let Err(status) = run() {
-        report.status = status;
+    match run() {
+        Ok(()) => report.load_reached = 1.0,
+        Err(status) => report.status = status,
     }
     report
 }
@@ -100,23 +108,21 @@ pub(super) fn iterate(
 /// The share to which the residual forces are reduced, from the last share and the last `ratio` of
 /// residuals.
 fn forcing_share(last: f64, ratio: f64, settings: &Settings) -> f64 {
-    let gamma = settings.krylov_safety;
-    let cautious = gamma * last * last;
-    let next = gamma * ratio * ratio;
+    let cautious = GAMMA * last * last;
+    let next = GAMMA * ratio * ratio;
     let next = if cautious > 0.1 { next.max(cautious) } else { next };
-    next.clamp(settings.krylov_least_share, settings.krylov_share)
+    next.clamp(LEAST_SHARE, settings.krylov_share)
 }
 
 /// The active set by the signs of forces and gaps; None if it would be empty.
-fn active_set_by_signs(iterate: Iterate<'_>, settings: &Settings) -> Option<Vec<bool>> {
+fn active_set_by_signs(iterate: Iterate<'_>) -> Option<Vec<bool>> {
     let (state, gap) = (iterate.state, &iterate.residual.gap);
-    let tolerance = settings.active_set_tolerance;
     let count = state.active_set.iter().filter(|&&active| active).count();
     let force_scale = state.force.iter().sum::<f64>() / count as f64;
     let gap_scale = gap.iter().fold(0.0_f64, |most, gap| most.max(gap.abs()));
     let in_contact = |a: usize| match state.active_set[a] {
-        true => state.force[a] >= -tolerance * force_scale,
-        false => gap[a] < -tolerance * gap_scale,
+        true => state.force[a] >= -ACTIVE_SET_TOLERANCE * force_scale,
+        false => gap[a] < -ACTIVE_SET_TOLERANCE * gap_scale,
     };
     let active_set: Vec<bool> = (0..gap.len()).map(in_contact).collect();
     active_set.contains(&true).then_some(active_set)
@@ -140,7 +146,7 @@ fn step(
         LongStep::Shorten => (settings.largest_step / largest_gradient(pressed, &u)?).min(1.0),
         LongStep::GiveUp => 1.0,
     };
-    for _ in 0..settings.step_halvings {
+    for _ in 0..STEP_LENGTHS {
         let mut trial = state.field.clone();
         add(&mut trial.u, share, &u);
         let trial_rows = pressed.row_states(&trial)?;

@@ -7,28 +7,35 @@
 //! Newton's method needs some ten steps; if it fails, the new waves are added in smaller parts, which grow
 //! again after an easy step: on a sharp crest one part of the way is much harder than the rest.
 
-use super::load_stepping::raise;
+use super::load_stepping::{raise, EASY_ITERATIONS};
+use super::mesh_sequence::COARSEST_NODES;
 use super::newton;
 use super::transfer::transfer;
 use crate::contact::profile::Heights;
 use crate::contact::State;
 use crate::executor::Executor;
-use crate::fem::block::Memory;
 use crate::fem::mesh::{Mesh, MeshSize};
 use crate::model::Model;
 use crate::settings::Settings;
 use crate::solution::{Counts, Report};
 use crate::status::Status;
 
+/// Newton iterations without a smaller residual after which waves are added in smaller parts.
+const PATIENCE: usize = 4;
+/// Largest share of the residual forces to which the linearised problem is solved while waves are added.
+const KRYLOV_SHARE: f64 = 0.03;
+/// Largest change of the displacement gradient in one Newton iteration while waves are added.
+const LARGEST_STEP: f64 = 1.0;
+
 /// The problem, independent of the mesh.
 pub struct ProfileContinuation<'a> {
     pub model: &'a Model,
     pub size: &'a MeshSize,
     pub load: f64,
+    /// Load time in passages of the wave.
+    pub passages: f64,
     pub settings: &'a Settings,
     pub executor: &'a Executor<'a>,
-    /// The memory of the networks on a mesh.
-    pub memory: &'a dyn Fn(&Mesh) -> Memory,
 }
 
 /// Why a rough profile was not solved on a mesh.
@@ -86,7 +93,7 @@ impl ProfileContinuation<'_> {
         while targets[0].waves > 1 {
             columns = columns.div_ceil(2);
             let smooth = targets.len() == 1 && resolved(columns) == all;
-            if smooth || order * columns < self.settings.coarsest_nodes {
+            if smooth || order * columns < COARSEST_NODES {
                 break;
             }
             let waves = resolved(columns);
@@ -118,11 +125,11 @@ impl ProfileContinuation<'_> {
     /// The longest waves, by load stepping.
     fn begin(&self, target: Target, counts: &mut Counts) -> Result<Stage, Status> {
         let mesh = self.mesh(target.columns);
-        let memory = (self.memory)(&mesh);
+        let memory = self.model.sliding_memory(&mesh, self.passages);
         let model = self.model.with_heights(self.model.heights.smoothed(target.waves));
         let pressed = model.pressed(&mesh, &memory, self.executor);
         let mut state = State::at_rest(&mesh);
-        let (report, _) = raise(&pressed, &mut state, self.load, self.settings, counts);
+        let report = raise(&pressed, &mut state, self.load, self.settings, counts);
         report.converged()?;
         Ok(Stage { mesh, heights: model.heights, state, report, waves: target.waves })
     }
@@ -137,12 +144,12 @@ impl ProfileContinuation<'_> {
         counts: &mut Counts,
     ) -> Result<Stage, Status> {
         let mesh = self.mesh(target.columns);
-        let memory = (self.memory)(&mesh);
+        let memory = self.model.sliding_memory(&mesh, self.passages);
         let settings = Settings {
-            patience: self.settings.roughening_patience,
+            patience: PATIENCE,
             max_iterations: self.settings.roughening_iterations,
-            krylov_share: self.settings.roughening_share,
-            largest_step: self.settings.roughening_step,
+            krylov_share: KRYLOV_SHARE,
+            largest_step: LARGEST_STEP,
             ..*self.settings
         };
         let rougher = self.model.heights.smoothed(target.waves);
@@ -156,7 +163,6 @@ impl ProfileContinuation<'_> {
             let mut trial = state.clone();
             let report = newton::solve(&pressed, &mut trial, self.load, &settings);
             counts.add(&report);
-            counts.load_steps += 1;
             match report.status {
                 Status::Converged if share == 1.0 => {
                     return Ok(Stage {
@@ -168,7 +174,7 @@ impl ProfileContinuation<'_> {
                     })
                 }
                 Status::Converged => {
-                    if report.iterations <= settings.easy_iterations {
+                    if report.iterations <= EASY_ITERATIONS {
                         part *= 2.0;
                     }
                     (state, added) = (trial, share);

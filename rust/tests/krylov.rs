@@ -58,7 +58,7 @@ fn figures(number: usize, factored_contacts: f64) -> [f64; 4] {
     case.settings = Settings::new(changes).unwrap();
     let finest = case.solve(None).unwrap().finest;
     assert_eq!(finest.report.status, Status::Converged, "wave {number}");
-    let approach = finest.approach();
+    let approach = finest.state.approach;
     let outcome = finest.outcome;
     let highest = outcome.pressure.iter().fold(0.0_f64, |most, &p| most.max(p));
     [outcome.friction, outcome.contact_fraction, approach, highest]

@@ -55,7 +55,7 @@ fn the_way_to_the_solution_does_not_matter() {
         case.settings = Settings::new([("nodes_per_wave", 3.0)]).unwrap();
         let raised = case.solve(None).unwrap().finest;
         for solution in [&smooth_first, &raised] {
-            assert!(solution.report.residual < 1e-8 && solution.load_reached == 1.0);
+            assert!(solution.report.residual < 1e-8 && solution.report.load_reached == 1.0);
         }
         let (a, b) = (&smooth_first.outcome, &raised.outcome);
         assert!((a.friction - b.friction).abs() < 1e-7, "{} {}", a.friction, b.friction);
@@ -78,7 +78,7 @@ fn a_profile_too_rough_for_the_mesh_says_so() {
     let solution = case.solve(None).unwrap();
     assert_eq!(solution.finest.report.status, Status::ProfileTooRough);
     assert!((1..20).contains(&solution.waves_carried.unwrap()));
-    assert_eq!(solution.finest.load_reached, 0.0);
+    assert_eq!(solution.finest.report.load_reached, 0.0);
     let smooth = rough_case(16, 0.15, 1.0).solve(None).unwrap();
     assert_eq!(smooth.waves_carried, None);
 }
