@@ -59,12 +59,5 @@ internal_modules!(contact, fem, linear, material, model, outcome, solve, spectra
 mod line_system;
 #[cfg(feature = "python")]
 mod python;
-
-// Tests inside the crate share `tests/case.rs` with those outside, which names the crate.
 #[cfg(test)]
-extern crate self as gripscale_kernel;
-#[cfg(test)]
-#[path = "tests/case.rs"]
-mod case;
-#[cfg(test)]
-mod test_fields;
+mod tests;

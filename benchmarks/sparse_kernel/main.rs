@@ -97,7 +97,12 @@ impl Solved {
         let (problem, settings) = (problem(case, slides, mesh), Settings::default());
         let solution = steady::solve(&problem, &settings, None, None, &serial()).ok()?;
         let converged = solution.finest.report.status == Status::Converged;
-        let MeshSolution { mesh, state, coarser, .. } = solution.finest;
+        let MeshSolution {
+            mesh,
+            state,
+            coarser,
+            ..
+        } = solution.finest;
         let (coarse, coarse_state) = coarser?;
         let wanted = Mesh::new(&problem.mesh);
         let solved = converged && mesh.same(&wanted);

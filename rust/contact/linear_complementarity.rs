@@ -35,17 +35,19 @@ pub fn solve<'a>(
     let mut visited: Vec<Vec<bool>> = Vec::new();
     let gap_scale = free_gap.iter().fold(1e-300_f64, |m, g| m.max(g.abs()));
     while visited.len() < ROUNDS && !visited.contains(&active_set) {
+        // Solve on the set.
         let (contact, system) = solve_on_active_set(problem, &active_set, settings, executor)?;
         let force = &contact.force;
         let gap = problem.gaps(force, contact.approach);
         let force_scale = load / active_set.iter().filter(|&&a| a).count() as f64;
-        // Positive entries violate their condition.
+        // Measure the violation of each node's condition: positive where it is violated.
         let violation: Vec<f64> = (0..free_gap.len())
             .map(|i| if active_set[i] { -force[i] / force_scale } else { -gap[i] / gap_scale })
             .collect();
         if violation.iter().all(|&v| v <= ACTIVE_SET_TOLERANCE) {
             return Ok((contact, system));
         }
+        // The nodes that violate it change sides.
         visited.push(active_set.clone());
         for (active, violation) in active_set.iter_mut().zip(violation) {
             if violation > ACTIVE_SET_TOLERANCE {

@@ -38,6 +38,7 @@ pub fn solve<'a>(
             // The force or gap that the node has gained is zero here and must grow.
             falling = slope.distance[node] < 0.0;
         }
+        // Follow the path to its next kink, or to t = 0.
         let kink = next_kink(&fixed.distance, &slope.distance, t, falling);
         let step = kink.map_or(f64::INFINITY, |(_, step)| step);
         if falling && step >= t {
@@ -48,6 +49,7 @@ pub fn solve<'a>(
             };
             return Ok((contact, system));
         }
+        // One node enters or leaves the set there.
         let (node, _) = kink.ok_or(Status::NoActiveSet)?;
         t += if falling { -step } else { step };
         path.active_set[node] = !path.active_set[node];

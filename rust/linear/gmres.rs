@@ -36,6 +36,7 @@ pub fn gmres(
     let (mut iterations, mut size) = (0, norm(&residual));
     while size > target && iterations < limit {
         let count = basis.min(limit - iterations);
+        // Extend the space until it holds a solution, or is full.
         let mut space = KrylovSpace::new(residual, size, executor.threads);
         while space.hessenberg.residual() > target && space.hessenberg.size() < count {
             executor.check_cancelled()?;
@@ -46,6 +47,7 @@ pub fn gmres(
                 break;
             }
         }
+        // Add its best solution.
         add(&mut y, 1.0, &space.combined(&space.hessenberg.weights()));
         residual = space.combined(&space.hessenberg.residual_coordinates());
         let before = std::mem::replace(&mut size, norm(&residual));

@@ -3,8 +3,7 @@
 use crate::linear::{add, gmres, invert, norm, single_gmres, Factor, Matrix};
 use crate::spectral::Complex64;
 
-use crate::case::noise;
-use crate::test_fields::serial;
+use crate::tests::fixture::{noise, serial};
 
 #[test]
 fn a_dense_matrix_is_solved() {

@@ -38,11 +38,13 @@ pub fn raise(
     let mut reached = 0.0;
     let (mut spent, mut steps) = (0, 0);
     loop {
+        // Solve for the next load.
         let mut trial = state.clone();
         let mut report = newton::solve(pressed, &mut trial, next, settings);
         counts.add(&report);
         spent += report.iterations;
         steps += 1;
+        // Choose the load after it.
         if report.status == Status::Converged {
             *state = trial;
             reached = next;
@@ -61,6 +63,7 @@ pub fn raise(
             growth = (next / reached).min(growth).powf(GROWTH_CUT);
             next = (reached * growth).min(load);
         }
+        // Give up at a fold, without a first load, or with the budget spent.
         let stuck = reached > 0.0 && growth < SMALLEST_GROWTH;
         let hopeless = reached == 0.0 && next < SMALLEST_FIRST_LOAD * load.min(full);
         let spent_all = spent >= settings.iteration_budget || steps >= MOST_STEPS;

@@ -92,11 +92,13 @@ impl MeshSequence {
     ) -> Result<MeshSolution, KernelError> {
         let mut last: Option<MeshSolution> = None;
         for (i, size) in self.sizes.iter().enumerate() {
+            // Solve, from the solution on the mesh before.
             let coarse = last.as_ref().filter(|last| last.converged());
             let fine = on_mesh(Mesh::new(size), coarse)?;
             if fine.report.status == Status::TimeLimit {
                 return Ok(fine);
             }
+            // Estimate the errors, if necessary from a coarser mesh solved for that alone.
             let below = match (&self.below, coarse) {
                 (Some(size), None) if i == 0 && fine.converged() => {
                     Some(on_mesh(Mesh::new(size), Some(&fine))?).filter(MeshSolution::converged)

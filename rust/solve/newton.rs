@@ -75,6 +75,7 @@ pub(super) fn iterate(
         let mut rows = pressed.row_states(&state.field)?;
         let (mut best, mut best_at) = (f64::INFINITY, 0);
         loop {
+            // Judge the state by its residual.
             let residual = Residual::new(pressed, state, &rows)?;
             let residual_norm = residual.norm(pressed, state, load);
             report.residual = residual_norm;
@@ -91,6 +92,7 @@ pub(super) fn iterate(
             if stalled || report.iterations >= settings.max_iterations {
                 return Err(Status::IterationLimit);
             }
+            // Solve the linearised problem and step.
             report.iterations += 1;
             let increment =
                 next(Iterate { state, rows: &rows, residual: &residual, residual_norm })?;

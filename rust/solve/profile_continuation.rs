@@ -157,12 +157,14 @@ impl ProfileContinuation<'_> {
         let (mut reached, mut added, mut part) = (None, 0.0, 1.0_f64);
         let least = if final_mesh { self.settings.smallest_roughening } else { 0.5 };
         while part >= least {
+            // Try the profile with a part of the new waves.
             let share = (added + part).min(1.0);
             let model = self.model.with_heights(last.heights.toward(&rougher, share));
             let pressed = model.pressed(&mesh, &memory, self.executor);
             let mut trial = state.clone();
             let report = newton::solve(&pressed, &mut trial, self.load, &settings);
             counts.add(&report);
+            // Go on from it with a larger part, or from the last one with a smaller part.
             match report.status {
                 Status::Converged if share == 1.0 => {
                     return Ok(Stage {

@@ -8,9 +8,8 @@ use crate::contact::complementarity_problem::{
 use crate::contact::linear_complementarity::solve;
 use crate::linear::{Factor, Matrix};
 use crate::settings::Settings;
-use crate::test_fields::serial;
+use crate::tests::fixture::{cases, serial};
 use proptest::prelude::*;
-use proptest::test_runner::FileFailurePersistence;
 
 /// A smooth, slightly unsymmetric compliance as contact has: decaying with distance.
 fn compliance(n: usize, skew: f64) -> Matrix<f64> {
@@ -130,17 +129,10 @@ fn brute_force(c: &Matrix<f64>, free: &[f64], load: f64) -> Vec<f64> {
     approaches
 }
 
-/// Inputs that failed once stand beside the other tests of the kernel.
-fn cases(count: u32) -> ProptestConfig {
-    let file = "rust/proptest-regressions/complementarity.txt";
-    ProptestConfig {
-        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(file))),
-        ..ProptestConfig::with_cases(count)
-    }
-}
+const FAILED: &str = "rust/proptest-regressions/complementarity.txt";
 
 proptest! {
-    #![proptest_config(cases(256))]
+    #![proptest_config(cases(256, FAILED))]
 
     #[test]
     fn the_answer_is_that_of_trying_every_set(
@@ -172,7 +164,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(cases(40))]
+    #![proptest_config(cases(40, FAILED))]
 
     #[test]
     fn a_very_lossy_wave_under_any_load_from_any_start(

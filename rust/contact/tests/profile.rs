@@ -6,7 +6,7 @@ use crate::contact::profile::Heights;
 use crate::error::KernelError;
 use crate::problem::Profile;
 
-use crate::case::{noise, Case};
+use crate::tests::fixture::{noise, Case};
 
 fn sampled(count: usize, height: impl Fn(f64) -> f64) -> Heights {
     let at = |i: usize| height(i as f64 / count as f64);
@@ -98,22 +98,6 @@ fn full_contact_of_sampled_heights() {
     assert!((0.995..=1.0 + 1e-12).contains(&full));
     let double = sampled(64, |x| 0.1 * (TAU * x).cos() - 0.05 * (2.0 * TAU * x).cos());
     assert!((double.full_contact_pressure() / (4.0 * PI * 0.2) - 1.0).abs() < 1e-12);
-}
-
-/// Everything a block finds on a sampled sine is what it finds on the sine, to round-off that the
-/// condition of the problem enlarges.
-#[test]
-fn a_sampled_sine_is_the_sine() {
-    for (order, speed) in [(1, 0.0), (1, 0.2), (2, 0.0), (2, 0.2)] {
-        let mut case = Case::elastic(0.12, 0.5);
-        (case.moduli, case.relaxation_times) = (vec![2.0], vec![0.5]);
-        (case.order, case.speed) = (order, speed);
-        let sine = case.solve(None).unwrap().finest.outcome;
-        case.heights = Some((0..12).map(|i| 0.12 * (TAU * i as f64 / 12.0).cos()).collect());
-        let sampled = case.solve(None).unwrap().finest.outcome;
-        assert!((sampled.contact_fraction - sine.contact_fraction).abs() < 1e-9);
-        assert!((sampled.friction - sine.friction).abs() < 1e-9);
-    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::material::energy::{Energy, NeoHookean};
 use crate::material::maxwell::Maxwell;
 use crate::material::sliding_history::SlidingHistory;
 
-use crate::test_fields::{balance_volumes, mesh};
+use crate::tests::fixture::{balance_volumes, mesh};
 
 #[test]
 fn shape_functions_sum_to_one_and_their_slopes_to_zero() {

@@ -11,10 +11,10 @@ use crate::material::maxwell::Maxwell;
 use crate::material::sliding_history::SlidingHistory;
 use crate::material::stress::{memory_slope, tangent};
 
-use crate::case::noise;
 use crate::material::tests::material_point::remembered_slope;
 use crate::material::tests::sliding_history::weights;
-use crate::test_fields::{energy, mesh, serial};
+use crate::tests::fixture::noise;
+use crate::tests::fixture::{energy, mesh, serial};
 
 fn memory(mesh: &Mesh, slides: bool) -> Memory {
     let maxwell = Maxwell { equilibrium: 1.0, moduli: vec![2.0, 6.0], times: vec![0.05, 0.4] };

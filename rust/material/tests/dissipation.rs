@@ -6,10 +6,8 @@ use crate::fem::block::{Block, Memory};
 use crate::material::dissipation::Dissipation;
 use crate::material::kinematics::{contract, isochoric, remembered, Gradient, Symmetric};
 use crate::material::maxwell::{decaying_moments, recurrence, Maxwell};
-use crate::settings::Settings;
 
-use crate::case::{noise, Case};
-use crate::test_fields::{energy, mesh, serial};
+use crate::tests::fixture::{energy, mesh, noise, serial, Case};
 
 /// From networks that forget within a column to ones that hardly relax in a passage.
 fn rubber() -> Maxwell {
@@ -167,14 +165,10 @@ fn small_strains_keep_their_digits() {
 /// follow: the frictions are a third apart, and not of different sign or size.
 #[test]
 fn friction_from_dissipation_stays_of_the_size_of_friction() {
-    let mut case = Case::elastic(0.6, 2.0);
-    case.speed = 1.0;
-    (case.columns, case.rows) = (32, 8);
-    case.settings = Settings::new([("finest_columns", 32.0)]).unwrap();
-    case.moduli = (0..8).map(|i| 0.6 * 2.0_f64.powi(i)).collect();
-    case.relaxation_times = (0..8).map(|i| 10.0_f64.powi(-i)).collect();
-    case.load_time = 5.0;
-    let outcome = case.solve(None).unwrap().finest.outcome;
+    let networks = (0..8).map(|i| (0.6 * 2.0_f64.powi(i), 10.0_f64.powi(-i)));
+    let case = Case::elastic(0.6, 2.0).sliding(1.0, &networks.collect::<Vec<_>>());
+    let case = case.on_mesh(32, 8, 1).with_settings([("finest_columns", 32.0)]);
+    let outcome = Case { load_time: 5.0, ..case }.finest().outcome;
     let ratio = outcome.friction_from_dissipation / outcome.friction;
     assert!(outcome.max_stretch > 2.0 && ratio > 1.0 && ratio < 1.5, "{ratio}");
 }
@@ -203,15 +197,8 @@ fn parts_of_the_strain_lose_the_whole() {
 /// (K. L. Johnson, "Contact Mechanics" (1985), section 13.2); rows of a finite height put it deeper.
 #[test]
 fn energy_is_lost_as_deep_as_under_a_half_plane() {
-    let mut case = Case::elastic(1e-3, 0.2);
-    case.speed = 2.0;
-    case.moduli = vec![2.0, 4.0];
-    case.relaxation_times = vec![0.02, 0.3];
-    case.bulk_modulus = 1e5;
     let mean_depth = |columns: usize, rows: usize| {
-        let mut case = case.clone();
-        (case.columns, case.rows) = (columns, rows);
-        let finest = case.solve(None).unwrap().finest;
+        let finest = Case::full_contact().on_mesh(columns, rows, 1).finest();
         let (outcome, middles) = (finest.outcome, finest.mesh.row_middles());
         let rows = outcome.lost_by_row;
         assert!(rows.iter().all(|&lost| lost >= 0.0), "{rows:?}");

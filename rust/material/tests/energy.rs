@@ -7,8 +7,7 @@ use crate::material::kinematics::{contract, isochoric};
 use crate::material::stress::{memory_slope, stress, tangent};
 
 use super::material_point::{moved, CLOSE, F, STEP};
-use crate::case::new_energy;
-use crate::test_fields::energy;
+use crate::tests::fixture::{energy, new_energy};
 
 /// Every energy of the list, its parameters 0.3, 0.15, 0.1 ...
 fn all() -> Vec<Energy> {

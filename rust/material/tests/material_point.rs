@@ -1,11 +1,11 @@
 //! The material at a point: derivatives against finite differences, closed forms.
 
-use crate::case::noise;
 use crate::material::kinematics::{
     cofactor, contract, isochoric, jacobian, remembered, Deformation, Gradient, UNIT,
 };
 use crate::material::maxwell::Maxwell;
 use crate::material::stress::{memory_slope, stress, tangent};
+use crate::tests::fixture::noise;
 
 pub const F: [f64; 4] = [1.3, 0.4, -0.25, 0.7];
 const H: [f64; 4] = [1.2, 0.8, -0.3, 1.1];
