@@ -7,7 +7,7 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
+//! | `error`, `status`, `settings` | refusals, endings, what a user may set |
 //! | `cancel` | whether to go on: a caller who stops, a time limit |
 //! | `executor` | the one file with rayon: work shared between threads, in parts that do not depend on them |
 //! | `spectral` | the one file with realfft: transforms, convolutions and correlations of lines |
@@ -61,12 +61,5 @@ mod gap_extension;
 mod line_system;
 #[cfg(feature = "python")]
 mod python;
-
-// Tests inside the crate share `tests/case.rs` with those outside, which names the crate.
 #[cfg(test)]
-extern crate self as gripscale_kernel;
-#[cfg(test)]
-#[path = "tests/case.rs"]
-mod case;
-#[cfg(test)]
-mod test_fields;
+mod tests;

@@ -6,7 +6,7 @@
 use std::convert::Infallible;
 
 use crate::linear::single_gmres::{gmres, Approximation};
-use crate::spectral::{Complex32, SingleLines};
+use crate::spectral::{Complex32, Lines};
 
 /// A matrix with the entries of its rows one after the other.
 pub struct Rows<'a> {
@@ -17,7 +17,7 @@ pub struct Rows<'a> {
 
 /// The operator Q K on some points of a line.
 pub struct LineSystem<'a> {
-    pub lines: &'a SingleLines,
+    pub lines: &'a Lines<f32>,
     /// Places of the points on the line, rising.
     pub places: &'a [i64],
     /// K and S of each harmonic.
@@ -32,11 +32,7 @@ pub struct LineSystem<'a> {
 impl LineSystem<'_> {
     /// Whether all places and rows are of the line, for a system of so many points.
     pub fn fits(&self, points: usize) -> bool {
-        let Rows {
-            starts,
-            columns,
-            values,
-        } = &self.extension;
+        let Rows { starts, columns, values } = &self.extension;
         let within = |at: &i64| (0..self.lines.length() as i64).contains(at);
         let rising = starts.windows(2).all(|ends| ends[0] <= ends[1]);
         points == self.places.len()
@@ -44,28 +40,24 @@ impl LineSystem<'_> {
             && starts.len() == self.lines.length() + 1
             && rising
             && starts.first() == Some(&0)
-            && starts
-                .last()
-                .is_some_and(|&end| end as usize == values.len())
+            && starts.last().is_some_and(|&end| end as usize == values.len())
             && columns.len() == values.len()
-            && columns
-                .iter()
-                .all(|&at| (0..points as i64).contains(&i64::from(at)))
+            && columns.iter().all(|&at| (0..points as i64).contains(&i64::from(at)))
     }
 
     /// The pressures whose Q K is `right`, of unit length; see `gmres`.
     pub fn solution(&self, right: Vec<f32>, target: f64, most: usize) -> Approximation {
-        let mut filter = self.lines.filter();
+        let mut lines = self.lines.clone();
         let mut line = vec![0.0; self.lines.length()];
         let apply = |pressure: &[f32]| {
             line.fill(0.0);
             for (&place, &value) in self.places.iter().zip(pressure) {
                 line[place as usize] = value;
             }
-            filter.apply(&mut line, self.compliance);
+            lines.convolve(self.compliance, &mut line);
             let gap = without_mean(self.at_points(&line));
             self.extend(&gap, &mut line);
-            filter.apply(&mut line, self.stiffness);
+            lines.convolve(self.stiffness, &mut line);
             let mut missing = without_mean(self.at_points(&line));
             missing.iter_mut().for_each(|value| *value *= self.factor);
             Ok::<_, Infallible>(missing)
@@ -80,11 +72,7 @@ impl LineSystem<'_> {
     }
 
     fn extend(&self, gap: &[f32], line: &mut [f32]) {
-        let Rows {
-            starts,
-            columns,
-            values,
-        } = &self.extension;
+        let Rows { starts, columns, values } = &self.extension;
         for (value, ends) in line.iter_mut().zip(starts.windows(2)) {
             let row = ends[0] as usize..ends[1] as usize;
             let parts = columns[row.clone()].iter().zip(&values[row]);

@@ -21,7 +21,7 @@ use crate::material::maxwell;
 use crate::problem::{Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
-use crate::spectral::{Complex32, Complex64, SingleLines};
+use crate::spectral::{Complex32, Complex64, Lines};
 use crate::status::Status;
 use crate::steady;
 use crate::transient::{self, Moment, Run, Stage};
@@ -69,20 +69,20 @@ getters! {
     newton_iterations: usize = |s, _| Ok(s.counts.iterations);
     jacobian_products: usize = |s, _| Ok(s.counts.products);
     load_steps: usize = |s, _| Ok(s.counts.load_steps);
-    load_reached: f64 = |s, _| Ok(s.finest.load_reached);
-    approach: f64 = |s, _| Ok(s.finest.approach());
+    load_reached: f64 = |s, _| Ok(s.finest.report.load_reached);
+    approach: f64 = |s, _| Ok(s.finest.state.approach);
     contact_fraction: f64 = |s, _| Ok(s.finest.outcome.contact_fraction);
     contacts: Vec<(f64, f64)> = |s, _| Ok(s.finest.outcome.contacts.clone());
     friction: f64 = |s, _| Ok(s.finest.outcome.friction);
     friction_from_dissipation: f64 = |s, _| Ok(s.finest.outcome.friction_from_dissipation);
     lost_by_row: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.lost_by_row));
-    row_heights: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, s.finest.row_heights()));
+    row_heights: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.mesh.row_height));
     contact_fraction_error: f64 = |s, _| Ok(s.finest.contact_fraction_error);
     friction_error: f64 = |s, _| Ok(s.finest.friction_error);
     friction_bound: Option<f64> = |s, _| Ok(s.finest.friction_bound);
     judged_by: Option<usize> = |s, _| Ok(s.finest.coarser_columns());
-    columns: usize = |s, _| Ok(s.finest.columns());
-    rows: usize = |s, _| Ok(s.finest.rows());
+    columns: usize = |s, _| Ok(s.finest.mesh.columns);
+    rows: usize = |s, _| Ok(s.finest.mesh.rows);
     too_narrow: Option<(f64, f64)> = |s, _| Ok(s.too_narrow);
     waves_carried: Option<usize> = |s, _| Ok(s.waves_carried);
     min_stretch: f64 = |s, _| Ok(s.finest.outcome.min_stretch);
@@ -119,10 +119,8 @@ fn mesh<'py>(
     part: fn(&(f64, f64)) -> f64,
 ) -> PyResult<Table<'py>> {
     let layers = solution.node_positions();
-    let layers: Vec<Vec<f64>> = layers
-        .iter()
-        .map(|layer| layer.iter().map(part).collect())
-        .collect();
+    let layers: Vec<Vec<f64>> =
+        layers.iter().map(|layer| layer.iter().map(part).collect()).collect();
     Ok(PyArray2::from_vec2(py, &layers)?)
 }
 
@@ -292,29 +290,23 @@ fn solve_transient<'py>(
     let (rubber, profile, mesh) = problem.checked()?;
     let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);
-    let stage = |(duration, speed, pressure)| Stage {
-        duration,
-        speed,
-        pressure,
-    };
+    let stage = |(duration, speed, pressure)| Stage { duration, speed, pressure };
     let stages: Vec<Stage> = stages.into_iter().map(stage).collect();
     let solve = |executor: &Executor<'_>| {
-        transient::solve(
-            &rubber, &profile, &mesh, &settings, &stages, start, executor,
-        )
+        transient::solve(&rubber, &profile, &mesh, &settings, &stages, start, executor)
     };
     Ok(PyRun(run_cancellable(py, work, solve)?))
 }
 
 /// Filters and contacts of lines of a number of points, which release the interpreter.
 #[pyclass(frozen, name = "Line")]
-struct PyLine(SingleLines);
+struct PyLine(Lines<f32>);
 
 #[pymethods]
 impl PyLine {
     #[new]
     fn new(points: usize) -> Self {
-        Self(SingleLines::new(points))
+        Self(Lines::new(points))
     }
 
     /// Values with each of their harmonics, 0 to half the points, times its factor.
@@ -329,7 +321,7 @@ impl PyLine {
             return Err(PyValueError::new_err("expected a value for each point"));
         }
         self.check_harmonics(factors)?;
-        py.detach(|| self.0.filter().apply(&mut line, factors));
+        py.detach(|| self.0.clone().convolve(factors, &mut line));
         Ok(PyArray1::from_vec(py, line))
     }
 
@@ -369,16 +361,10 @@ impl PyLine {
         self.check_harmonics(system.stiffness)?;
         let right = right.as_slice()?.to_vec();
         if !system.fits(right.len()) {
-            return Err(PyValueError::new_err(
-                "expected points and rows of the line",
-            ));
+            return Err(PyValueError::new_err("expected points and rows of the line"));
         }
         let found = py.detach(|| system.solution(right, target, most));
-        Ok((
-            PyArray1::from_vec(py, found.x),
-            found.residual,
-            found.products,
-        ))
+        Ok((PyArray1::from_vec(py, found.x), found.residual, found.products))
     }
 }
 
@@ -406,11 +392,7 @@ fn gmres<'py>(
         Ok(image.as_slice()?.to_vec())
     };
     let found = single_gmres::gmres(apply, right.as_slice()?.to_vec(), target, most)?;
-    Ok((
-        PyArray1::from_vec(py, found.x),
-        found.residual,
-        found.products,
-    ))
+    Ok((PyArray1::from_vec(py, found.x), found.residual, found.products))
 }
 
 /// sum E_i i w tau_i / (1 + i w tau_i) at frequencies w, without the interpreter's lock.
