@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use numpy::{
-    PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2,
+    PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1,
     PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
@@ -15,7 +15,7 @@ use crate::cancel::Cancel;
 use crate::error::{unknown, KernelError};
 use crate::executor::{Executor, Threads};
 use crate::gap_extension::GapExtension;
-use crate::line_system::{LineSystem, Rows};
+use crate::line_system::LineSystem;
 use crate::linear::single_gmres;
 use crate::material::maxwell;
 use crate::problem::{Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
@@ -327,41 +327,32 @@ impl PyLine {
 
     /// Solution of Q K p = r at `places`, its residual and the products it took; |r| = 1.
     ///
-    /// `filters` are K and S of each harmonic, `extension` the starts, columns and values of the
-    /// rows of E; `numbers` the factor of Q, the target of the residual and the most products.
+    /// `filters` are K and S of each harmonic; `numbers` the factor of Q, the target of the residual and
+    /// the most products.
     fn close_gap<'py>(
         &self,
         py: Python<'py>,
         right: PyReadonlyArray1<'py, f32>,
         places: PyReadonlyArray1<'py, i64>,
         filters: [PyReadonlyArray1<'py, Complex32>; 2],
-        extension: (
-            PyReadonlyArray1<'py, i32>,
-            PyReadonlyArray1<'py, i32>,
-            PyReadonlyArray1<'py, f32>,
-        ),
+        extension: PyRef<'py, PyGapExtension>,
         numbers: (f32, f64, usize),
     ) -> PyResult<(Bound<'py, PyArray1<f32>>, f64, usize)> {
         let [compliance, stiffness] = &filters;
         let (factor, target, most) = numbers;
-        let (starts, columns, values) = &extension;
         let system = LineSystem {
             lines: &self.0,
             places: places.as_slice()?,
             compliance: compliance.as_slice()?,
             stiffness: stiffness.as_slice()?,
-            extension: Rows {
-                starts: starts.as_slice()?,
-                columns: columns.as_slice()?,
-                values: values.as_slice()?,
-            },
+            extension: &extension.0,
             factor,
         };
         self.check_harmonics(system.compliance)?;
         self.check_harmonics(system.stiffness)?;
         let right = right.as_slice()?.to_vec();
         if !system.fits(right.len()) {
-            return Err(PyValueError::new_err("expected points and rows of the line"));
+            return Err(PyValueError::new_err("expected points and an extension of the line"));
         }
         let found = py.detach(|| system.solution(right, target, most));
         Ok((PyArray1::from_vec(py, found.x), found.residual, found.products))
@@ -408,20 +399,27 @@ fn relaxing_moduli<'py>(
     Ok(PyArray1::from_vec(py, values))
 }
 
-/// Extends gaps of the points of a map in contact, `active`, to the open points beside them.
+/// Extends gaps of the points in contact, `active`, to open points.
 #[pyclass(frozen, name = "GapExtension")]
 struct PyGapExtension(GapExtension);
 
 #[pymethods]
 impl PyGapExtension {
-    #[new]
-    fn new(active: PyReadonlyArray2<'_, bool>, far: f32) -> PyResult<Self> {
-        let columns = active.shape()[1];
-        Ok(Self(GapExtension::new(active.as_slice()?, columns, far)))
+    /// On a line, linearly without a `reach`.
+    #[staticmethod]
+    fn of_line(active: PyReadonlyArray1<'_, bool>, reach: Option<f32>) -> PyResult<Self> {
+        Ok(Self(GapExtension::of_line(active.as_slice()?, reach)))
     }
 
-    /// Set the points beside the contacts in `values`, which are zero outside.
-    fn extend(&self, mut values: PyReadwriteArray2<'_, f32>) -> PyResult<()> {
+    /// On a map.
+    #[staticmethod]
+    fn of_map(active: PyReadonlyArray2<'_, bool>, far: f32) -> PyResult<Self> {
+        let columns = active.shape()[1];
+        Ok(Self(GapExtension::of_map(active.as_slice()?, columns, far)))
+    }
+
+    /// Set the open points of `values`, flattened, which are zero there.
+    fn extend(&self, mut values: PyReadwriteArray1<'_, f32>) -> PyResult<()> {
         let values = values.as_slice_mut()?;
         if values.len() != self.0.points() {
             return Err(PyValueError::new_err("expected a value for each point"));

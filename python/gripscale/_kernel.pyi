@@ -20,7 +20,10 @@ __all__ = [
 
 @final
 class GapExtension:
-    def __new__(cls, active: NDArray[np.bool_], far: float) -> GapExtension: ...
+    @staticmethod
+    def of_line(active: NDArray[np.bool_], reach: float | None) -> GapExtension: ...
+    @staticmethod
+    def of_map(active: NDArray[np.bool_], far: float) -> GapExtension: ...
     def extend(self, values: NDArray[np.float32]) -> None: ...
 
 @final
@@ -34,7 +37,7 @@ class Line:
         right: NDArray[np.float32],
         places: NDArray[np.int64],
         filters: list[NDArray[np.complex64]],
-        extension: tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float32]],
+        extension: GapExtension,
         numbers: tuple[float, float, int],
     ) -> tuple[NDArray[np.float32], float, int]: ...
 

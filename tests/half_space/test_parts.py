@@ -59,12 +59,20 @@ def test_iterations_and_elimination_close_the_same_gap(monkeypatch):
     np.testing.assert_allclose(left, gap, atol=1e-12 * np.ptp(height))
 
 
+def extended_on(line, gaps, reach=None):
+    """The gaps of the points of a line in contact, over the line."""
+    values = np.zeros(line.size, dtype=np.float32)
+    values[line] = gaps
+    GapExtension.of_line(line, reach).extend(values)
+    return values
+
+
 def test_a_gap_of_a_line_is_a_harmonic_function():
     """A half-plane with the values 2 and 3 on the contacts beside a gap, and zero in other gaps."""
     wide = np.zeros(4000, dtype=bool)
     wide[1000:1300] = wide[1500:1600] = True
     values = np.where(np.flatnonzero(wide) < 1400, 2.0, 3.0)
-    extended = (active_set._across_gaps(wide, linear=False) @ values)[1300:1500]
+    extended = extended_on(wide, values, REACH)[1300:1500]
     # the solid angle of each contact in a strip: a conformal map takes the gap to a half-line
     centre, half = 1399.5, 100.5
     point = (np.arange(1300, 1500) - centre) / half
@@ -76,7 +84,7 @@ def test_a_gap_of_a_line_is_a_harmonic_function():
 
     wanted = 3.0 * seen(REACH * 100.0) + 2.0 * seen(REACH * 300.0)[::-1]
     np.testing.assert_allclose(extended[5:-5], wanted[5:-5], rtol=0.01)
-    line = active_set._across_gaps(TWO_CONTACTS, linear=False) @ np.array([2.0, 3.0, 5.0, 7.0])
+    line = extended_on(TWO_CONTACTS, [2.0, 3.0, 5.0, 7.0], REACH)
     np.testing.assert_allclose(line[TWO_CONTACTS], [2.0, 3.0, 5.0, 7.0])
     # contacts across the end of the period are one: of three points, seen over a gap of three
     first = (
@@ -91,24 +99,22 @@ def test_a_gap_is_carried_to_the_points_beside_the_contacts_of_a_map():
     active[0, 0] = active[1, 0] = True
     extended = np.zeros(active.shape, dtype=np.float32)
     extended[0, 0], extended[1, 0] = 2.0, 3.0
-    GapExtension(active, FAR).extend(extended)
+    GapExtension.of_map(active, FAR).extend(extended.reshape(-1))
     assert np.count_nonzero(extended) == 12  # over both edges of the map
     wanted = (2.0 + 3.0 / 2**1.5) / (1 + 1 / 2**1.5 + FAR)
     assert extended[0, 4] == pytest.approx(wanted, rel=1e-6)  # next to (0, 0) and (1, 0)
     assert (extended[0, 0], extended[1, 0]) == (2.0, 3.0)
     with pytest.raises(ValueError, match="a value for each point"):
-        GapExtension(active, FAR).extend(np.zeros((4, 4), dtype=np.float32))
+        GapExtension.of_map(active, FAR).extend(np.zeros(16, dtype=np.float32))
 
 
 def test_a_gap_of_a_lossy_line_is_linear_between_its_ends():
-    extended = active_set._across_gaps(TWO_CONTACTS, linear=True) @ np.array([2.0, 3.0, 7.0, 9.0])
+    extended = extended_on(TWO_CONTACTS, [2.0, 3.0, 7.0, 9.0])
     np.testing.assert_allclose(extended, [2, 3, 4, 5, 6, 7, 8, 9], rtol=1e-6)
-    one = active_set._across_gaps(np.array([False, True, False]), linear=True)
-    np.testing.assert_allclose(one @ np.array([4.0]), 4.0)
-    around = active_set._across_gaps(
-        np.array([False, True, False, False, True, False]), linear=True
-    )
-    np.testing.assert_allclose(around @ np.array([1.0, 4.0]), [2, 1, 2, 3, 4, 3], rtol=1e-6)
+    np.testing.assert_allclose(extended_on(np.arange(3) == 1, [4.0]), 4.0)
+    around = extended_on(np.isin(np.arange(6), [1, 4]), [1.0, 4.0])
+    np.testing.assert_allclose(around, [2, 1, 2, 3, 4, 3], rtol=1e-6)
+    np.testing.assert_allclose(extended_on(np.ones(3, dtype=bool), [1.0, 2.0, 3.0]), [1, 2, 3])
 
 
 def test_lossy_lines_take_few_products(monkeypatch):

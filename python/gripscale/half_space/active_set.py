@@ -59,7 +59,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from gripscale._kernel import GapExtension, gmres
@@ -106,39 +105,6 @@ PATIENCE, GIVING_UP = 6, 18
 MOST_ITERATIONS = 60  # active sets tried on a grid
 
 
-def _across_gaps(active: Mask, *, linear: bool) -> scipy.sparse.csr_array:
-    """Return E on a periodic line: from both ends of each open gap."""
-    closed, point = np.flatnonzero(active), np.arange(active.size)
-    lower = (np.cumsum(active) - 1) % len(closed)
-    upper = (lower + ~active) % len(closed)  # itself in contact
-    before = (point - closed[lower] - 1) % active.size + 1
-    after = (closed[upper] - point) % active.size
-    if linear:
-        share = np.where(active, 0.0, before / (before + after))
-        weights = np.stack([1.0 - share, share], axis=1)
-    else:
-        reach = REACH * _contact_lengths(active)[closed]
-        near, far = np.stack([before, after], axis=1), np.stack([after, before], axis=1)
-        length = reach[np.stack([lower, upper], axis=1)]
-        inside = length / (length + (before + after)[:, None])
-        weights = 2.0 / np.pi * np.arctan(np.sqrt(inside * far / np.maximum(near, 1)))
-        weights[active] = (1.0, 0.0)
-    ends = np.stack([lower, upper], axis=1).astype(np.int32).reshape(-1)
-    starts = np.arange(0, ends.size + 1, 2, dtype=np.int32)
-    shape = active.size, len(closed)
-    return scipy.sparse.csr_array((weights.astype(np.float32).reshape(-1), ends, starts), shape)
-
-
-def _contact_lengths(active: Mask) -> Array:
-    """Return the points of the contact that each point of a periodic line in contact lies in."""
-    first = active & ~np.roll(active, 1)
-    if not first.any():
-        return np.full(active.size, active.size)
-    number = np.cumsum(first) - 1  # -1 before the first: the last contact, across the end
-    length = np.bincount(number[active] % first.sum(), minlength=int(first.sum()))
-    return np.asarray(length[number])
-
-
 @dataclass(frozen=True)
 class ClosedGap:
     """Solution of the linear system of the points in contact."""
@@ -164,9 +130,9 @@ class PointsInContact:
         active[where] = True
         self._lossy_line = is_lossy_line(response)
         if len(response.grid.shape) > 1:
-            self._map = GapExtension(active.reshape(response.grid.shape), FAR)
+            self._extension = GapExtension.of_map(active.reshape(response.grid.shape), FAR)
         else:
-            self._rows = _across_gaps(active, linear=self._lossy_line)
+            self._extension = GapExtension.of_line(active, None if self._lossy_line else REACH)
         self._single = np.zeros(response.grid.shape, dtype=np.float32)
         self.products = 0
 
@@ -175,11 +141,8 @@ class PointsInContact:
         if self._averaged is not None:
             gap = self._averaged(gap)
         gap = (gap - gap.mean(dtype=np.float64)).astype(np.float32, copy=False)
-        if len(self._response.grid.shape) > 1:
-            extended = self._on_grid(gap)
-            self._map.extend(extended)
-        else:
-            extended = self._rows @ gap
+        extended = self._on_grid(gap)
+        self._extension.extend(extended.reshape(-1))
         pressure = self._response.pressure(extended).reshape(-1)[self._where]
         if self._averaged is not None:
             pressure = self._averaged(pressure)
@@ -209,12 +172,11 @@ class PointsInContact:
         response = self._response
         if len(response.grid.shape) > 1:
             return gmres(self._image, right, target, most)[:2]
-        rows = self._rows
         pressure, residual, products = response.line.close_gap(
             right,
             self._where,
             [response.compliance_single, response.stiffness],
-            (rows.indptr.astype(np.int32), rows.indices.astype(np.int32), rows.data),
+            self._extension,
             (SHORTFALL if self._lossy_line else 1.0, target, most),
         )
         self.products += products
