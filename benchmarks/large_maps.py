@@ -6,6 +6,8 @@ ASPHER_PYTHON names or by this one. One thread each, and the same heights, press
 Processor seconds, and memory above what the heights take.
 
 python -m benchmarks.large_maps [POINTS ...]
+
+A size above 4096 is solved by gripscale alone, with a thread for each core.
 """
 
 from __future__ import annotations
@@ -17,9 +19,9 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from rich.console import Console
@@ -28,29 +30,30 @@ import gripscale as gs
 from benchmarks.measure import peak_since_reset, reset_peak
 from benchmarks.rough_contact import SPACING, isotropic_map, tread
 from benchmarks.table import show
+from gripscale.half_space.grid import Grid
 from gripscale.half_space.response import half_space
 
 PRESSURE, SPEED = 3e5, 0.3  # [Pa], [m/s]
 SIZES = (512, 1024, 2048)
+LARGEST_OF_BOTH = 4096
 PEER = """
 import json, sys, time
 import numpy as np
 import aspher
+
 heights, pressure, modulus, length, precision = json.loads(sys.argv[1])
 gap = -np.load(heights).ravel()
-points = round(len(gap) ** 0.5)
 open("/proc/self/clear_refs", "w").write("5")
 peak = lambda: int(open("/proc/self/status").read().split("VmHWM:")[1].split()[0])
-before, start = peak(), time.process_time()
+before, wall, processor = peak(), time.perf_counter(), time.process_time()
 found = aspher.solve_nested(
-    grid_size=points, gap=gap, p_nominal=pressure, domain_size=length, E_star=modulus,
-    coarsest=32, backend="periodic", precision=precision, light_result=True,
+    grid_size=round(len(gap) ** 0.5), gap=gap, p_nominal=pressure, domain_size=length,
+    E_star=modulus, coarsest=32, backend="periodic", precision=precision, light_result=True,
     tol=1e-8 if precision == "double" else 1e-5, allow_tolerance_relaxation=True,
 )
-seconds = time.process_time() - start
-memory = peak() - before
-touching = float(np.mean(np.asarray(found.pressure) > 0.0)) if found.pressure is not None else None
-print(json.dumps([seconds, memory / 1024, found.contact_area, touching, found.iterations]))
+wall, processor = time.perf_counter() - wall, time.process_time() - processor
+megabytes = 1024e-6 * (peak() - before)
+print(json.dumps([wall, processor, megabytes, found.iterations, found.contact_area]))
 """
 ABSENT = (
     "ASPHER is not installed. `python3 -m venv FOLDER && FOLDER/bin/pip install aspher` (needs a "
@@ -58,64 +61,86 @@ ABSENT = (
 )
 
 
+@dataclass(frozen=True)
+class Row:
+    """What a code took for one map, and what it found."""
+
+    code: str
+    wall: float  # [s]
+    processor: float  # [s]
+    megabytes: float
+    products: int
+    touching: float  # share of the points
+    more: tuple[str, ...] = ("-",) * 5  # area, friction and their errors, status
+
+
 def run(console: Console, sizes: Sequence[int] = SIZES) -> None:
     """Print a row for each size and code."""
     rubber, python = tread(), os.environ.get("ASPHER_PYTHON", sys.executable)
     beside = subprocess.run([python, "-c", "import aspher"], capture_output=True).returncode == 0
     gs.solve_rough_contact(rubber, isotropic_map(64), pressure=PRESSURE, speed=SPEED)  # imports
-    rows: list[list[str]] = []
+    cells: list[list[str]] = []
     last: dict[str, tuple[int, float]] = {}
     for points in sizes:
         surface = isotropic_map(points)
-        found = {
-            "elastic": _ours(rubber, surface, 0.0),
-            "viscoelastic": _ours(rubber, surface, SPEED),
-        }
-        for precision in ("double", "float") if beside else ():
-            found[f"ASPHER, {precision}"] = _peer(python, rubber, surface, precision)
-        for kind, (seconds, megabytes, *cells) in found.items():
+        for row in _rows(python if beside else "", rubber, surface):
             exponent = "-"
-            if kind in last:
-                before, earlier = last[kind]
-                exponent = f"{math.log(seconds / earlier) / math.log((points / before) ** 2):.2f}"
-            last[kind] = points, seconds
-            each = [f"{1e6 * seconds / points**2:.2f}", f"{1e6 * megabytes / points**2:.0f}"]
-            head = [f"{points} x {points}", kind, f"{seconds:.1f}", exponent, f"{megabytes:.0f}"]
-            rows.append([*head, *each, *cells])
+            if row.code in last:
+                before, earlier = last[row.code]
+                exponent = f"{0.5 * math.log(row.processor / earlier, points / before):.2f}"
+            last[row.code] = points, row.processor
+            each = 1e6 / points**2
+            numbers = f"{row.wall:.1f}", f"{row.processor:.1f}", exponent, f"{row.megabytes:.0f}"
+            by_point = f"{each * row.processor:.2f}", f"{each * row.megabytes:.0f}"
+            found = f"{row.products}", f"{row.touching:.5f}"
+            cells.append([f"{points}", row.code, *numbers, *by_point, *found, *row.more])
     show(
         console,
-        "Maps over sizes, one thread",
+        "Maps over sizes",
         [
-            *("grid", "code", "CPU s", "exponent", "MB", "us a point", "bytes a point"),
-            *("products", "touching", "area", "+-", "friction", "+-", "status"),
+            *("points a side", "code", "wall s", "CPU s", "exponent", "MB", "us a point"),
+            *("bytes a point", "products", "touching", "area", "+-", "friction", "+-", "status"),
         ],
-        rows,
-        "Gaussian heights, rms 0.3 mm, waves from 20 mm down to four points; 3 bar. `touching` is "
-        f"the share of points. {'' if beside else ABSENT}",
+        cells,
+        "Gaussian heights, rms 0.3 mm, waves from 20 mm down to four points; 3 bar, tread rubber. "
+        f"One thread up to {LARGEST_OF_BOTH}, above one a core. {'' if beside else ABSENT}",
     )
 
 
-def _ours(rubber: gs.Rubber, surface: gs.HeightMap, speed: float) -> tuple[Any, ...]:
+def _rows(python: str, rubber: gs.Rubber, surface: gs.HeightMap) -> Iterator[Row]:
+    """Yield the rows of a map; without a `python` of the peer those of gripscale."""
+    if len(surface.x) > LARGEST_OF_BOTH:
+        yield _ours("viscoelastic", rubber, surface, SPEED, None)
+        return
+    yield _ours("elastic", rubber, surface, 0.0, 1)
+    yield _ours("viscoelastic", rubber, surface, SPEED, 1)
+    for precision in ("double", "float") if python else ():
+        yield _peer(python, rubber, surface, precision)
+
+
+def _ours(
+    code: str, rubber: gs.Rubber, surface: gs.HeightMap, speed: float, workers: int | None
+) -> Row:
     reset_peak()
-    before, start = peak_since_reset(), time.process_time()
+    before, wall, processor = peak_since_reset(), time.perf_counter(), time.process_time()
     found = gs.solve_rough_contact(
-        rubber, surface, pressure=PRESSURE, speed=speed, periodic=True, tolerance=None, workers=1
-    )
-    seconds, memory = time.process_time() - start, peak_since_reset() - before
-    return (
-        *(seconds, memory, f"{sum(grid.products for grid in found.grids)}"),
-        f"{found.grids[-1].in_contact / surface.z.size:.5f}",
+        rubber, surface, pressure=PRESSURE, speed=speed, periodic=True, tolerance=None,
+        workers=workers, most_points=2**30,
+    )  # fmt: skip
+    wall, processor = time.perf_counter() - wall, time.process_time() - processor
+    megabytes = 1.048576 * (peak_since_reset() - before)
+    more = (
         *(f"{found.contact_fraction:.5f}", f"{found.contact_fraction_error:.5f}"),
         *(f"{found.friction:.5f}", f"{found.friction_error:.5f}", str(found.status)),
     )
+    products = sum(grid.products for grid in found.grids)
+    touching = found.grids[-1].in_contact / surface.z.size
+    return Row(code, wall, processor, megabytes, products, touching, more)
 
 
-def _peer(python: str, rubber: gs.Rubber, surface: gs.HeightMap, precision: str) -> tuple[Any, ...]:
-    body = half_space(rubber, 0.0)
-    grid = gs.solve_rough_contact(
-        rubber, isotropic_map(64), pressure=PRESSURE, speed=0.0, periodic=True, tolerance=None
-    ).grid
-    modulus = float(body.modulus(grid).real.flat[1])
+def _peer(python: str, rubber: gs.Rubber, surface: gs.HeightMap, precision: str) -> Row:
+    line = Grid((64,), (1e-3,))
+    modulus = float(half_space(rubber, 0.0).modulus(line).real[1])
     with tempfile.TemporaryDirectory() as folder:
         heights = Path(folder) / "heights.npy"
         np.save(heights, surface.z)
@@ -123,9 +148,7 @@ def _peer(python: str, rubber: gs.Rubber, surface: gs.HeightMap, precision: str)
         command = [python, "-c", PEER, json.dumps(inputs)]
         environment = os.environ | {"OMP_NUM_THREADS": "1"}
         output = subprocess.run(command, capture_output=True, check=True, env=environment)
-    seconds, memory, area, touching, products = json.loads(output.stdout.splitlines()[-1])
-    points = "-" if touching is None else f"{touching:.5f}"
-    return seconds, memory, f"{products}", points, f"{area:.5f}", "-", "-", "-", "-"
+    return Row(f"ASPHER, {precision}", *json.loads(output.stdout.splitlines()[-1]))
 
 
 if __name__ == "__main__":
