@@ -1,12 +1,7 @@
 """The chain: the pressure in the contact of one wave is the mean pressure on the next.
 
-With A_i the contact length of wave i projected on the mean plane (Lind & Wangenheim 2014,
-IMECE2014-37998, equation 1):
-
-    p_(i+1)  = p_i lambda_i / A_i
-
-This is the mean pressure. With several pressure classes a wave hands down its distribution, see
-`gripscale.chain.prediction`.
+With A_i the contact length of wave i on the mean plane, p_(i+1) = p_i lambda_i / A_i (Lind &
+Wangenheim 2014, IMECE2014-37998, equation 1); of its distribution, `gripscale.chain.prediction`.
 """
 
 from __future__ import annotations

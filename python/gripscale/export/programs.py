@@ -1,33 +1,9 @@
 """A rubber as the material of a finite element program: Abaqus, Ansys MAPDL or FEBio.
 
-Abaqus, with *HYPERELASTIC, *VISCOELASTIC, *TRS (Abaqus Keywords Reference Guide (2016); Analysis
-User's Guide, sections 22.5.1 and 22.7.1):
-
-    U     = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / D1,   K = 2/D1
-    G(t)  = G_0 (1 - sum g_i (1 - exp(-t/tau_i))),   k_i = 0
-    log10 A = -c1 (T - T_0) / (c2 + T - T_0),   time runs at 1/A
-
-With MODULI=LONG TERM the C_ij are those of the relaxed rubber, C_ij(0) = C_ij / (1 - sum g_i).
-
-Ansys MAPDL, with TB,HYPER, TB,PRONY, TB,SHIFT (Ansys Mechanical APDL, Material Reference,
-"Hyperelasticity" and "Viscoelasticity"):
-
-    W    = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / d,   K = 2/d
-    G(t) = G_0 (alpha_inf + sum alpha_i exp(-t/tau_i)),   alpha_inf = 1 - sum alpha_i
-    log10 A = C1 (T - T_r) / (C2 + T - T_r),   tau_i(T) = tau_i(T_r) / A
-
-The constants of TB,HYPER are those of the fast limit: C_ij of the relaxed rubber over alpha_inf.
-
-FEBio, with a mixture of the permanent network and temporary networks (FEBio User Manual 4,
-"Uncoupled Viscoelastic Materials" and "Uncoupled Solid Mixture"):
-
-    S_dev = sum over solids of g_0 S_e + sum g_i int exp(-(t - s)/t_i) dS_e/ds ds
-    U     = K/2 (ln J)^2,   S_e of W = c1 (I1 - 3) + c2 (I2 - 3)
-
-"uncoupled viscoelastic" has six terms. A mixture of uncoupled solids adds their deviatoric
-stresses, so that any number of terms is exported exactly: the permanent network is one solid, and
-each six Maxwell elements are another, neo-Hookean as in gripscale, with g_0 = 0. The bulk modulus
-stands on the mixture, and in equal parts on its solids: versions that add those get the same sum.
+The equations of the programs, and what becomes of a rubber in each, are in docs/export.md. Sources:
+Abaqus Keywords Reference Guide (2016) and Analysis User's Guide, sections 22.5.1 and 22.7.1; Ansys
+Mechanical APDL, Material Reference, "Hyperelasticity" and "Viscoelasticity"; FEBio User Manual 4,
+"Uncoupled Viscoelastic Materials" and "Uncoupled Solid Mixture".
 """
 
 from __future__ import annotations

@@ -305,7 +305,6 @@ DETAILS = (
     Field("points", "1", "points along the wave"),
     Field("points_in_contact", "1", "points in contact"),
     Field("full_contact", "1", "1 where the contact is full"),
-    Field("poisson_ratio", "1", "constant Poisson's ratio"),
     Field("passes", "1", "solutions until rubber, strains and heat agreed"),
     Field("strain", "1", "uniaxial strain amplitude of the softening", CHAIN),
     Field("storage_modulus_ratio", "1", "softened over measured storage modulus", CHAIN),
