@@ -8,7 +8,5 @@ from .programs import ansys_rubber as ansys_rubber
 from .programs import febio_rubber as febio_rubber
 from .programs import write_rubber as write_rubber
 from .rubber import ProgramFile as ProgramFile
-from .tables import Column as Column
-from .tables import Table as Table
 from .tables import tables_of as tables_of
 from .tables import write_tables as write_tables
