@@ -17,12 +17,8 @@ from gripscale.report.equations import method_equations, method_section
 from gripscale.theory import Persson
 from tests.report.draw_equations import drawn
 
-EVERY = pytest.mark.parametrize(
-    "equation", method_equations().values(), ids=lambda equation: equation.name
-)
 
-
-@EVERY
+@pytest.mark.parametrize("name", method_equations())
 def test_picture_is_of_its_equation(name: str) -> None:
     equation = method_equations()[name]
     picture = html.unescape(base64.b64decode(equation.data).decode("utf-8"))
