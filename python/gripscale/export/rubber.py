@@ -14,7 +14,6 @@ import math
 import textwrap
 import warnings
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 from scipy.optimize import nnls
@@ -22,8 +21,6 @@ from scipy.optimize import nnls
 from gripscale.core import Array, Described, InputError, RubberWarning, checks
 from gripscale.core.provenance import version_of
 from gripscale.core.units import UNITS, ZERO_CELSIUS
-from gripscale.io.folders import write_text
-from gripscale.io.text_table import file_path
 from gripscale.rubber import WLF, Rubber, ShiftTable, WLFArrhenius, fit_wlf
 from gripscale.rubber.strain_energy import Isihara, MooneyRivlin, NeoHookean, Yeoh
 
@@ -38,10 +35,6 @@ class ProgramFile(Described):
     """The whole file."""
     remarks: tuple[str, ...]
     """Comments of the file: units, limits of validity, properties that are not exported."""
-
-    def write(self, path: str | Path) -> Path:
-        """Write the file, completely or not at all, or raise `FileError`; return its path."""
-        return write_text(file_path(path), self.text)
 
 
 @dataclass(frozen=True)
