@@ -111,7 +111,8 @@ def field(state: CaseState, section: KeySection, key: Key) -> Any:
     kind = key.schema.get("type")
     choices = [True, False] if kind == "boolean" else choices_of(key.schema)
     is_text = kind == "string"
-    look = {**_words(key), **LOOK}
+    label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
+    look = {"label": label, "description": f"{key.meaning} Takes {key.takes}.", **LOOK}
     has_default = key.default not in (NEEDED, NOTHING)
     by_default = f"{BY_DEFAULT}: {key.default}" if has_default else BY_DEFAULT
     if key.default == NEEDED:
@@ -143,12 +144,6 @@ def field(state: CaseState, section: KeySection, key: Key) -> Any:
 
     _bind(state, [widget], edit, follow)
     return widget
-
-
-def _words(key: Key) -> dict[str, str]:
-    """Return label and description of the field of a key."""
-    label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
-    return {"label": label, "description": f"{key.meaning} Takes {key.takes}."}
 
 
 def _bind(

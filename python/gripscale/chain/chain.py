@@ -24,27 +24,21 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import SineStack, Surface, SurfacePart
-from gripscale.theory.half_plane import HalfPlane, solve_half_plane
-from gripscale.wave.block import FiniteStrainBlock, solve_scale
+from gripscale.theory.half_plane import HalfPlane
+from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.kernel import WaveSolver
 from gripscale.wave.problem import Sine
-from gripscale.wave.result import ScaleResult
 
 WAVE_SOLVERS: dict[str, Any] = {solver.name: solver for solver in (FiniteStrainBlock, HalfPlane)}
 """Solvers of one wave by name. A new one is added here."""
 
-# Functions that may stand for a solver of one wave.
-SOLVE_FUNCTIONS = ((solve_scale, FiniteStrainBlock), (solve_half_plane, HalfPlane))
-WaveSolverLike = WaveSolver | str | Callable[..., ScaleResult]
+WaveSolverLike = WaveSolver | str
 
 
 def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolver:
-    """Return a solver by its name or its function with options, or the solver itself."""
+    """Return a solver by its name with options, or the solver itself."""
     if isinstance(solver, str):
         kind = WAVE_SOLVERS[checks.one_of("solver", solver, WAVE_SOLVERS)]
-    else:
-        kind = next((kind for function, kind in SOLVE_FUNCTIONS if function is solver), None)
-    if kind is not None:
         out: WaveSolver = kind.of(**options)
         return out
     if not isinstance(solver, WaveSolver):
@@ -104,8 +98,7 @@ def solve_chain(
     thickness
         Thickness of the rubber on a rigid base [m], which no block exceeds; None: no limit.
     solver
-        "finite_strain", "half_plane", its function (`solve_scale`,
-        `theory.solve_half_plane`), or any `WaveSolver`.
+        "finite_strain", "half_plane", or any `WaveSolver`.
     smallest_wavelength
         Waves shorter than this are left out [m].
     pressure_classes

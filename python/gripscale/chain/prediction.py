@@ -264,27 +264,15 @@ class ChainResult(Pictured):
 
     def to_dataset(self) -> xr.Dataset:
         """Return everything as a labelled Dataset over the dimension `scale`."""
-        running = {
-            "running_contact_fraction": (
-                self.running_contact_fraction,
-                "real contact area down to the wave",
-                f"{LW}, equation 2",
-            ),
-            "running_friction": (
-                self.running_friction,
-                "friction coefficient down to the wave",
-                f"{LW}, equation 3",
-            ),
-        }
-        data = waves_to_dataset(self.scales).assign(
-            {n: labelled("scale", values, "1", *words) for n, (values, *words) in running.items()}
-            | {
-                f"sines_{part}": labelled(
-                    "wave", getattr(self.sines, part), "m", f"{part} of the waves", CHAIN
-                )
-                for part in ("wavelength", "amplitude")
-            }
-        )
+        data = waves_to_dataset(self.scales)
+        what = {"contact_fraction": "real contact area", "friction": "friction coefficient"}
+        for number, name in enumerate(what, start=2):
+            values, source = getattr(self, f"running_{name}"), f"{LW}, equation {number}"
+            words = f"{what[name]} down to the wave"
+            data[f"running_{name}"] = labelled("scale", values, "1", words, source)
+        for part in ("wavelength", "amplitude"):
+            values, words = getattr(self.sines, part), f"{part} of the waves"
+            data[f"sines_{part}"] = labelled("wave", values, "m", words, CHAIN)
         classes = [
             np.ravel(s.details.get(CLASS_PRESSURES, s.pressure_received)) for s in self.scales
         ]
