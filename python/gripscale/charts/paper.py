@@ -181,9 +181,10 @@ def _draw_mark(figure: Figure, axes: Axes, mark: chart.Mark) -> None:
                                       width=mark.width, coarse=True))  # fmt: skip
         case chart.ShadedBand():
             curves = (np.asarray(values, float) for values in (mark.x, mark.low, mark.high))
-            edge = {"lw": 0.3, "ec": "white"} if mark.edged else {"lw": 0.0}
-            look: dict[str, Any] = {"color": mark.colour, "alpha": mark.alpha, **edge}
-            axes.fill_between(*np.broadcast_arrays(*curves), label=mark.label or None, **look)
+            x, low, high = np.broadcast_arrays(*curves)
+            look: dict[str, Any] = {"color": mark.colour, "alpha": mark.alpha}
+            look |= {"lw": 0.3, "ec": "white"} if mark.edged else {"lw": 0.0}
+            axes.fill_between(x, low, high, label=mark.label or None, **look)
         case chart.Bars():
             x0, x1, y0, y1 = np.broadcast_arrays(mark.x0, mark.x1, mark.y0, mark.y1)
             look = {"color": mark.colour, "alpha": mark.alpha, "lw": 0}
