@@ -74,10 +74,8 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
         case_panel(state), styles={"flex": "1 1 300px", "min-width": "0", "max-width": "100%"}
     )
 
-    def give_room(event: Any) -> None:
-        side.visible = event.new < len(of_case)  # a result has a case of its own
-
-    tabs.param.watch(give_room, "active")
+    # a result has a case of its own
+    tabs.param.watch(lambda event: side.param.update(visible=event.new < len(of_case)), "active")
     body = pn.FlexBox(tabs, side, sizing_mode="stretch_width", align_items="start")
     return column(raw(INTRO), body, max_width=1500)
 

@@ -144,22 +144,6 @@ def solve_chain(
     )
 
 
-def select_waves(sines: SineStack, *, smallest_wavelength: float | None = None) -> list[Sine]:
-    """Return the waves of the chain; raise `InputError` if the limit excludes all of them."""
-    pairs = zip(sines.wavelength, sines.amplitude, strict=True)
-    waves = [Sine(float(wavelength), float(amplitude)) for wavelength, amplitude in pairs]
-    if smallest_wavelength is not None:
-        least = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
-        largest = waves[0].wavelength
-        waves = [wave for wave in waves if wave.wavelength >= least]
-        if not waves:
-            raise InputError(
-                f"smallest_wavelength must not exceed the largest wave, {largest:g} m; "
-                f"got {least:g} m"
-            )
-    return waves
-
-
 class Chain(Checked, model.Model):
     """Model of sine waves: each wave receives the pressure that leaves the contact of the larger.
 
@@ -221,7 +205,17 @@ class Chain(Checked, model.Model):
     ) -> ChainResult:
         """Return the prediction; arguments and errors as for `solve_chain`."""
         checks.instance("sines", sines, SineStack)
-        waves = select_waves(sines, smallest_wavelength=smallest_wavelength)
+        pairs = zip(sines.wavelength.tolist(), sines.amplitude.tolist(), strict=True)
+        waves = [Sine(*pair) for pair in pairs]
+        if smallest_wavelength is not None:
+            least = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+            largest = waves[0].wavelength
+            waves = [wave for wave in waves if wave.wavelength >= least]
+            if not waves:
+                raise InputError(
+                    f"smallest_wavelength must not exceed the largest wave, {largest:g} m; "
+                    f"got {least:g} m"
+                )
         conditions = self.conditions
         before = rubber if conditions is None else conditions.before(rubber)
         require_load_bearing(before, load.pressure, load.time_under(load.footprint))

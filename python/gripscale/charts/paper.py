@@ -134,7 +134,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
         axes.set(**{f"{which}label": axis.label})
         axes.grid(axis.grid, axis=which)
         if axis.margin is not None:
-            axes.margins(**{which: axis.margin})
+            (axes.set_xmargin if which == "x" else axes.set_ymargin)(axis.margin)
         if axis.low != axis.high and None not in (axis.low, axis.high):  # nothing need be drawn
             axes.set(**{f"{which}lim": (axis.low, axis.high)})
     for mark in panel.marks:

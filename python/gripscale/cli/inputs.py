@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Iterator
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -38,26 +37,17 @@ if TYPE_CHECKING:
 _FIGURES = ("png", "pdf")
 
 
-class ExampleName(StrEnum):
-    """Names of the examples."""
-
-    road = "road"
-    synthetic = "synthetic"
-    sweeps = "sweeps"
-    map = "map"
-
-
 @command
 def init(
     folder: Annotated[Path, argument("Where to write; made if needed.", "FOLDER")],
     example: Annotated[
-        ExampleName,
+        str,
         typer.Option(
             help="road: a measured road and a measured tread rubber; synthetic: a made-up road "
             "and a named rubber; sweeps: the same road with a rubber in sweeps at 13 temperatures; "
             "map: a measured map, which needs gripscale[formats] to be read."
         ),
-    ] = ExampleName.road,
+    ] = "road",
 ) -> None:
     """Write a commented case and example data to start from; nothing is overwritten."""
     from gripscale.case_file.examples import EXAMPLES, write_example

@@ -89,7 +89,10 @@ def _conclude(
     """
     case, target = work.case, work.target
     assert result.chain is not None
-    parts: Parts = [*chain_tables(result.chain), LEGEND, *_tables(result)]
+    parts: Parts = [*chain_tables(result.chain), LEGEND, *slopes_table(result.data)]
+    if result.curve is not None:
+        curve = CutOff(result.curve)
+        parts += ["", *(line.strip() for line in curve.lines[1:]), curve.rules_table()]
     if case.surface.measured is not None:
         tables = parts if verbose else [waves_in_brief(result.chain)]
         terminal.print_parts(work.console, ["", *tables])
@@ -133,12 +136,3 @@ def _inputs(case: Case) -> Parts:
         conditions = conditions_lines(case.conditions, case.rubber)
         lines += ["", "Conditions", *(f"  {line}" for line in conditions)]
     return lines
-
-
-def _tables(result: Answer) -> Parts:
-    """Return the tables of an answer: shares by slope, and the rules of the cut-off."""
-    parts: Parts = list(slopes_table(result.data))
-    if result.curve is not None:
-        curve = CutOff(result.curve)
-        parts += ["", *(line.strip() for line in curve.lines[1:]), curve.rules_table()]
-    return parts

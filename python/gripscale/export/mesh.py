@@ -268,18 +268,9 @@ def write_mesh(result: ScaleResult, path: str | Path) -> Path:
     """Write the deformed block of a wave as VTU to `path`; return the path.
 
     Coordinates are those of gripscale, in m: x along the sliding, z up, y = 0. Points are the
-    deformed nodes, with
-
-    - `displacement` [m], from the block at rest with its surface on the mean plane; its mean along
-      the surface is zero in x,
-    - `contact_pressure` [Pa], zero outside the contact, in the block and on its other sides too, so
-      that filters that integrate or scale meet no missing numbers.
-
-    Cells, bilinear or biquadratic as solved, carry the means over the deformed element of
-
-    - `stress` [Pa], the Cauchy stress, positive in tension, as nine components xx, xy, ... zz,
-    - `pressure` [Pa], less a third of its trace,
-    - `volume_ratio` [-], J.
+    deformed nodes, with `displacement` [m] and `contact_pressure` [Pa], zero outside the contact.
+    Cells, bilinear or biquadratic as solved, carry means over the deformed element: `stress` [Pa],
+    positive in tension, as xx, xy, ... zz, `pressure` [Pa], `volume_ratio` [-] (docs/export.md).
 
     The `result` is of the finite-strain block, solved or read from a file. If it is not in
     equilibrium (its status is neither converged nor that of a missed accuracy), cells have no data.
