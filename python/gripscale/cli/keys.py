@@ -22,8 +22,8 @@ from gripscale.questions.terminal import (
 
 
 def _key(text: str, kind: Any = str, *names: str, metavar: str | None = None) -> Any:
-    stated = kind if kind is bool else kind | None
-    return Annotated[stated, option(text, *names, metavar=metavar)]
+    value_type = kind if kind is bool else kind | None
+    return Annotated[value_type, option(text, *names, metavar=metavar)]
 
 
 KEYS: dict[str, Any] = {
@@ -95,8 +95,8 @@ def takes_keys(*names: str) -> Callable[[Callable[..., None]], Callable[..., Non
         @wraps(body)
         def inside(**options: Any) -> None:
             typed = {name: options.pop(name) for name in names}
-            stated = {n: v for n, v in typed.items() if v is not None and v is not False}
-            body(keys={n: _READ[n](v) if n in _READ else v for n, v in stated.items()}, **options)
+            values = {n: v for n, v in typed.items() if v is not None and v is not False}
+            body(keys={n: _READ[n](v) if n in _READ else v for n, v in values.items()}, **options)
 
         signature = inspect.signature(body, eval_str=True)
         parameters = [item for item in signature.parameters.values() if item.name != "keys"]
