@@ -26,7 +26,7 @@ def _key(text: str, kind: Any = str, *names: str, metavar: str | None = None) ->
     return Annotated[value_type, option(text, *names, metavar=metavar)]
 
 
-KEYS: dict[str, Any] = {
+KEY_OPTIONS: dict[str, Any] = {
     # of [surface]
     "scales": _key("Number of sine waves.", int),
     "smallest_wavelength": _key('The last wave, such as "0.1 mm".'),
@@ -101,9 +101,11 @@ def takes_keys(*names: str) -> Callable[[Callable[..., None]], Callable[..., Non
         signature = inspect.signature(body, eval_str=True)
         parameters = [item for item in signature.parameters.values() if item.name != "keys"]
         for name in names:
-            default = False if get_args(KEYS[name])[0] is bool else None
+            default = False if get_args(KEY_OPTIONS[name])[0] is bool else None
             kind = inspect.Parameter.KEYWORD_ONLY
-            parameters.append(inspect.Parameter(name, kind, default=default, annotation=KEYS[name]))
+            parameters.append(
+                inspect.Parameter(name, kind, default=default, annotation=KEY_OPTIONS[name])
+            )
         inside.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
         inside.__annotations__ = {item.name: item.annotation for item in parameters}
         return inside
