@@ -101,11 +101,9 @@ def takes_keys(*names: str) -> Callable[[Callable[..., None]], Callable[..., Non
         signature = inspect.signature(body, eval_str=True)
         parameters = [item for item in signature.parameters.values() if item.name != "keys"]
         for name in names:
-            default = False if get_args(KEY_OPTIONS[name])[0] is bool else None
-            kind = inspect.Parameter.KEYWORD_ONLY
-            parameters.append(
-                inspect.Parameter(name, kind, default=default, annotation=KEY_OPTIONS[name])
-            )
+            kind, added = KEY_OPTIONS[name], inspect.Parameter.KEYWORD_ONLY
+            default = False if get_args(kind)[0] is bool else None
+            parameters.append(inspect.Parameter(name, added, default=default, annotation=kind))
         inside.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
         inside.__annotations__ = {item.name: item.annotation for item in parameters}
         return inside
