@@ -6,25 +6,8 @@ wavenumber q meets the rubber at the temperature and the strain of its scale,
     E*(w, q) = (f E'(a_T w) + i g E''(a_T w)) / b_T,     a_T, b_T, f and g functions of |q|
 
 with the modulus ratios f and g exact: no relaxation times have to be fitted. Between the scales
-where they are known the logarithms of the factors are linear in log |q|.
-
-How far typical laws may be off: conditions with one of them a standard error away.
-A typical tread has the scatter between measured compounds, typical thermal constants that between
-rubbers. Whether a strain sweep was made in tension or in shear is as likely one as the other, and
-so is a single or a double amplitude that nothing states. A master curve of unknown strain was
-measured at 0.04 to 0.3 %, two times in three.
-
-Which strain softens the rubber on a scale, and how well it follows blocks of softening rubber.
-A harmonic u_q of the surface's displacement strains an incompressible half-space at depth y by
-
-    e = |q|^2 y exp(-|q| y) u_q,    e_zz = e,  e_ij = -e q_i q_j/|q|^2,  e_iz = i e q_i/|q|
-
-(K. L. Johnson, "Contact Mechanics" (1985), section 13.2, of a wave without friction), most at
-y = 1/|q|. The strain of a scale is that of all harmonics at this depth: the equivalent uniaxial
-amplitude sqrt(2/3 e:e), its mean over the contact times `DEPTH_FACTOR`. A chain has one wave at a
-time and takes `SLOPE_FACTOR` times the rms slope in its contact.
-
-Measured by studies/strain_rule: docs/strain-rule.md.
+where they are known the logarithms of the factors are linear in log |q|. docs/derivations.md says
+which strain softens a scale, and how far typical laws may be off.
 """
 
 from __future__ import annotations

@@ -1,18 +1,11 @@
 """The tables of a file of moduli, each with what the lines above it state.
 
-A text or Excel file may hold several tables, each with its temperature, below each other or side by
-side. Lines that are no rows of
-numbers part the tables where they hold titles or state a temperature; a table without titles has
-those of the table before. Of several tables those without frequency and modulus are left out: steps
-that condition the sample. RepTate's files begin with a line of parameters such as T=-35;Mw=13.5;
-where T is in degrees Celsius; their columns are angular frequency [rad/s], G' and G'' [Pa] unless
-they have other titles, and the constants of the shift stand among the parameters of a .tts file.
-
-Compliances J', J'' of shear or D', D'' of tension become moduli by
-
-    G' = J'/(J'^2 + J''^2),   G'' = J''/(J'^2 + J''^2)
-
-as G* = 1/J* with J* = J' - i J'' (J. D. Ferry, Viscoelastic Properties of Polymers (1980), ch. 1).
+Tables stand below each other or side by side, parted by lines that hold titles or state a
+temperature; one without titles has those of the table before. Of several tables those without
+frequency and modulus are left out: steps that condition the sample. RepTate's files begin with a
+line of parameters such as T=-35;Mw=13.5; and have rad/s and Pa. Compliances J' and J'', or D' and
+D'', become moduli by G' = J'/(J'^2 + J''^2), G'' = J''/(J'^2 + J''^2), as G* = 1/J* with
+J* = J' - i J'' (J. D. Ferry, Viscoelastic Properties of Polymers (1980), ch. 1).
 """
 
 from __future__ import annotations

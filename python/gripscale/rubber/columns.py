@@ -1,29 +1,14 @@
 """Tables of moduli as instruments print them: what their titles mean, and Young's moduli of rows.
 
-Titles are read in English and German, those of frequency and moduli in French and Chinese, too:
-
-| quantity | titles |
-|---|---|
-| temperature | T, Ts, Temp., Temperature, Temperatur, Probentemperatur |
-| frequency | f, freq, Frequency, Frequenz, Angular frequency, Kreisfrequenz, omega, Pulsation |
-| storage | E', G', E_stor, Storage modulus, Speichermodul |
-| loss | E'', G'', E", E_loss, Loss modulus, Verlustmodul |
-| loss_factor | tan delta, tan(d), Loss factor, Verlustfaktor, Damping factor |
-| phase | delta, Phase angle, Loss angle, Phasenwinkel, Verlustwinkel |
-| magnitude | E*, G*, |E*|, Complex modulus, Komplexer Modul |
-| strain | Strain, Shear strain, Strain amplitude, Dehnung, Verformung, Deformation, gamma |
-
-A logarithm (log, log10, lg or ln of one of these, such as log f or log10(E'/Pa)) is raised again,
-and the a_T of a shifted frequency (a_T f) is no part of its title. Two of E', E'', |E*| and tan
-delta, or the angle delta, state the modulus:
+Titles are read in several languages (docs/temperature.md lists the English and German ones). A
+logarithm of one, such as log f or log10(E'/Pa), is raised again, and the a_T of a shifted frequency
+is no part of its title. Two of E', E'', |E*| and tan delta, or the angle delta, state the modulus:
 
     E'' = E' tan d,   E' = E''/tan d,   E' = |E*|/sqrt(1 + tan^2 d)
 
-Each modulus has the unit of its own title. A loss factor may be in %, an angle states its unit.
-An angular frequency without a unit, or in 1/s, is in rad/s. Rows whose frequency or modulus is
-zero or less, up to a tenth of them, count as missing: faults of a measurement, not of the columns.
-
-A shear modulus becomes the Young's modulus of the incompressible solid by E = 3 G.
+An angular frequency without a unit, or in 1/s, is in rad/s. Rows whose frequency or modulus is zero
+or less, up to a tenth of them, count as missing: faults of a measurement, not of the columns. A
+shear modulus becomes the Young's modulus of the incompressible solid by E = 3 G.
 """
 
 from __future__ import annotations

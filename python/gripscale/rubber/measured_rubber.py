@@ -1,20 +1,12 @@
 """A rubber together with the measurement it was fitted to, and its fit for a case.
 
 No passive solid follows a measured master curve over fifteen decades within its scatter. A case
-excites a few of them, and there the series of its rubber has to be right: the weight of a row is
-what it decides of friction and contact area. In Persson's theory at light loads, waves of rms slope
-s_i that excite the rubber at w_i have
-
-    A_r/A_0 ~ 1/G_n,   mu ~ sum_i s_i^2 E''(w_i)/G_i,   G_i^2 = sum_(j<=i) s_j^2 |E*(w_j)|^2
-
-(B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626), so that wave i has the
-share c_i = s_i^2 E''_i/(G_i mu) of the friction and a_i = s_i^2 |E*_i|^2/G_n^2 of the area. A row
-at w has the weight
+excites a few of them, and there the series of its rubber has to be right: a row at w has the weight
 
     1 + 100 c(w)/max c,   c(w) = sum_i (c_i + a_i) 2 w w_i/(w^2 + w_i^2),
 
-a wave counting as far as the loss of a Maxwell element reaches. A hundred is enough: with 30 the
-misfit of two treads where it decides differs by 0.2 %.
+c_i and a_i being the shares of wave i in friction and area by Persson's theory at light loads (J.
+Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626): docs/derivations.md.
 """
 
 from __future__ import annotations

@@ -1,24 +1,14 @@
 """From a master curve to a Prony series, with what the data leave open and a report on both.
 
 Relaxation times are log-spaced over the measured band and two decades beyond its ends. Moduli are
-the non-negative least squares of `maxwell_fit`.
-
-The other series that fit are extremes: how far E*(w) may go before the data object. With A z = b
-the equations of the fit in units of the scatter, and f(z) one of E', E'' at one frequency, an
-extreme is the z >= 0 with the largest (or least) f(z) for which
+the non-negative least squares of `maxwell_fit`. The other series that fit are extremes: the z >= 0
+with the largest (or least) E' or E'' at a frequency for which
 
     |A z - b|^2 <= min |A z - b|^2 + 9,
 
-three standard deviations of f alone (profile likelihood; D. J. Venzon & S. H. Moolgavkar, Appl.
-Stat. 37 (1988) 87, doi:10.2307/2347496). f is held at a value by one heavy row, and the value is
-moved until the limit is met. The smoothing is so weak that it cannot rule out any spectrum the
-data allow by more than a standard deviation; what bounds the extremes is that moduli are not
-negative, relaxation times lie within two decades of the band, and the glassy modulus leaves
-Poisson's ratio positive.
-
-A Prony series in a table of relaxation times and moduli, such as tau [s] and E_i [MPa].
-The modulus of a relaxation time of inf is the equilibrium modulus. Shear moduli are taken three
-times, as everywhere.
+A z = b being the fit in units of the scatter (profile likelihood; D. J. Venzon & S. H. Moolgavkar,
+Appl. Stat. 37 (1988) 87, doi:10.2307/2347496): docs/derivations.md. In a table of relaxation times
+and moduli, the modulus at inf is the equilibrium modulus, and shear moduli are taken three times.
 """
 
 from __future__ import annotations

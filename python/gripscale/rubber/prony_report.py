@@ -1,21 +1,10 @@
 """How well a Prony series fits its master curve, and what is doubtful about it.
 
-Local misfits are means over nine neighbouring rows, whose own scatter is a third of a row's. Where
-even the best non-negative series misses them, the measured E' and E'' are not those of one linear
-solid (the Kramers-Kronig relation ties each to the other): vertical shifts left out, strain
-amplitudes that differ between sets, or a non-linear filler network are the usual causes.
-
-Swapped moduli: a linear solid that relaxes has E' = E_inf + sum E_i x^2/(1 + x^2) and E'' = sum E_i
-x/(1 + x^2), with x = w tau_i and no negative modulus (Ferry, Viscoelastic Properties of Polymers,
-3rd ed. (1980), ch. 3). The best such series is fitted to the two curves as they are and the other
-way round. Rubbers miss the first by their scatter; swapped, E' would fall beyond the transition
-while E'' rises, or E'' exceed E' many times on a plateau, which no such series does.
-
-A curve is in doubt if the nearest linear solid misses it by a factor of `math.exp(0.35)` = 1.42 in
-the root mean square of E' and E''. Measured and synthetic rubbers with ten per cent of noise have
-at most 0.16, a curve whose E'' is three times too large or too small at every row has 0.35 to 0.5.
-Where E'' read as another quantity, or in another unit, makes a linear solid of the same curve, that
-is the likely cause.
+Local misfits are means over nine neighbouring rows. Where even the best non-negative series misses
+them, the measured E' and E'' are not those of one linear solid (Kramers-Kronig). Swapped moduli
+are found by fitting the best series to the two curves as they are and the other way round. A curve
+is in doubt if the nearest linear solid misses it by a factor of `math.exp(0.35)` = 1.42 in the root
+mean square; measured and synthetic rubbers have at most 0.16. docs/derivations.md has the reasons.
 """
 
 from __future__ import annotations

@@ -1,16 +1,9 @@
 """Cleaning of measured profiles and maps: crop, dropouts, borders, spikes, trend or form.
 
 Each step is reported. Missing heights stay missing: statistics skip them, nothing is interpolated.
-
-A spike goes out and back within a few samples. It is a run of at most three samples that stands off
-the nearest height on both sides of it, to the same side and by a slope of 3 or more. An edge of a
-stone stands off on one side only, and stays. Of lines of synthetic surfaces with spikes of one to
-three samples this rule leaves area and friction within 8 % of the lines without them
-(`tests/half_space/test_spikes.py`).
-
-ISO 13473-1:2019, section 7.5, takes both neighbours of every steep step. That serves its mean
-profile depth (`gripscale.surface.texture`). For friction it takes the edges of stones, 4 % of the
-points of a coarse road, and leaves the middle of a spike three samples wide.
+A spike goes out and back within a few samples: a run of at most three that stands off the nearest
+height on both sides of it, to the same side and by a slope of 3 or more. An edge of a stone stands
+off on one side only, and stays; ISO 13473-1:2019, section 7.5, takes it, too (docs/derivations.md).
 """
 
 from __future__ import annotations

@@ -1,26 +1,12 @@
 """Whether a road has a direction: profiles along and across sliding, or the texture of a map.
 
 The step from lines to their surface takes an isotropic one (`gripscale.half_space.line_to_map`). On
-ridges it errs, by the ratio of slopes along and across the sliding direction,
+ridges it errs by `AREA_OVER_TRUTH`, a function of the ratio of slopes along and across,
 
-    rho = (C_along(l) / C_across(l))^(1/2),   l half the cut-off,
+    rho = (C_along(l) / C_across(l))^(1/2),   l half the cut-off.
 
-from the height difference correlations C. `AREA_OVER_TRUTH` holds how much: Gaussian waves 1.5, 2,
-3 and 6 times as long one way, four maps each, 3 bar and 0.3 m/s
-(`python -m tests.verification.known_surfaces --ridges`). Frictions err by less than 20 %.
-
-A map tells it by its texture aspect ratio (`gripscale.surface.direction`).
-
-Autocorrelation of a map: how long its texture is, and which way it runs.
-The autocorrelation of the heights z over their plane, without wrapping round, is
-
-    f(t) = < z(r) z(r + t) > / < z^2 >,
-
-each < > over the pairs of points that are there. The autocorrelation length Sal is the shortest way
-from the middle to where f falls to 0.2, the texture aspect ratio Str that length over the longest;
-both are straight ways on which f is larger (ISO 25178-2:2021). The texture direction Std is the
-angle to x of the ridges: across the direction in which the power spectrum, summed from the middle
-outwards and over some 15 degrees, is largest.
+A map tells it by its autocorrelation, f(t) = < z(r) z(r + t) > / < z^2 >: the lengths Sal and Str
+and the direction Std of ISO 25178-2:2021. docs/derivations.md has both.
 """
 
 from __future__ import annotations

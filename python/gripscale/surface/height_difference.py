@@ -1,22 +1,11 @@
 """The height difference correlation of measured profiles, its plateau and its power law.
 
     C_z(l) = < (z(x + l) - z(x))^2 >                                        [LW eq. 5]
+    C_z(l) = xi_perp^2 (l / xi_par)^(2 H)  below xi_par, xi_perp^2 above     [LW eq. 6]
 
-averaged over all pairs of points a lag l apart in which both heights are valid. Rubber touches the
-upper part of a surface only; where that differs from the valleys, C_z of the upper part alone is
-nearer to what the rubber meets (`top_height_fraction`).
-
-Beyond the longest wavelength of a surface, heights a lag apart are unrelated and C_z is twice the
-variance: this is its plateau. It begins at the first lag at which C_z reaches 90 % of its own mean
-over all larger lags. A curve that still rises stays far below that mean; a curve on its plateau
-scatters about it, and a measured plateau, which is finite, drifts by as much as a tenth.
-
-A self-affine surface has a power law up to a cut-off, and the plateau above it:
-
-    C_z(l) = xi_perp^2 (l / xi_par)^(6 - 2 D)   below the cut-off xi_par,
-    C_z(l) = xi_perp^2                          above it,                   [LW eq. 6]
-
-with the fractal dimension D of the surface and the Hurst exponent H = 3 - D, so that 6 - 2D = 2H.
+averaged over all pairs of points a lag l apart in which both heights are valid. The plateau begins
+at the first lag at which C_z reaches 90 % of its own mean over all larger lags: a curve that still
+rises stays far below that mean, and a measured plateau drifts by as much as a tenth.
 
 [LW] Lind & Wangenheim, ASME IMECE2014-37998, eq. 6 after Klueppel & Heinrich, Rubber Chem. Technol.
 73 (2000) 578.

@@ -1,28 +1,13 @@
 """Maps on a grid below a header of pairs: surface data format, grid of ESRI, field of Gwyddion.
 
-The surface data format (.sdf), ISO 25178-71, lists counts profile by profile:
-
-aISO-1.0            version
-    NumPoints   = 512   points along x of each profile
-    NumProfiles = 256   profiles along y
-    Xscale      = 1e-6  distance of points [m], Yscale that of profiles
-    Zscale      = 1e-9  height of one count [m]
-    *                   the heights follow
-    *                   end; what follows is no part of the map
-
-A grid of ESRI (.asc) lists heights row by row from north to south, in units that it does not state:
-
-    ncols 400           points along x of each row, nrows that of rows
-    cellsize 0.2        distance of points; or dx and dy
-    NODATA_value -9999  a missing height
-
-A simple field of Gwyddion (.gsf) holds 4-byte numbers, row by row, behind its header and one to
-four empty bytes (http://gwyddion.net/documentation/user-guide-en/gsf.html):
-
-    XRes = 400          points along x of each row, YRes that of rows
-    XReal = 1e-3        length along x [XYUnits], YReal that along y
+| format | points along x, y | steps | heights |
+|---|---|---|---|
+| .sdf (ISO 25178) | NumPoints, NumProfiles | Xscale, Yscale [m] | counts of Zscale [m], between * |
+| .asc, ESRI | ncols, nrows | cellsize, or dx and dy | north to south; NODATA_value is missing |
+| .gsf, Gwyddion | XRes, YRes | XReal, YReal over them | 4-byte numbers behind 1 to 4 empty bytes |
 
 Names are taken in any case, with =, a colon or blanks before their value. BAD is a missing height.
+The field is that of http://gwyddion.net/documentation/user-guide-en/gsf.html.
 """
 
 from __future__ import annotations

@@ -1,27 +1,12 @@
 """The roughness that rubber meets: flanks it cannot follow, and the Gaussian cut-off.
 
-All models of measured heights take them in this order, and so do correlation, spectra and slopes
-of measured lines and maps. Texture by standards takes the heights as they are.
+    e(r) = max_r' (z(r') - s |r - r'|)                          the envelope without slopes above s
+    T(q) = exp(-ln 2 (q / q_c)^2),    q_c = 2 pi / lambda_c     half of a wave of the cut-off
 
-The envelope of the heights z without slopes above s is the smallest surface above them that rubber
-can follow (E. J. McShane, Bull. Amer. Math. Soc. 40 (1934) 837,
-doi:10.1090/S0002-9904-1934-05978-0),
-
-    e(r) = max_r' (z(r') - s |r - r'|),
-
-the upper envelope of cones on all points. A surface of rubber that follows a flank of slope s is
-stretched by up to sqrt(1 + s^2). The envelope keeps every summit, and every face below that slope.
-
-The cut-off is that of surface metrology, ISO 16610-21 for lines and ISO 16610-61 for maps: a
-Gaussian that transmits half the amplitude of a wave of the cut-off length lambda_c,
-
-    T(q) = exp(-ln 2 (q / q_c)^2),    q_c = 2 pi / lambda_c,
-
-1/16 of a wave of half that length and 0.84 of twice of it. A sharp cut of the spectrum overshoots
-beside a step by 9 % of its height, whatever the cut-off (J. W. Gibbs, Nature 59 (1899) 606): rubber
-sits on the false crest. A Gaussian does not overshoot. Tiles with grooves of 1 mm by 0.5 mm and a
-cut-off of 0.4 mm get an area of 0.14 with a sharp cut, 0.73 with the Gaussian, and 0.75 with their
-edges rounded by 50 um in place of a cut (`tests/half_space/test_steps.py`).
+The envelope is that of E. J. McShane, Bull. Amer. Math. Soc. 40 (1934) 837,
+doi:10.1090/S0002-9904-1934-05978-0; the Gaussian that of ISO 16610-21 and 16610-61. All models of
+measured heights take them in this order, and so do correlation, spectra and slopes; texture by
+standards takes the heights as they are. docs/derivations.md has the reasons.
 """
 
 from __future__ import annotations

@@ -5,12 +5,8 @@ Second differences of heights a lag of `a` steps apart, on the smoothest stretch
     S(a) = < (z(x + a) - 2 z(x) + z(x - a))^2 > / 6 = s^2 + c a^p,    a = 1, 2, 4,
 
 hold the variance s^2 of the noise at every lag: the nugget of geostatistics (N. Cressie, Statistics
-for Spatial Data (1993), sec. 2.3). Those of roughness grow, by a power p from 1, of heights with
-jumps, to 4, of smooth ones. On the whole of a road S is that of its flanks, many times the noise.
-
-Rubber lies on the tops. The noise adds its mean square slope, down to the cut-off, to that of the
-highest tenth of the line, by its median magnitude. The contact area is as 1/slope (B. N. J.
-Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626), the friction nearly as the slope.
+for Spatial Data (1993), sec. 2.3). Its mean square slope, down to the cut-off, adds to that of the
+tops of the line (docs/derivations.md).
 """
 
 from __future__ import annotations

@@ -1,18 +1,9 @@
 """Findings about implausible surfaces, for the person who measured them.
 
 No surface is refused. Limits are wide: random rough profiles of any Hurst exponent and the shipped
-road between its plates pass all of them.
-
-Plates and supports in a profile: stretches that are no road, and the part between them.
-A stretch is suspect where its heights stand off the others,
-
-    |z - line| > 6 s,    s = 1.4826 median |z - line|,
-
-about a line through the medians of pieces (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
-doi:10.1080/01621459.1968.10480934), which a plate does not pull, its sides are steps, not slopes,
-and it is flat, not round as an exposed stone; or where it is smooth: the rms departure from its own
-line is below 0.02 of that of the usual piece. Heights missing at its ends belong to it, as steel
-shines. What happens often belongs to the surface, as grooves and joints do.
+road between its plates pass all of them. Plates and supports are stretches that are no road: flat
+ones with steps at their sides that stand off the others, |z - line| > 6 s with
+s = 1.4826 median |z - line|, or smooth ones (docs/derivations.md).
 """
 
 from __future__ import annotations

@@ -1,20 +1,11 @@
 """Profiles and maps from text files, with stated units and codes for missing heights.
 
 A profile stands in two columns with units, in rows of either direction, in one column of heights
-whose step is stated, or in the layout of the CAPTIF stationary laser profilometer: point number,
-distance and height, parted by tabs, below a line "*****DATA*****" and a title line that names
-millimetres. CAPTIF's point numbers are not consecutive (they jump and repeat where scans are
-joined), while the distance column goes on at a constant step printed to three decimals: the step is
-therefore that of the distance column.
-
-A map stands in a table of heights or in points (x, y, z). A table is an image: its rows run along
-y, its columns along x, and it has no steps. Points may come in any order.
-
-Missing heights are rows or points left out, empty cells, or codes such as -9999. A number is such a
-code only if it is in use as one and lies ten times farther from all other heights than they lie
-from each other: no texture has a height like that.
-
-Units are stated by the file or by the caller, never guessed.
+whose step is stated, or in CAPTIF's layout, whose point numbers jump where scans are joined: the
+step is that of the distance column. A map stands in a table of heights, an image whose rows run
+along y, or in points (x, y, z) in any order. Units are stated by the file or by the caller, never
+guessed. Missing heights are rows left out, empty cells, or codes such as -9999: numbers in use as
+one that lie ten times farther from all other heights than they lie from each other.
 """
 
 from __future__ import annotations
