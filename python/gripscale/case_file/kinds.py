@@ -14,18 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.case_file.proposals import (
-    ENOUGH_LINES,
-    UNITS_OF_RUBBER,
-    UNITS_OF_SURFACE,
-    holds_moduli,
-    open_rubber,
-    open_shift,
-    open_strain_sweeps,
-    open_surface,
-    read_with,
-    reading_keys,
-)
+from gripscale.case_file import proposals
 from gripscale.core import ZERO_CELSIUS, GripscaleError, checks, in_mm
 from gripscale.core.checks import shortened
 from gripscale.core.units import spelled
@@ -89,14 +78,14 @@ class Taken:
 # How the files of each kind are read, and the keys that nothing states; of moduli and of surfaces
 # all kinds alike.
 READERS: dict[str, Callable[[Path, FileKeys], tuple[Any, dict[str, Any]]]] = {
-    "strain-sweep": lambda path, _: open_strain_sweeps([path]),
-    "prony": lambda path, _: read_with(read_prony_table, path, UNITS_OF_RUBBER),
-    "moduli": lambda path, keys: open_rubber([path], keys.layout),
-    "shift": lambda path, _: open_shift(path),
+    "strain-sweep": lambda path, _: proposals.open_strain_sweeps([path]),
+    "prony": lambda path, _: proposals.read_with(read_prony_table, path, proposals.UNITS_OF_RUBBER),
+    "moduli": lambda path, keys: proposals.open_rubber([path], keys.layout),
+    "shift": lambda path, _: proposals.open_shift(path),
     "friction": lambda path, _: (read_measured_friction(path), {}),
     "spectrum": lambda path, _: (read_spectrum(path), {}),
-    "surface": lambda path, keys: open_surface(
-        path, keys.step, UNITS_OF_SURFACE, **reading_keys(keys.surface)
+    "surface": lambda path, keys: proposals.open_surface(
+        path, keys.step, proposals.UNITS_OF_SURFACE, **proposals.reading_keys(keys.surface)
     ),
 }
 _READER_OF = {**dict.fromkeys(SURFACES[:2], "surface"), **dict.fromkeys(RUBBERS[:3], "moduli")}
@@ -145,12 +134,12 @@ def _seems(path: Path, keys: FileKeys) -> list[str]:
     titled: set[str | None] = set()
     with suppress(GripscaleError):
         of_titles = replace(layout, frequency=None)
-        blocks = read_blocks(path, of_titles, temperature_unit="C", most=ENOUGH_LINES)
+        blocks = read_blocks(path, of_titles, temperature_unit="C", most=proposals.ENOUGH_LINES)
         titled = {quantity(name) for block in blocks for name in block.table.names}
         titled |= {"loss" for block in blocks if other_content(block.table)}
     if "strain" in titled and holds_strain_sweeps(path):
         return ["strain-sweep"]
-    if titled & {"frequency", "storage", "loss"} or holds_moduli(path, layout):
+    if titled & {"frequency", "storage", "loss"} or proposals.holds_moduli(path, layout):
         return ["moduli"]
     if titled and {quantity(n) for n in blocks[0].table.names[:1]} & {"temperature", "strain"}:
         return ["shift", "friction"]  # no distances

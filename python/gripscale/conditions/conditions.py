@@ -92,12 +92,6 @@ def water_film(water: object) -> float:
 SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable, TypicalTread)}
 
 
-def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
-    """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
-    law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
-    return law
-
-
 class Conditions(Checked):
     """Effects on the rubber as measured, the area term and water; each is off by default.
 
@@ -169,7 +163,7 @@ class Conditions(Checked):
         """Return the conditions of `to_dict`; raise `InputError` if a value cannot be used."""
         effects = dict(values)
         laws: dict[str, Callable[[Any], Any]] = {
-            "softening": softening_from_dict,
+            "softening": partial(checks.of_kind, SOFTENING_LAWS, "softening"),
             "heat": partial(checks.from_mapping, ThermalProperties, "heat"),
             "counterface": partial(checks.from_mapping, ThermalProperties, "counterface"),
             "shear_stress": shear_stress_from_dict,

@@ -17,7 +17,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -67,23 +67,6 @@ COUNTERFACES = {"stone": STONE, "concrete": CONCRETE, "glass": GLASS, "steel": S
 """Counterfaces by the word for their material."""
 COUNTERFACE_BY_KIND = {"surface": STONE, "road": STONE, "floor": CONCRETE, "counterface": STEEL}
 """Counterface of each kind of surface where none is stated."""
-
-
-class DepthsOfLoss(Protocol):
-    """A distribution of the depth Z at which energy is lost, with the means temperatures need."""
-
-    @property
-    def mean(self) -> float:
-        """Mean depth [m]."""
-
-    def decay(self, m: ComplexArray) -> ComplexArray:
-        """Return E exp(-m Z) for `m` [1/m], same shape."""
-
-    def decay_between(self, m: ComplexArray) -> ComplexArray:
-        """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
-
-    def spread(self, length: float, of: Distances = "depth") -> float:
-        """Return E ierfc(distance / length), ierfc being the integral of erfc."""
 
 
 # Z, |Z - Z'| and Z + Z'.
@@ -345,6 +328,10 @@ class LossLayers:
         """Return e_i, shape (..., layers)."""
         height = np.multiply.outer(m, np.diff(self.edges))
         return np.asarray(-np.expm1(-height) / height)
+
+
+DepthsOfLoss: TypeAlias = LossDepth | LossLayers
+"""A distribution of the depth Z at which energy is lost, with the means temperatures need."""
 
 
 def _i2erfc(x: Array) -> Array:

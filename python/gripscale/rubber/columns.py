@@ -142,23 +142,24 @@ def with_logarithms(line: str) -> str:
     return _LOGARITHM.sub(word, line)
 
 
+def with_numbers(table: TextTable, at: int, title: ColumnTitle, numbers: Array) -> TextTable:
+    """Return a table with other numbers, and another title, in a column."""
+    cells = (repr(float(number)).replace(".", table.decimal) for number in numbers)
+    rows = [[*row[:at], cell, *row[at + 1 :]] for row, cell in zip(table.rows, cells, strict=True)]
+    columns = [*table.columns[:at], title, *table.columns[at + 1 :]]
+    return replace(table, columns=columns, rows=rows)
+
+
 def raised(table: TextTable) -> TextTable:
     """Return a table with the numbers in place of their logarithms."""
     for at, title in enumerate(table.columns):
         logarithm = _RAISED.fullmatch(title.name)
-        if logarithm is None or quantity(title.name) is None:
-            continue
-        base = math.e if logarithm[1] == "ln" else 10.0
-        exponents = table.numbers(at, "the logarithm of a number", missing=True)
-        with np.errstate(over="ignore"):
-            numbers = base**exponents
-        cells = [repr(float(number)).replace(".", table.decimal) for number in numbers]
-        rows = [
-            [*row[:at], cell, *row[at + 1 :]] for row, cell in zip(table.rows, cells, strict=True)
-        ]
-        columns = [*table.columns]
-        columns[at] = replace(title, name=logarithm[2])
-        table = replace(table, columns=columns, rows=rows)
+        if logarithm is not None and quantity(title.name) is not None:
+            base = math.e if logarithm[1] == "ln" else 10.0
+            exponents = table.numbers(at, "the logarithm of a number", missing=True)
+            with np.errstate(over="ignore"):
+                numbers = base**exponents
+            table = with_numbers(table, at, replace(title, name=logarithm[2]), numbers)
     return table
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.core import Array, Described, InputError, Mask, checks, in_mm
-from gripscale.surface.long_waves import long_waves, mean_square
+from gripscale.surface.low_pass import long_waves, mean_square
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")
@@ -113,7 +113,7 @@ def clean(
     detrend : {"linear", "mean", "none"}, optional
         Trend to subtract, fitted to the valid heights.
     longest_wavelength : float, optional
-        Cut-off [m] beyond which waves are taken out, see `gripscale.surface.long_waves`; None keeps
+        Cut-off [m] beyond which waves are taken out, see `gripscale.surface.low_pass`; None keeps
         them.
     """
     checks.instance("profile", profile, Profile)

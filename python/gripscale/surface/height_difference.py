@@ -296,6 +296,7 @@ def log_weights(lag: Array) -> Array:
 
 _FEWEST_LAGS = 4  # lags a power law must cover
 _SHORTEST_RANGE = 0.5  # and decades
+_STRAIGHT = 0.02  # largest rms departure from a power law [decades of C_z]
 
 
 class SelfAffineFit(Checked):
@@ -332,13 +333,13 @@ class SelfAffineFit(Checked):
         return np.asarray(self.xi_perpendicular**2 * below ** (2.0 * self.hurst))
 
 
-def fit_self_affine(hdc: HeightDifference, *, tolerance: float = 0.02) -> SelfAffineFit:
+def fit_self_affine(hdc: HeightDifference) -> SelfAffineFit:
     """Find the power law and the plateau of a height difference correlation.
 
     The range of the power law is the widest range of lags below the plateau over which a straight
-    line in log C_z departs by no more than `tolerance` rms. If none has half a decade, the
-    straightest range of that width is taken, and `residual` exceeds `tolerance`: the surface is
-    then not self-affine. Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or
+    line in log C_z departs by no more than 0.02 decades rms. If none has half a decade, the
+    straightest range of that width is taken, and `residual` exceeds this: the surface is then not
+    self-affine. Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or
     does not rise before it.
 
         >>> f"{gs.fit_self_affine(gs.height_difference(road)).hurst:.2f}"
@@ -348,11 +349,8 @@ def fit_self_affine(hdc: HeightDifference, *, tolerance: float = 0.02) -> SelfAf
     ----------
     hdc : HeightDifference
         The measured curve; it must reach its plateau.
-    tolerance : float, optional
-        Largest rms departure from the power law, in decades of C_z.
     """
     checks.instance("hdc", hdc, HeightDifference)
-    checks.positive("tolerance", tolerance)
     require_positive(hdc)
     plateau = find_plateau(hdc)
     if plateau is None:
@@ -375,7 +373,7 @@ def fit_self_affine(hdc: HeightDifference, *, tolerance: float = 0.02) -> SelfAf
             f"got {lag.size} lags up to {lag[-1]:.4g} m"
         )
     residuals = [_line(lag[i:j], value[i:j])[2] for i, j in ranges]
-    straight = [r for r, residual in zip(ranges, residuals, strict=True) if residual <= tolerance]
+    straight = [r for r, residual in zip(ranges, residuals, strict=True) if residual <= _STRAIGHT]
     first, last = (
         max(straight, key=lambda r: float(np.log10(lag[r[1] - 1] / lag[r[0]])))
         if straight

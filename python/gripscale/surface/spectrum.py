@@ -304,7 +304,7 @@ _TAIL_POINTS = 4  # last points of a spectrum whose power law is continued
 _SLOWEST_FALL = 1.0  # least exponent of C_1 beyond them: with less the variance would be infinite
 
 
-def areal_spectrum(spectrum: ProfileSpectrum, *, per_decade: int = _PER_DECADE) -> ArealSpectrum:
+def areal_spectrum(spectrum: ProfileSpectrum) -> ArealSpectrum:
     """Return the spectrum of the isotropic surface whose lines have a measured one.
 
     The Abel equation is solved for the C >= 0 at the averaged wavenumbers that fits C_1 there best,
@@ -315,14 +315,12 @@ def areal_spectrum(spectrum: ProfileSpectrum, *, per_decade: int = _PER_DECADE) 
     Parameters
     ----------
     spectrum : ProfileSpectrum
-        Of lines in any direction.
-    per_decade : int
-        Wavenumbers a decade to which the spectrum is averaged first.
+        Of lines in any direction; it is averaged to ten wavenumbers a decade first.
     """
     from scipy.optimize import nnls
 
     checks.instance("spectrum", spectrum, ProfileSpectrum)
-    mean = spectrum.averaged(per_decade)
+    mean = spectrum.averaged()
     q, density = mean.wavenumber, mean.density
     if q.size < _TAIL_POINTS or not (density >= checks.LEAST).all():
         raise InputError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -18,6 +19,7 @@ from gripscale.core import (
     Severity,
     Topic,
     Words,
+    about_file,
     in_mm,
 )
 from gripscale.surface import plausibility
@@ -113,8 +115,13 @@ class Measured(Described):
 
         Raises `InputError` if an argument is wrong, or a step leaves too few points or heights.
         """
-        cleaned, reports = zip(*(clean(line, **cleaning) for line in profiles), strict=True)
-        measured = cls.of_pairs(list(zip(profiles, cleaned, strict=True)), reports)
+        pairs, reports = [], []
+        for line in profiles:
+            with about_file(line.source, InputError) if line.source else nullcontext():
+                cleaned, report = clean(line, **cleaning)
+            pairs.append((line, cleaned))
+            reports.append(report)
+        measured = cls.of_pairs(pairs, reports)
         return replace(measured, longest=cleaning.get("longest_wavelength"))
 
     def without_long_waves(self, longest: float) -> Measured:

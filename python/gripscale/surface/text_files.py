@@ -11,8 +11,7 @@ one that lie ten times farther from all other heights than they lie from each ot
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -308,16 +307,26 @@ _BRIDGE = 4.0  # mean steps over which a straight line is drawn: of points at ra
 def _even_grid(
     table: TextTable, x_column: int, z_column: int, x: Array, numbers: list[int]
 ) -> EvenGrid | None:
-    """Return the grid of the distances, or None for uneven ones that rise throughout."""
+    """Return the grid of the distances, or None for uneven ones that rise throughout.
+
+    Raises `FileError` for others, which says if those of the other column are in equal steps.
+    """
     try:
-        with _unless_exchanged(table, x_column, z_column):
-            return printed_grid(table, x_column, x, numbers)
+        return printed_grid(table, x_column, x, numbers)
     except FileError as error:
+        z = table.numbers(z_column, "a height", missing=True)
+        if even_grid(z if z[0] < z[-1] else z[::-1], table.resolution(z_column)) is not None:
+            titles = "exchange their titles" if table.titles else "write titles above them"
+            raise FileError(
+                f"{table.path}: columns {x_column + 1} and {z_column + 1} look exchanged: expected "
+                f"distances in column {x_column + 1}, but column {z_column + 1} goes in equal "
+                f"steps; {titles}, such as 'x [mm]' for distances and 'z [mm]' for heights",
+                missing="titles",
+            ) from error
         steps = np.diff(x)
-        uneven = steps.min() > 0.0 and steps.mean() <= _MOST_UNEVEN * np.median(steps)
-        if error.missing or not uneven:
-            raise
-        return None
+        if steps.min() > 0.0 and steps.mean() <= _MOST_UNEVEN * np.median(steps):
+            return None
+        raise
 
 
 def _resampled(
@@ -352,25 +361,6 @@ def depth_doubts(table: TextTable, column: int) -> tuple[Finding, ...]:
     text = f"column {column + 1}, titled {checks.short_repr(title)}, is taken as height, up: "
     cure = Words(down, " turns it over, ", up, " confirms it.")
     return (doubt(text, cure, topic=Topic.SURFACE),)
-
-
-@contextmanager
-def _unless_exchanged(table: TextTable, x_column: int, z_column: int) -> Iterator[None]:
-    """Let an error about distances say if those of the other column are in equal steps."""
-    try:
-        yield
-    except FileError as error:
-        z = table.numbers(z_column, "a height", missing=True)
-        grid = even_grid(z if z[0] < z[-1] else z[::-1], table.resolution(z_column))
-        if grid is None:
-            raise
-        titles = "exchange their titles" if table.titles else "write titles above them"
-        raise FileError(
-            f"{table.path}: columns {x_column + 1} and {z_column + 1} look exchanged: expected "
-            f"distances in column {x_column + 1}, but column {z_column + 1} goes in equal steps; "
-            f"{titles}, such as 'x [mm]' for distances and 'z [mm]' for heights",
-            missing="titles",
-        ) from error
 
 
 def _heights(table: TextTable, column: int, unit: str) -> tuple[Array, list[str]]:
