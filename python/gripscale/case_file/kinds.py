@@ -117,7 +117,7 @@ def take(path: Path, keys: FileKeys, name: str | None = None) -> Taken:
             continue
         if of_speeds and not any(spelled(title.unit, "length") for title in columns.values()):
             break  # speeds are no heights, unlike lengths beside them
-        return Taken(path, _kind_of(kind, measured), _about(measured), measured, missing, columns)
+        return Taken(path, *_kind_and_size(measured), measured, missing, columns)
     refusal = of_speeds or refusals[-1]
     why = str(refusal).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
     kind = {"moduli": RUBBERS[1]}.get(seems[0], seems[0] if len(seems) == 1 else UNUSED)
@@ -146,16 +146,6 @@ def _seems(path: Path, keys: FileKeys) -> list[str]:
     return ["shift", "friction", "surface"]
 
 
-def _kind_of(reader: str, measured: Any) -> str:
-    if isinstance(measured, Sweeps):
-        return "ramp" if measured.is_ramp else "sweeps"
-    if reader == "moduli":
-        return "master-curve"
-    if reader == "surface":
-        return "map" if isinstance(measured, HeightMap) else "profile"
-    return reader
-
-
 def joinable(file: Taken, layout: Mapping[str, Any]) -> bool:
     """Return whether a file of moduli, or its name, states the temperature of its rows."""
     if file.kind != "master-curve" or file.refusal:
@@ -165,28 +155,31 @@ def joinable(file: Taken, layout: Mapping[str, Any]) -> bool:
     return all(block.states_temperature(FileLayout(**layout)) for block in named)
 
 
-def _about(measured: Any) -> str:
-    """Return what was read, in a clause."""
+def _kind_and_size(measured: Any) -> tuple[str, str]:
+    """Return the kind of what was read, and how much it is in a clause."""
     match measured:
         case dict():
-            return f"{len(measured['moduli'])} relaxation times and an equilibrium modulus"
+            return "prony", f"{len(measured['moduli'])} relaxation times and an equilibrium modulus"
         case Profile():
-            return f"{len(measured.z)} heights over {in_mm(measured.length, 4)}"
+            return "profile", f"{len(measured.z)} heights over {in_mm(measured.length, 4)}"
         case HeightMap():
             size = " x ".join(in_mm(length, 4) for length in measured.length)
-            return f"{' x '.join(map(str, measured.z.shape))} heights over {size}"
+            return "map", f"{' x '.join(map(str, measured.z.shape))} heights over {size}"
         case Spectrum():
             height, slope = in_mm(measured.rms_height, 3), measured.rms_gradient()
-            return f"{len(measured.density)} points, rms height {height}, rms slope {slope:.3g}"
+            points = len(measured.density)
+            return "spectrum", f"{points} points, rms height {height}, rms slope {slope:.3g}"
         case Sweeps():
-            return measured.summary()
+            return "ramp" if measured.is_ramp else "sweeps", measured.summary()
         case MasterCurve():
-            return f"{len(measured.frequency)} rows, {least_to_most(measured.frequency)} Hz"
+            hertz = measured.frequency
+            return "master-curve", f"{len(hertz)} rows, {least_to_most(hertz)} Hz"
         case ShiftTable():
-            celsius = least_to_most(measured.temperature - ZERO_CELSIUS)
-            return f"{len(measured.temperature)} shift factors from {celsius} °C"
+            celsius = measured.temperature - ZERO_CELSIUS
+            return "shift", f"{len(celsius)} shift factors from {least_to_most(celsius)} °C"
         case MeasuredFriction():
-            return f"{len(measured.speed)} values at {least_to_most(measured.speed)} m/s"
+            speed = measured.speed
+            return "friction", f"{len(speed)} values at {least_to_most(speed)} m/s"
     strains = np.concatenate([100.0 * sweep.strain for sweep in measured])
     conditions = "; ".join(sweep.condition for sweep in measured)
-    return f"strains of {least_to_most(strains)} %, at {conditions}"
+    return "strain-sweep", f"strains of {least_to_most(strains)} %, at {conditions}"

@@ -356,12 +356,6 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
     return Conditions(**effects)
 
 
-def _filled(source: RubberSource, softening: object) -> bool | None:
-    """Return whether a rubber is filled: those known by name are not, unless they are to soften."""
-    stated_or_measured = source.filled is not None or source.name is None or softening is not None
-    return source.filled if stated_or_measured else False
-
-
 @about_keys("below_measurement")
 def _below_measurement(file: CaseFile) -> BelowMeasurement:
     table, finer = file.case.below_measurement, file.case.below_measurement.finer
@@ -430,7 +424,10 @@ def read_case(path: CaseFile | str | Path) -> Case:
     _require_few_points(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    table = file.case.surface
+    table, source = file.case.surface, file.case.rubber
+    filled = source.filled
+    if filled is None and source.name is not None and file.case.conditions.softening is None:
+        filled = False  # those known by name, unless they are to soften
     cleaned = table.clean and surface.measured is not None and surface.spectrum is None
     with about_keys("rubber.shift"):
         try:
@@ -439,10 +436,10 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 rubber,
                 **file.case.load.model_dump(),
                 kind=table.kind,
-                thickness=file.case.rubber.thickness,
+                thickness=source.thickness,
                 chain=chain,
                 conditions=conditions,
-                filled=_filled(file.case.rubber, file.case.conditions.softening),
+                filled=filled,
                 interface=file.case.conditions.interface,
                 below_measurement=_below_measurement(file),
                 klueppel_heinrich=file.case.compare,
@@ -454,7 +451,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                     file.text,
                     file.units,
                     named_files(file),
-                    (*(table.assumed or ()), *(file.case.rubber.assumed or ())),
+                    (*(table.assumed or ()), *(source.assumed or ())),
                 ),
             )
         except InputError as error:

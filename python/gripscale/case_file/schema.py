@@ -167,7 +167,9 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
             inside = schema["items"] if isinstance(part, int) else schema["properties"]
             schema = inside if isinstance(part, int) else inside.get(part, {})
         if first["type"] == "extra_forbidden":
-            return f"unknown key {where}; {_instead_of(key, owner)}"
+            instead = owner["gone"].get(key)
+            cure = checks.instead_of(key, [*owner["properties"]], _MOST_NAMES)
+            return f"unknown key {where}; {f'it is gone: {instead}' if instead else cure}"
         finite = first["type"] == "finite_number"
         reason = f"expected {'a finite number' if finite else expected(schema)}"
     if first["type"] == "missing":
@@ -176,13 +178,6 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
         return f"{where}: {reason}" if where else reason
     text = repr(value)
     return f"{where} = {text if len(text) <= 60 else f'{text[:57]}...'}: {reason}"
-
-
-def _instead_of(key: str, table: Mapping[str, Any]) -> str:
-    """Return what to state in place of a key that a table does not have."""
-    if instead := table["gone"].get(key):
-        return f"it is gone: {instead}"
-    return checks.instead_of(key, [*table["properties"]], _MOST_NAMES)
 
 
 def first_complaint(error: ValidationError) -> ErrorDetails:

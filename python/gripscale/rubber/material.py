@@ -119,13 +119,7 @@ class Rubber(Checked, Pictured, eq=False):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._set(shift=shift_at(self.shift, self.reference_temperature))
-        checks.same_length(0, moduli=self.moduli, relaxation_times=self.relaxation_times)
-        least = 2.0 / 9.0 * self.glassy_modulus
-        if self.bulk_modulus <= least:
-            raise InputError(
-                f"bulk_modulus [Pa] must exceed 2/9 of E_inf + sum E_i, {least:g}, "
-                f"to keep Poisson's ratio positive; got {self.bulk_modulus:g}"
-            )
+        self._check_together()
         if self.admissible is not None:
             series = np.array([self.equilibrium_modulus, *self.moduli, *self.relaxation_times])
             fingerprint = hashlib.sha256(series.tobytes()).hexdigest()  # to the last bit
@@ -139,6 +133,15 @@ class Rubber(Checked, Pictured, eq=False):
         warning = too_compressible(self.bulk_modulus, modulus, where)
         if warning:
             warn_once(warning)
+
+    def _check_together(self) -> None:
+        checks.same_length(0, moduli=self.moduli, relaxation_times=self.relaxation_times)
+        least = 2.0 / 9.0 * self.glassy_modulus
+        if self.bulk_modulus <= least:
+            raise InputError(
+                f"bulk_modulus [Pa] must exceed 2/9 of E_inf + sum E_i, {least:g}, "
+                f"to keep Poisson's ratio positive; got {self.bulk_modulus:g}"
+            )
 
     def to_dict(self) -> dict[str, Any]:
         """Return all numbers and names, arrays as lists and the strain energy by its kind."""
@@ -231,6 +234,22 @@ class Rubber(Checked, Pictured, eq=False):
         every = np.concatenate([modulus[None], others])
         low, high = (np.asarray(f(every.real, 0) + 1j * f(every.imag, 0)) for f in (np.min, np.max))
         return low, high
+
+    def admissible_rubbers(self) -> list[Rubber]:
+        """Return each admissible series as a rubber; none if there are none."""
+        if self.admissible is None:
+            return []
+        rubbers, times = [], self.admissible.relaxation_times
+        values = {item.name: getattr(self, item.name) for item in fields(self)}
+        series = zip(self.admissible.equilibrium_moduli, self.admissible.moduli, strict=True)
+        for equilibrium, moduli in series:
+            present = moduli > 0.0
+            other = object.__new__(Rubber)  # what this rubber warned of is said already
+            other._set(**values | {"equilibrium_modulus": float(equilibrium), "admissible": None})
+            other._set(moduli=moduli[present], relaxation_times=times[present])
+            other._check_together()
+            rubbers.append(other)
+        return rubbers
 
     def plot(self) -> Figure:
         """Draw moduli and loss factor by frequency; see `master_curve_figure`."""

@@ -103,10 +103,8 @@ def springpot_modulus(omega: ArrayLike) -> ComplexArray:
         E*(w) = E_a + 1/(1/E_b + 1/E_c)
         E_a = 1.76 MPa s^(2.3/90),  E_b = 1.12 GPa s^(55/90),  E_c = 1.12 GPa s^(2/90)
 
-    The exponents are the limiting loss angles over 90 degrees. The parameters are published for an
-    unfilled SBR at 20 C; the publication, the compound and the strain amplitude are not stated in
-    the source they were taken from. Raises `InputError` if an angular frequency `omega` [rad/s] is
-    not finite or not above zero.
+    The exponents are the limiting loss angles over 90 degrees. Raises `InputError` if an angular
+    frequency `omega` [rad/s] is not finite or not above zero.
     """
     frequency = checks.real("omega", omega, unit="rad/s")
     if not (frequency >= checks.LEAST).all():

@@ -189,9 +189,6 @@ class SofteningTable(Checked):
     Beyond the largest strain the last moduli are held and flagged; between two temperatures the
     factors are interpolated linearly, beyond them those of the nearest are held and flagged. Raises
     `InputError` if a value cannot be used, lengths differ, or `measured_at` lies outside a sweep.
-
-    With one of four temperatures left out, three silica treads miss f and g by 10 and 11 % rms, by
-    17 % with the nearest sweep in place of the interpolation.
     """
 
     kind: ClassVar[str] = "table"

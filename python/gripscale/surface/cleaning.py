@@ -214,12 +214,8 @@ def _runs(z: Array, points: int, rise: float) -> NDArray[np.intp]:
 def mark_steep_steps(profile: Profile, *, slope: float = 3.0) -> tuple[Profile, StepReport]:
     """Mark both sides of steep steps as missing, by the rule of ISO 13473-1:2019, section 7.5.
 
-    Neighbours whose heights differ by |z[i+1] - z[i]| >= slope * step are a spike, and both become
-    missing: the rule runs forwards and backwards along the profile, because the two heights alone
-    cannot say which one is false. One pass is complete, since it makes no new neighbours.
-
-    The standard then interpolates. Here the gaps stay, and heights on both sides of a gap still
-    count in statistics at larger lags.
+    Neighbours whose heights differ by |z[i+1] - z[i]| >= slope * step are a spike: the two heights
+    alone cannot say which one is false. The standard then interpolates; here the gaps stay.
     """
     limit = checks.positive("spike_slope", slope) * profile.step
     z = profile.z.copy()

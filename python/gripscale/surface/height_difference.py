@@ -95,14 +95,8 @@ def height_difference(
     but keeps full relative accuracy at small lags, where C_z is many decades below its plateau
     and a transform's rounding error is not.
 
-    The band is a delete-one-block jackknife of log C_z (Efron & Stein 1981,
-    doi:10.1214/aos/1176345462): the profile is cut into 16 contiguous blocks, pairs go
-    to the block of their first point, C_z is found anew without each block, and the spread of
-    log C_z times Student's t for 95 % gives the band. Heights of one asperity are not independent,
-    but blocks longer than the correlation length are nearly so: the band is to be trusted at lags
-    well below the block length (length / 16), and is too narrow above it, where
-    neighbouring blocks share heights. Of more profiles than blocks, such as the lines of a map, as
-    many neighbours as there are to each block go together: lines side by side are not independent.
+    The band is a delete-one-block jackknife of log C_z over 16 blocks: to be trusted at lags well
+    below the block length (length / 16), too narrow above it (docs/derivations.md).
 
     Lags have at least 16 pairs. The band is NaN where the blocks do not determine it. Raises
     `InputError` if the steps differ, `top_height_fraction` is not above 0 and at most 1, `max_lag`

@@ -162,7 +162,7 @@ def profile_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[
     """
     doubts = _doubts(profile, cleaned)
     of_doubts = tuple(doubt(text, topic=Topic.SURFACE) for text in doubts.texts)
-    if doubts.heights is None or doubts.plates:
+    if doubts.heights is None:
         return of_doubts
     level = _levelled(doubts.heights)
     return (*of_doubts, *map(_warning, (*_jump_warnings(level), *_flat_warnings(level))))
@@ -181,8 +181,7 @@ class _Doubts(NamedTuple):
     """Reasons to doubt that a profile is a road."""
 
     texts: tuple[str, ...] = ()
-    heights: Array | None = None  # valid heights [m]; None if they are meaningless
-    plates: bool = False
+    heights: Array | None = None  # valid heights [m]; None if meaningless, or with plates
     units: bool = False  # whether a length suggests another unit
 
 
@@ -219,7 +218,7 @@ def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
         f"{' and '.join(map(str, supports))}: they carry the rubber in place of the surface; "
         f"crop{ends} leaves them out."
     )
-    return _Doubts((plates, *units), part.z, plates=True, units=bool(units))
+    return _Doubts((plates, *units), units=bool(units))
 
 
 def _kept_part(profile: Profile, cleaned: Profile | None) -> Profile:

@@ -251,21 +251,18 @@ def read_text_profile(
     """
     lines = titled_lines(read_lines(path, sheet=sheet))
     column, header = column_in(path, lines, kinds=("length",)), read_header(lines)
+    table = column or _read_table(path, lines, "rows with two columns of numbers")
     pair = None if step is None else (step, step)
-    if column is not None:
-        steps = _stated_steps(path, pair, header.steps(max(2, len(column.rows))))
-        if steps is None:
-            before = "expected two columns, distance and height; got one column of numbers: give "
-            after = ', the distance between its points, such as "0.1 mm"'
-            raise unstated(f"{path}: {before}", "step", after, kind=FileError)
-        unit = _column_unit(column, 0, "z_unit", z_unit, header.z_unit)
-        printed, notes = _heights(column, 0, unit)
-        x, z = steps[0] * np.arange(printed.size), quantity_in_si(printed, unit, "length")
-        return _profile(path, np.asarray(x, float), z, notes, depth_doubts(column, 0))
-    table = _read_table(path, lines, "rows with two columns of numbers")
     steps = _stated_steps(path, pair, header.steps(max(2, len(table.rows))))
     spacing, by_header = (None, False) if steps is None else (steps[0], step is None)
-    x_column, z_column = _profile_columns(table, channel, spacing, by_header=by_header)
+    if column is None:
+        x_column, z_column = _profile_columns(table, channel, spacing, by_header=by_header)
+    elif steps is None:
+        before = "expected two columns, distance and height; got one column of numbers: give "
+        after = ', the distance between its points, such as "0.1 mm"'
+        raise unstated(f"{path}: {before}", "step", after, kind=FileError)
+    else:
+        x_column, z_column = None, 0
     if x_column is not None:
         x_unit = _column_unit(table, x_column, "x_unit", x_unit, header.x_unit)
     z_unit = _column_unit(table, z_column, "z_unit", z_unit, header.z_unit)
