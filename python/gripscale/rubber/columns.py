@@ -492,10 +492,9 @@ _FEW = 0.1  # share of rows with a value of zero or less that are left out as fa
 def notes_of_faults(table: TextTable, layout: FileLayout) -> list[str]:
     """Return a note of the rows that are left out because a value is zero or less."""
     names = ("frequency", *(name for name in MODULI if name not in RATIOS))
-    columns = {layout.column(table, name) for name in names} - {None}
     faults = np.zeros(len(table.rows), dtype=bool)
-    for column in columns:
-        if column is not None:
+    for name in names:
+        if (column := layout.column(table, name)) is not None:
             faults |= table.numbers(column, "a number", missing=True) <= 0.0
     lines = [str(table.line_numbers[at]) for at in np.flatnonzero(faults)]
     if not lines:

@@ -34,7 +34,6 @@ from gripscale.surface.cut_off import (
 from gripscale.surface.direction import direction_of_map, direction_of_profiles
 from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
 from gripscale.surface.low_pass import followed, followed_lines
-from gripscale.surface.noise import noise_finding
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.random_phases import Spectrum
 from gripscale.surface.sine_fit import fit_sines
@@ -325,7 +324,9 @@ class Surface(Described):
         lines, whole = self.measured.cleaned, self.measured.map
         across = None if whole is None else whole.step[1]
         # thirty lines of a map show its noise
-        finding = noise_finding(lines[:: 1 + len(lines) // 30], self.cutoff_wavelength, across)
+        finding = plausibility.noise_finding(
+            lines[:: 1 + len(lines) // 30], self.cutoff_wavelength, across
+        )
         return () if finding is None else (finding,)
 
     @property
@@ -430,25 +431,19 @@ class Surface(Described):
                 raise InputError(_beyond_the_largest(first, last))
             waves = 1 + int(np.log(first / last) / np.log(factors[0]) + 1e-9)
         order = np.arange(waves)
-        stack = SineStack(
-            wavelength=first / factors[0] ** order,
-            amplitude=self.sines.amplitude[0] / factors[1] ** order,
+        wavelength = first / factors[0] ** order
+        end = None if cut_off is None else float(wavelength[-1] / half)
+        if self.correlation is None:
+            amplitude = self.sines.amplitude[0] / factors[1] ** order
+            return SineStack(wavelength, amplitude, *factors, cut_off=end)
+        return fit_sines(  # for their residual from the measured curve
+            self.correlation,
+            scales=waves if end is None else None,
+            cut_off=end,
             s_wavelength=factors[0],
             s_amplitude=factors[1],
-        )
-        if cut_off is not None:
-            stack = replace(stack, cut_off=float(stack.wavelength[-1] / half))
-        if self.correlation is None:
-            return stack
-        # with its residual from the measured curve
-        return fit_sines(
-            self.correlation,
-            scales=waves if stack.cut_off is None else None,
-            cut_off=stack.cut_off,
-            s_wavelength=stack.s_wavelength,
-            s_amplitude=stack.s_amplitude,
-            first_wavelength=float(stack.wavelength[0]),
-            first_amplitude=float(stack.amplitude[0]),
+            first_wavelength=float(first),
+            first_amplitude=float(self.sines.amplitude[0]),
         )
 
     def _shortened(self, waves: int | None, smallest: float | None) -> SineStack:

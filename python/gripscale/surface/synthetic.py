@@ -29,13 +29,10 @@ def self_affine_profile(
 
         C_z(l) = xi_perp^2 (1 - exp(-(l / xi_par)^(2H))),
 
-    which has the two asymptotes of [LW eq. 6] (the power law and the plateau meet at xi_par) with a
-    smooth bend between: a sharp bend is no covariance of a line for H > 1/2. The profile is drawn
-    exactly, by circulant embedding (C. R. Dietrich & G. N. Newsam, SIAM J. Sci. Comput. 18 (1997)
-    1088, doi:10.1137/S1064827592240555). [LW] Lind & Wangenheim, ASME IMECE2014-37998.
-
-    Its heights lie about zero, with the variance xi_perp^2/2 in the mean over seeds. Raises
-    `InputError` if an argument is out of range.
+    with a smooth bend: a sharp one is no covariance of a line for H > 1/2. It is drawn exactly, by
+    circulant embedding (C. R. Dietrich & G. N. Newsam, SIAM J. Sci. Comput. 18 (1997) 1088,
+    doi:10.1137/S1064827592240555), with heights about zero, of the variance xi_perp^2/2 in the
+    mean over seeds. Raises `InputError` if an argument is out of range.
 
     Parameters
     ----------
