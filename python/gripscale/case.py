@@ -41,22 +41,15 @@ from gripscale.experiment.task import Task, canonical_json
 from gripscale.model import FOOTPRINT, Load, LoadTime, Model, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber
-from gripscale.surface import (
-    HeightMap,
-    Measured,
-    Profile,
-    SineStack,
-    Spectrum,
-    Surface,
-    clean,
-    fit_self_affine,
-    fit_sines,
-    height_difference,
-)
+from gripscale.surface.cleaning import clean
 from gripscale.surface.cut_off import CutOffRule, find_cut_off
+from gripscale.surface.height_difference import fit_self_affine, height_difference
 from gripscale.surface.low_pass import longest_held
-from gripscale.surface.random_phases import PHASES_OF
-from gripscale.surface.surface import SURFACE_KIND, SURFACE_KINDS, SurfaceKind
+from gripscale.surface.profile import HeightMap, Profile
+from gripscale.surface.random_phases import PHASES_OF, Spectrum
+from gripscale.surface.sine_fit import fit_sines
+from gripscale.surface.sines import SineStack
+from gripscale.surface.surface import SURFACE_KIND, SURFACE_KINDS, Measured, Surface, SurfaceKind
 from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 

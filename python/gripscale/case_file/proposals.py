@@ -19,16 +19,8 @@ import numpy as np
 
 from gripscale.case_file.read import validate
 from gripscale.case_file.tables import SurfaceTable
-from gripscale.core import (
-    ZERO_CELSIUS,
-    CaseKey,
-    Finding,
-    GripscaleError,
-    InputError,
-    Severity,
-    Words,
-    in_mm,
-)
+from gripscale.core import CaseKey, Finding, GripscaleError, InputError, Severity, Words
+from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.io.cells import SEPARATORS, cells_of, is_comment
 from gripscale.io.text_table import TextTable, is_excel, read_lines
 from gripscale.rubber import (

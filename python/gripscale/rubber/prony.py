@@ -22,15 +22,8 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import (
-    Array,
-    FileError,
-    GripscaleError,
-    InputError,
-    Quantity,
-    RubberWarning,
-    checks,
-)
+from gripscale.core import Array, Quantity, checks
+from gripscale.core.errors import FileError, GripscaleError, InputError, RubberWarning
 from gripscale.core.units import quantity_in_si, spelled
 from gripscale.io.text_table import TextTable, is_excel, read_bytes, read_table
 from gripscale.rubber import maxwell_fit

@@ -18,16 +18,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from gripscale.core import (
-    Array,
-    FileError,
-    GripscaleError,
-    InputError,
-    about_file,
-    checks,
-    unstated,
-    using_extra,
-)
+from gripscale.core import Array, FileError, GripscaleError, InputError, checks
+from gripscale.core.errors import about_file, unstated, using_extra
 from gripscale.core.units import quantity_in_si
 from gripscale.io import text_table
 from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of

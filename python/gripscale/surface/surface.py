@@ -11,17 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
-from gripscale.core import (
-    CaseKey,
-    Described,
-    Finding,
-    InputError,
-    Severity,
-    Topic,
-    Words,
-    about_file,
-    in_mm,
-)
+from gripscale.core import CaseKey, Described, InputError, Words, about_file, in_mm
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.surface import plausibility
 from gripscale.surface.cleaning import CleaningReport, clean, subtract_long_waves
 from gripscale.surface.cut_off import (
