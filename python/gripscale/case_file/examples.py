@@ -59,14 +59,10 @@ _CASE, _PACKAGE = "case.toml", files("gripscale.case_file")
 class Example(Described):
     """A case with the files it names."""
 
-    about: str
-    """What slides on what."""
-    folders: tuple[str, ...] = ()
-    """Folders of the package whose files it names, with their origin and licence."""
-    made: tuple[tuple[str, Callable[[], str]], ...] = ()
-    """Texts that are computed instead, by the path they get."""
-    needs: str = ""
-    """Extra of the package without which its files cannot be read, or nothing."""
+    about: str  # what slides on what
+    folders: tuple[str, ...] = ()  # of the package, whose files it names, with origin and licence
+    made: tuple[tuple[str, Callable[[], str]], ...] = ()  # texts computed instead, by their path
+    needs: str = ""  # extra of the package without which its files cannot be read, or nothing
 
 
 EXAMPLES: dict[str, Example] = {

@@ -52,16 +52,12 @@ class Taken:
     path: Path
     kind: str
     why: str
-    measured: Any = None
-    """What was read; of strain sweeps a list, of a Prony series a dictionary."""
+    measured: Any = None  # what was read; of strain sweeps a list, of a Prony series a dictionary
+    # Keys that nothing states and without which it cannot be read, as assumed to read it.
     missing: Mapping[str, Any] = field(default_factory=dict)
-    """Keys that nothing states and without which it cannot be read, as assumed to read it."""
-    columns: Mapping[int, ColumnTitle] = field(default_factory=dict)
-    """The columns that were read, by their numbers from 1."""
-    refusal: GripscaleError | None = None
-    """Why the file cannot be read as what it seems to be."""
-    by_caller: bool = False
-    """Whether the caller states its kind."""
+    columns: Mapping[int, ColumnTitle] = field(default_factory=dict)  # that were read, from 1
+    refusal: GripscaleError | None = None  # why it cannot be read as what it seems to be
+    by_caller: bool = False  # whether the caller states its kind
 
     @property
     def titles(self) -> str:

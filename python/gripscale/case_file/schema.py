@@ -42,16 +42,12 @@ _LIMITS = {
 class Reading:
     """Beside a type: reads a value as a person writes it, before pydantic looks at its type."""
 
-    words: str
-    """What is expected."""
-    read: Callable[[Any], Any]
-    """Returns what the type asks for; raises `ValueError` with one sentence."""
-    quantity: str = ""
-    """Kind of the quantity that it reads, such as length; empty for anything else."""
+    words: str  # what is expected
+    read: Callable[[Any], Any]  # returns what the type asks for, or raises `ValueError`
+    quantity: str = ""  # kind of the quantity that it reads, such as length; empty for others
+    # Laws whose tables it reads, by kind, and JSON Schemas of texts in place of such a table.
     laws: Mapping[str, type] = field(default_factory=dict, hash=False)
-    """The laws whose tables it reads, by kind."""
     words_for_a_law: Sequence[Mapping[str, Any]] = field(default=(), hash=False)
-    """JSON Schemas of the texts it takes in place of such a table."""
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler

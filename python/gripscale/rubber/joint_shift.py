@@ -104,11 +104,7 @@ class Rows:
         return self.x[chosen], self.y[:, chosen]
 
     def step(
-        self,
-        shifts: Array,
-        free: NDArray[np.intp],
-        trust: Array,
-        weights: tuple[float | None, ...],
+        self, shifts: Array, free: NDArray[np.intp], trust: Array, weights: tuple[float | None, ...]
     ) -> GaussNewtonStep:
         """Return the step of the free shifts; the splines are eliminated."""
         s, v = np.split(shifts, 2)

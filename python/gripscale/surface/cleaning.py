@@ -417,8 +417,7 @@ def _without_spikes(
 
 
 def _in_turn(
-    steps: Sequence[Callable[[_Heights], tuple[_Heights, StepReport]]],
-    measured: _Heights,
+    steps: Sequence[Callable[[_Heights], tuple[_Heights, StepReport]]], measured: _Heights
 ) -> tuple[_Heights, CleaningReport]:
     reports = []
     for step in steps:

@@ -41,16 +41,6 @@ class HeightField:
     # Shortest wavelength [m] free of the instrument's artifacts, if the file states it.
     reliable: float | None = None
 
-    def profile(self, path: Path, direction: str, line: int) -> Profile:
-        """Return one line along a direction as a profile."""
-        along = self.x if direction == "x" else self.y
-        heights = self.heights[:, line] if direction == "x" else self.heights[line, :]
-        name, source = path.stem, str(path)
-        if self.y is not None:
-            name, source = (line_label(text, line, direction) for text in (name, source))
-        with about_file(source):
-            return Profile(np.asarray(along), heights, name, source, self.reliable)
-
 
 def read_instrument_file(
     path: Path,
@@ -293,7 +283,14 @@ def read_profile(
     number = lines // 2
     if line is not None:
         number = checks.whole(f"line of {file}", line, least=0, most=lines - 1)
-    return upwards(field.profile(file, direction, number), z_axis)
+    along = field.x if direction == "x" else field.y
+    heights = field.heights[:, number] if direction == "x" else field.heights[number, :]
+    name, source = file.stem, str(file)
+    if field.y is not None:
+        name, source = (line_label(text, number, direction) for text in (name, source))
+    with about_file(source):
+        whole = Profile(np.asarray(along), heights, name, source, field.reliable)
+    return upwards(whole, z_axis)
 
 
 _AnySurface = TypeVar("_AnySurface", Profile, HeightMap)

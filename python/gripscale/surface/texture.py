@@ -264,6 +264,5 @@ def texture_levels(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Datas
     about = {"units": "dB", "long_name": "third-octave texture level re 1 um, ISO 13473-4"}
     lengths = {"units": "m", "long_name": "texture wavelength"}
     return xr.Dataset(
-        {"level": ("wavelength", level, about)},
-        {"wavelength": ("wavelength", nominal, lengths)},
+        {"level": ("wavelength", level, about)}, {"wavelength": ("wavelength", nominal, lengths)}
     )
