@@ -33,7 +33,7 @@ from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BULK_MODULUS, Rubber
 from gripscale.rubber.maxwell_fit import Curve, MaxwellSpectrum, Prior
-from gripscale.rubber.prony_report import PronyFit, likely_reading, root_mean_square
+from gripscale.rubber.prony_report import PronyFit, SwappedModuli, root_mean_square
 
 _RISE = 9.0  # allowed rise of the sum of squares in units of the scatter
 EXTREME_SMOOTHING = 1.0
@@ -210,8 +210,8 @@ def fit_prony_report(
     beyond = _option("extrapolate_decades", extrapolate_decades, _MOST_DECADES)
     smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
     bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
-    swapped = report.swapped_moduli(master)
-    if swapped.certain and not likely_reading(master, swapped):
+    swapped = SwappedModuli(master)
+    if swapped.certain and not swapped.reading:
         raise InputError(str(swapped))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
@@ -250,10 +250,10 @@ def fit_prony_report(
     problem = maxwell_fit.FitProblem(rows, spectrum.times, used)
     rubber = problem.applied_to(rubber)
     fit_report = report.report_prony(master, problem, screening, candidates, rubber)
-    doubts = tuple(report.moduli_doubts(master, swapped, screening.storage_scatter))
-    if swapped.likely and not likely_reading(master, swapped):
-        fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))
-    return rubber, replace(fit_report, doubts=doubts)
+    doubts = tuple(swapped.doubts(screening.storage_scatter))
+    exchanged = (str(swapped),) if swapped.likely and not swapped.reading else ()
+    findings = (*exchanged, *fit_report.findings)
+    return rubber, replace(fit_report, findings=findings, doubts=doubts)
 
 
 def _option(name: str, value: float, most: float) -> float:

@@ -422,19 +422,25 @@ class Surface(Described):
                 raise InputError(_beyond_the_largest(first, last))
             waves = 1 + int(np.log(first / last) / np.log(factors[0]) + 1e-9)
         order = np.arange(waves)
-        wavelength = first / factors[0] ** order
-        end = None if cut_off is None else float(wavelength[-1] / half)
-        if self.correlation is None:
-            amplitude = self.sines.amplitude[0] / factors[1] ** order
-            return SineStack(wavelength, amplitude, *factors, cut_off=end)
-        return fit_sines(  # for their residual from the measured curve
-            self.correlation,
-            scales=waves if end is None else None,
-            cut_off=end,
+        stack = SineStack(
+            wavelength=first / factors[0] ** order,
+            amplitude=self.sines.amplitude[0] / factors[1] ** order,
             s_wavelength=factors[0],
             s_amplitude=factors[1],
-            first_wavelength=float(first),
-            first_amplitude=float(self.sines.amplitude[0]),
+        )
+        if cut_off is not None:
+            stack = replace(stack, cut_off=float(stack.wavelength[-1] / half))
+        if self.correlation is None:
+            return stack
+        # with its residual from the measured curve
+        return fit_sines(
+            self.correlation,
+            scales=waves if stack.cut_off is None else None,
+            cut_off=stack.cut_off,
+            s_wavelength=stack.s_wavelength,
+            s_amplitude=stack.s_amplitude,
+            first_wavelength=float(stack.wavelength[0]),
+            first_amplitude=float(stack.amplitude[0]),
         )
 
     def _shortened(self, waves: int | None, smallest: float | None) -> SineStack:
