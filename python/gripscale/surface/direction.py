@@ -35,20 +35,12 @@ _SMOOTHING = np.hanning(33)[1:-1]
 _LONGEST_PART = 0.5
 
 
-class TextureLengths(NamedTuple):
-    """Shortest and longest way from the middle of an autocorrelation to where it falls to 0.2."""
+def texture_lengths(surface: HeightMap) -> tuple[float, float]:
+    """Return autocorrelation length Sal [m] and texture aspect ratio Str [-]; NaN of a flat map.
 
-    shortest: float  # Sal [m]
-    longest: float  # [m]; half the map where it does not fall that far
-
-    @property
-    def aspect_ratio(self) -> float:
-        """Str [-]: 1 without a direction."""
-        return self.shortest / self.longest
-
-
-def texture_lengths(surface: HeightMap) -> TextureLengths:
-    """Return the autocorrelation lengths of a map; NaN where it is flat."""
+    Sal is the shortest way from the middle of the autocorrelation to where it falls to 0.2, Str
+    that over the longest one, or half the map where it does not fall that far: 1 without direction.
+    """
     from scipy.ndimage import map_coordinates  # slow to import
 
     z, (dx, dy) = _level(surface), surface.step
@@ -56,7 +48,7 @@ def texture_lengths(surface: HeightMap) -> TextureLengths:
     # without wrapping round: with as many zeros beyond either end
     correlation = np.fft.irfft2(np.abs(np.fft.rfft2(z, [2 * nx, 2 * ny])) ** 2, [2 * nx, 2 * ny])
     if not correlation[0, 0] > 0.0:
-        return TextureLengths(math.nan, math.nan)
+        return math.nan, math.nan
     away = np.linspace(0.0, min((nx // 2 - 1) * dx, (ny // 2 - 1) * dy), 2 * max(nx, ny))
     pairs = np.outer(*(n - np.abs(np.fft.fftfreq(2 * n, 0.5 / n)) for n in (nx, ny)))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -68,7 +60,7 @@ def texture_lengths(surface: HeightMap) -> TextureLengths:
         first = int(np.argmax(values < _FALLEN)) or away.size - 1
         pair = slice(first, first - 2, -1)  # where it stays above, the last point
         lengths.append(np.interp(_FALLEN, values[pair], away[pair]))
-    return TextureLengths(float(min(lengths)), float(max(lengths)))
+    return float(min(lengths)), float(min(lengths)) / float(max(lengths))
 
 
 def texture_direction(surface: HeightMap) -> float:
@@ -149,7 +141,7 @@ def direction_of_map(surface: HeightMap) -> Finding | None:
     """Return that lines of a map do not stand for it, where its texture has a direction."""
     every = 1 + max(surface.z.shape) // _POINTS
     x, y, z = surface.x[::every], surface.y[::every], surface.z[::every, ::every]
-    aspect = texture_lengths(replace(surface, x=x, y=y, z=z) if every > 1 else surface).aspect_ratio
+    _, aspect = texture_lengths(replace(surface, x=x, y=y, z=z) if every > 1 else surface)
     if not aspect < _NO_DIRECTION:
         return None
     text = (

@@ -84,8 +84,7 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
             "developed_area_ratio": _mean(np.sqrt(1.0 + squares) - 1.0),
         }
         lengths = texture_lengths(surface)
-        values["autocorrelation_length"] = lengths.shortest
-        values["texture_aspect_ratio"] = lengths.aspect_ratio
+        values["autocorrelation_length"], values["texture_aspect_ratio"] = lengths
         values["texture_direction"] = texture_direction(surface)
     else:
         lines = profile_list(surface)
