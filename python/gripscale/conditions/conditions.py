@@ -21,13 +21,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.conditions.area_term import (
-    DRY_TREAD,
-    InterfacialShearStress,
-    adhesive_friction,
-    shear_stress_from_dict,
-    shear_stress_to_dict,
-)
+from gripscale.conditions import area_term
 from gripscale.conditions.flash_temperature import (
     COUNTERFACE_BY_KIND,
     THERMAL_SCATTER,
@@ -112,8 +106,11 @@ class Conditions(Checked):
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
     """With it the rubber warms by its friction."""
-    shear_stress: InterfacialShearStress | None = checked(
-        _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
+    shear_stress: area_term.InterfacialShearStress | None = checked(
+        _effect,
+        kind=area_term.InterfacialShearStress,
+        expected="a law of gripscale.conditions",
+        default=None,
     )
     """Interfacial shear stress of the area term."""
     water: float | None = checked(lambda _, value: water_film(value) or None, default=None)
@@ -153,7 +150,7 @@ class Conditions(Checked):
             "strain_norm": self.strain_norm,
             "heat": self.heat and asdict(self.heat),
             "counterface": self.counterface and asdict(self.counterface),
-            "shear_stress": self.shear_stress and shear_stress_to_dict(self.shear_stress),
+            "shear_stress": self.shear_stress and area_term.shear_stress_to_dict(self.shear_stress),
             "water": FLOODED if self.water == math.inf else self.water,
             **({"off": list(self.off)} if self.off else {}),
         }
@@ -166,7 +163,7 @@ class Conditions(Checked):
             "softening": partial(checks.of_kind, SOFTENING_LAWS, "softening"),
             "heat": partial(checks.from_mapping, ThermalProperties, "heat"),
             "counterface": partial(checks.from_mapping, ThermalProperties, "counterface"),
-            "shear_stress": shear_stress_from_dict,
+            "shear_stress": area_term.shear_stress_from_dict,
         }
         for name, law in laws.items():
             if effects.get(name) is not None:
@@ -185,7 +182,7 @@ class Conditions(Checked):
             return math.nan
         kelvin = self.temperature if temperature is None else temperature
         stress = float(self.shear_stress.stress(speed, kelvin))
-        return adhesive_friction(stress, contact_fraction, pressure)
+        return area_term.adhesive_friction(stress, contact_fraction, pressure)
 
     def without(self, *effects: str) -> Conditions:
         """Return the same with effects switched off on purpose."""
@@ -445,5 +442,5 @@ def with_defaults(
         if effects.heat is not None and effects.counterface is None:
             effects = replace(effects, counterface=COUNTERFACE_BY_KIND[kind])
     if interface == "dry" and effects.shear_stress is None:
-        effects = replace(effects, shear_stress=DRY_TREAD)
+        effects = replace(effects, shear_stress=area_term.DRY_TREAD)
     return None if effects == Conditions() else effects
