@@ -198,12 +198,13 @@ def read_master_curve(
 def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:
     """Return the temperature of a column in which all rows have the same [K], or None."""
     column = layout.column(table, "temperature")
-    unit = None if column is None else columns.unit_in(table.columns[column], "temperature")
-    word = None if column is None else table.columns[column].unit
-    if column is not None and word and not any(spelled(word, kind) for kind in UNITS):
+    if column is None:
+        return None
+    title = table.columns[column]
+    if title.unit and not any(spelled(title.unit, kind) for kind in UNITS):
         layout.unit(table, column, "temperature")  # refuses a unit that is not known
-    unit = layout.temperature_unit or unit
-    if column is None or unit is None:
+    unit = layout.temperature_unit or columns.unit_in(title, "temperature")
+    if unit is None:
         return None
     kelvin = quantity_in_si(table.numbers(column, "a number", missing=True), unit, "temperature")
     kelvin = kelvin[np.isfinite(kelvin)]

@@ -85,11 +85,8 @@ def fit_wlf(
     slope = law(np.array([1.0, begin]))
     first = max(float(slope @ log_a) / max(float(slope @ slope), 1e-30), 1e-3)
 
-    def weighted(constants: Array) -> Array:
-        return np.asarray((law(constants) - log_a) / error)
-
     optimum = least_squares(
-        weighted,
+        lambda constants: (law(constants) - log_a) / error,
         [first, begin],
         bounds=([0.0, coldest * (1.0 + 1e-6) + 1e-6], [np.inf, 1e4]),
         x_scale=[10.0, 50.0],
