@@ -27,29 +27,21 @@ from gripscale.core.units import UNITS, listed, quantity_in_si, spelled
 from gripscale.io.text_table import ColumnTitle, TextTable
 
 _TITLES = {
-    meaning: re.compile(pattern)
-    for meaning, pattern in {
-        "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor"
-        r"|facteur de (perte|dissipation|amort)|损耗因子|損失正接",
-        "temperature": r"t[eé]mp(?!s\b)|(sample|proben)\s*-?temp|ts$|温度|試料温度",
-        "frequency": r"omega|.*(freq|fr[eé]qu|frecu)|pulsation|częstot|част|주파수"
-        r"|角?频率|角?周波数",
-        "magnitude": r"\|?[egm]\*|.*complex .*modulus|.*komplexer .*modul|复数?模量"
-        r"|.*module? complex",
-        "storage": r"(modul\w* )?[egm]'(?!')|re(al)? ?\([eg]\b|real (part|modulus)"
-        r"|[eg][_ ]?p(rime)?\b|[eg][_ ]?stor|.*\bstor|.*speichermodul"
-        r"|.*elastic component"
-        r"|m[oó]dul[eo] (de |d['’]|di )?(stockage|conserva|a(lm|rm)a[cz]ena|accumul|[eé]lasti)"
-        r"|.*zachowaw|.*opslagmod|.*lagringsmod|.*накопл|저장"
-        r"|(储能|存储|储存)模量|貯蔵.*率",
-        "loss": r"(modul\w* )?[egm]''|im(ag)? ?\([eg]\b|imag\w* (part|modulus)"
-        r"|[eg][_ ]?(pp|double[ _-]?prime)\b|[eg][_ ]?loss|.*\bloss"
-        r"|.*verlustmodul|.*viscous component"
-        r"|.*stratno|.*verliesmod|.*f[öo]rlustmod|.*потерь|손실"
-        r"|m[oó]dul[eo] .*(perte|p[eé]rdi|perda|dissipa|visqueux|viscos)|损耗模量|損失.*率",
-        "strain": r".*strain\b|.*dehn(ung|\.|\b)|[ds]sa\b"
-        r"|.*verformung|.*d[eé]formation|gamma\b|.*scherung|应变",
-    }.items()
+    "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor"
+    r"|facteur de (perte|dissipation|amort)|损耗因子|損失正接",
+    "temperature": r"t[eé]mp(?!s\b)|(sample|proben)\s*-?temp|ts$|温度|試料温度",
+    "frequency": r"omega|.*(freq|fr[eé]qu|frecu)|pulsation|częstot|част|주파수|角?频率|角?周波数",
+    "magnitude": r"\|?[egm]\*|.*(complex .*modulus|komplexer .*modul|module? complex)|复数?模量",
+    "storage": r"(modul\w* )?[egm]'(?!')|re(al)? ?\([eg]\b|real (part|modulus)"
+    r"|[eg][_ ]?p(rime)?\b|[eg][_ ]?stor|.*\bstor|.*speichermodul|.*elastic component"
+    r"|m[oó]dul[eo] (de |d['’]|di )?(stockage|conserva|a(lm|rm)a[cz]ena|accumul|[eé]lasti)"
+    r"|.*(zachowaw|opslagmod|lagringsmod|накопл)|저장|(储能|存储|储存)模量|貯蔵.*率",
+    "loss": r"(modul\w* )?[egm]''|im(ag)? ?\([eg]\b|imag\w* (part|modulus)"
+    r"|[eg][_ ]?(pp|double[ _-]?prime)\b|[eg][_ ]?loss|.*\bloss|.*verlustmodul"
+    r"|.*(viscous component|stratno|verliesmod|f[öo]rlustmod|потерь)|손실"
+    r"|m[oó]dul[eo] .*(perte|p[eé]rdi|perda|dissipa|visqueux|viscos)|损耗模量|損失.*率",
+    "strain": r".*(strain\b|dehn(ung|\.|\b)|verformung|d[eé]formation|scherung)|[ds]sa\b"
+    r"|gamma\b|应变",
 }
 _KINDS = {
     "E": re.compile(r"(?<![A-Za-z])E(?![A-Za-z])|(?i:young|tensile)"),
@@ -114,7 +106,7 @@ def quantity(name: str) -> str | None:
     low = text.lower()
     if _OTHER.search(low):
         return None
-    return next((meaning for meaning, pattern in _TITLES.items() if pattern.match(low)), None)
+    return next((meaning for meaning, pattern in _TITLES.items() if re.match(pattern, low)), None)
 
 
 def modulus_kind(name: str) -> str | None:
