@@ -15,7 +15,7 @@ import numpy as np
 
 from gripscale.case_file.keys import SCHEMA_LINE, write_schema
 from gripscale.core import ZERO_CELSIUS, Described, FileError, checks
-from gripscale.io.folders import nearest_existing, write_bytes
+from gripscale.io.folders import make_folder, require_writable, write_bytes
 
 
 def road_text() -> str:
@@ -101,9 +101,7 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
         measured = sorted(file.name for file in _PACKAGE.joinpath(data).iterdir())
         contents |= {f"{data}/{name}": _packaged(f"{data}/{name}") for name in measured}
     contents |= {path: make().encode("utf-8") for path, make in example.made}
-    parent = nearest_existing(target)
-    if not parent.is_dir():
-        raise FileError(f"folder {target} cannot be made: {parent} is not a folder")
+    require_writable(target)
     taken = [path for path in contents if (target / path).exists()]
     if taken:
         raise FileError(
@@ -111,12 +109,8 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
             "expected a folder without it"
         )
     for path, content in contents.items():
-        written = target / path
-        try:
-            written.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise FileError(f"folder {written.parent} cannot be made: {error.strerror}") from error
-        write_bytes(written, content)
+        make_folder((target / path).parent)
+        write_bytes(target / path, content)
     write_schema(SCHEMA_LINE, target)
     return [target / path for path in contents]
 

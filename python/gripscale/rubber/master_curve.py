@@ -90,6 +90,9 @@ class MasterCurve(Checked, Pictured, eq=False):
         return float(np.log10(self.frequency[-1] / self.frequency[0]))
 
 
+MODULI_TITLES = ("frequency (Hz)", "storage modulus E' (Pa)", "loss modulus E'' (Pa)")
+
+
 def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     """Write a master curve as CSV in Hz and Pa; return the path.
 
@@ -100,7 +103,7 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     lines = [f"# {' '.join(text.split())}" for text in (master.name, master.source) if text]
     if master.reference_temperature is not None:
         lines.append(f"# reference temperature (K): {master.reference_temperature:g}")
-    lines.append("frequency (Hz),storage modulus E' (Pa),loss modulus E'' (Pa)")
+    lines.append(",".join(MODULI_TITLES))
     rows = zip(master.frequency, master.storage, master.loss, strict=True)
     lines += [",".join(repr(float(value)) for value in row) for row in rows]
     return write_text(file_path(path), "\n".join([*lines, ""]))
