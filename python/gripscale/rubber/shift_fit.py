@@ -85,8 +85,11 @@ def fit_wlf(
     slope = law(np.array([1.0, begin]))
     first = max(float(slope @ log_a) / max(float(slope @ slope), 1e-30), 1e-3)
 
+    def weighted(constants: Array) -> Array:
+        return np.asarray((law(constants) - log_a) / error)
+
     optimum = least_squares(
-        lambda constants: (law(constants) - log_a) / error,
+        weighted,
         [first, begin],
         bounds=([0.0, coldest * (1.0 + 1e-6) + 1e-6], [np.inf, 1e4]),
         x_scale=[10.0, 50.0],
