@@ -11,7 +11,7 @@ import scipy.fft
 import gripscale as gs
 from gripscale._kernel import GapExtension
 from gripscale.half_space import active_set
-from gripscale.half_space.active_set import FAR, LOSSY, CONTACT_REACH
+from gripscale.half_space.active_set import CONTACT_REACH, FAR, LOSSY
 from gripscale.half_space.grid import Grid, doubled, resampled
 from gripscale.half_space.grid_sequence import GridRecord, errors, grid_contact_fraction
 from gripscale.half_space.response import HalfSpace, Response

@@ -37,11 +37,11 @@ and from the other one, the weight is the harmonic measure
 
     w = 2/pi arctan sqrt(L b / ((L + g) a)),
 
-with `CONTACT_REACH` L in place of L for the contacts behind it. It halves the products of the neighbours
-alone, on roads and self-affine lines. On a map u(x) next to A is the mean of the others with the
-weights of the sum, over the neighbours of x in A. Neighbours outside A count as u(x) itself, and
-all farther points as zero with the weight `FAR`, chosen by measurements on elastic and lossy
-rubbers.
+with `CONTACT_REACH` L in place of L for the contacts behind it. It needs half the products of the
+neighbours alone, on roads and self-affine lines. On a map u(x) next to A is the mean of the others
+with the weights of the sum, over the neighbours of x in A. Neighbours outside A count as u(x)
+itself, and all farther points as zero with the weight `FAR`, chosen by measurements on elastic and
+lossy rubbers.
 
 Of very lossy rubber, E* ~ (i w)^a, S is of the order 1 + a and its weights fall off as
 |x - y|^-(2 + a): the displacement of a gap is that of its two ends. At the order 2 it would be
