@@ -117,15 +117,7 @@ class SolvedLadder(Described):
 
 
 # Inputs a comparison can be made over: numbers of the load and of the surface.
-COMPARED_OVER = (
-    "speed",
-    "pressure",
-    "temperature",
-    "smallest_wavelength",
-    "waves",
-    "cut_off",
-    "top_height_fraction",
-)
+COMPARED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "cut_off")
 
 MOST_SEEDS = 1000
 FEWEST_WINDOWS = 3  # windows whose scatter is believed
@@ -145,10 +137,17 @@ def comparison_setups(
     axis: Axis | None = None
     if vary is not None:
         study = Study(case, vary, model=Chain.name)
-        axis = _axis(study)
+        axis = study.axes[0]
+        if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
+            names = ", ".join(other.name for other in study.axes)
+            raise InputError(f"a comparison varies one of {', '.join(COMPARED_OVER)}; got {names}")
+        if not axis.numeric:
+            raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
+        if len(axis.values) < 2:
+            raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
         tasks = {point.label: point.task for point in study.points}
         rubbers = study.measured_rubbers
-    setups = {}
+    setups: dict[str, ComparisonSetup] = {}
     water = None if case.conditions is None else case.conditions.water  # which the chain leaves out
     for label, task in tasks.items():
         chain = checks.instance("model", task.model, Chain)
@@ -159,11 +158,14 @@ def comparison_setups(
             task.rubber,
             task.surface,
             task.load,
-            chain.solver,
+            Chain(
+                chain.solver,
+                pressure_classes=chain.pressure_classes,
+                conditions=conditions and conditions.dry,
+            ),
             checks.whole("seeds", seeds, least=1, most=MOST_SEEDS),
             checks.positive("tolerance", tolerance),
             case.klueppel_heinrich,
-            chain.pressure_classes,
             continuation=replace(case.continuation(), conditions=conditions),
             conditions=conditions,
         )
@@ -182,19 +184,6 @@ def telling_new(bench: Bench) -> Bench:
             on_task(progress)
 
     return replace(bench, on_task=tell)
-
-
-def _axis(study: Study) -> Axis:
-    """Return the varied input of a comparison; raise `InputError` unless it is one of numbers."""
-    axis = study.axes[0]
-    if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
-        names = ", ".join(other.name for other in study.axes)
-        raise InputError(f"a comparison varies one of {', '.join(COMPARED_OVER)}; got {names}")
-    if not axis.numeric:
-        raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
-    if len(axis.values) < 2:
-        raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
-    return axis
 
 
 def ladder_design(

@@ -335,7 +335,7 @@ def compare(
     vary : mapping, optional
         One input of numbers with its values, as for `gripscale.questions.Study`.
     seeds : int
-        Random phases drawn of each surface.
+        Random phases drawn of the sine waves.
     tolerance : float
         Estimated relative error of each direct contact.
     models : sequence of str

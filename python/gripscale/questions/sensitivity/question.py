@@ -338,7 +338,9 @@ def sensitivity(
         data = solve_design(study.design, bench, derivatives_of_answer)
     data = data.assign_coords(coordinates(study.axes, case.units))
     if STORAGE in data:
-        data = with_rules_of_thumb(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
+        data = with_rules_of_thumb(
+            data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.measured_rubbers[0].rubber
+        )
     attrs = {
         "title": "What decides the friction of a case",
         "model": "direct",

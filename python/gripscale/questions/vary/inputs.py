@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import field, replace
 from functools import cache
 from typing import Any, ClassVar
@@ -227,29 +227,16 @@ def for_rubber(model: Model, rubber: Rubber) -> Model:
     return model if effects == model.conditions else model.with_conditions(effects)
 
 
-def rubber_before(rubber: Rubber, model: Model) -> Rubber:
-    """Return `rubber` at the temperature it has before the contact of `model`.
-
-    Raises `InputError` if it has no shift, or none to this temperature.
-    """
-    return rubber if model.conditions is None else model.conditions.before(rubber)
-
-
 NAMED_MODELS = (Chain.name, DirectContact.name)
-# Inputs that no other model of a case depends on.
-OF_THE_CHAIN = ("factors", "waves", "pressure_classes")
 
 
-def default_model(case: Case, varied: Mapping[str, Sequence[Any]] | None = None) -> str:
-    """Return the name of what predicts a case by default, whose inputs take the `varied` values.
+def default_model(case: Case, surfaces: Sequence[Surface] = ()) -> str:
+    """Return the name of what predicts a case by default, on its surface or on `surfaces`.
 
-    The direct contact where every surface was measured and no input of the chain alone is varied,
-    else the chain. Raises `InputError` if a surface is none that `surface_of` takes.
+    The direct contact where every surface was measured, else the chain.
     """
-    values = varied or {}
-    surfaces = [surface_of(value, case) for value in values.get("surface", (OF_THE_CASE,))]
-    measured = all(surface.measured is not None for surface in surfaces)
-    return DirectContact.name if measured and not {*OF_THE_CHAIN} & {*values} else Chain.name
+    measured = all(surface.measured is not None for surface in surfaces or [case.surface])
+    return DirectContact.name if measured else Chain.name
 
 
 def model_of(model: Model | str, case: Case, tolerance: float | None = JUDGED_TO) -> Model:

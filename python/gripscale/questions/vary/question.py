@@ -41,7 +41,6 @@ from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page import input_sections
 from gripscale.questions.result import Result
 from gripscale.questions.vary.charts import study_pictures
-from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.vary.study import BEYOND_SHIFT, Study
 from gripscale.report.elements import Card, Section, case_title, percent_text
 from gripscale.report.equations import method_section
@@ -159,8 +158,6 @@ def _why_no_interval(data: xr.Dataset) -> str:
         return "no interval: the direct contact alone has none; leave the model out"
     if not data.attrs.get("surface_measured"):
         return "no interval: no surface was measured that could judge it"
-    if set(view.dimensions(data)) & set(OF_THE_CHAIN):
-        return "the varied input belongs to the chain only: `gripscale run` has the answer"
     return "the surface was measured: `--model direct`, the default, gives the answer"
 
 
