@@ -349,16 +349,16 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     ]
     text = "1 where the wavelength excites the rubber outside the measured frequencies"
     add("outside_band", by_load(excited, "wavelength"), text)
-    count = (samples.prediction_status != "").sum("sample")
-    add("samples", count, "number of samples")
+    add("samples", (samples.prediction_status != "").sum("sample"), "number of samples")
     count = reduce.converged(samples).sum("sample")
     add("converged_samples", count, "number of samples that converged")
     add("status", reduce.status(samples), "converged, or what failed")
     add("status_word", reduce.status_word(samples), "word of the status")
     add("seconds", samples.seconds.sum("sample"), "time its samples took", "s")
-    pressures = [setup.load.pressure for setup in setups]
-    add("nominal_pressure", by_load(pressures), "nominal pressure", "Pa")
-    add("nominal_speed", by_load([setup.load.speed for setup in setups]), "sliding speed", "m/s")
+    loads = [setup.load for setup in setups]
+    pressures, speeds = by_load([x.pressure for x in loads]), by_load([x.speed for x in loads])
+    add("nominal_pressure", pressures, "nominal pressure", "Pa")
+    add("nominal_speed", speeds, "sliding speed", "m/s")
     words = {
         "label": "the model in words",
         "group": "what it can be asked for with",
@@ -375,7 +375,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     text = "lower end of the octave"
     coords["wavelength"] = labelled("wavelength", wavelength, "m", text, _SOURCE)
     subjects: list[Doubtful] = [setups[0].surface, *comparison.rubbers]
-    loads, conditions = [setup.load for setup in setups], setups[0].conditions
+    conditions = setups[0].conditions
     return xr.Dataset(
         data,
         {"model": [member.name for member in comparison.models], **coords},

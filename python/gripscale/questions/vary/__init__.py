@@ -4,8 +4,8 @@ from gripscale.questions.registry import Form, FormField
 
 KINDS = {
     "study": "question:Variation",
-    "compounds": "page_side_by_side:Compounds",
-    "surfaces": "page_side_by_side:Surfaces",
+    "compounds": "ranking:Compounds",
+    "surfaces": "ranking:Surfaces",
 }
 COMMANDS = {
     "study": "command:study_command",

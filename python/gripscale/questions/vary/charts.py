@@ -6,7 +6,7 @@ Contact area and friction against wavelength over a study are figures 5 to 9 of 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -22,13 +22,10 @@ from gripscale.io.table import significant
 from gripscale.model import STATUS
 from gripscale.questions import view
 from gripscale.questions.answer.variables import believed
-from gripscale.questions.inputs.charts_of_rubber import compound_moduli_figure
 from gripscale.questions.vary.study import BEYOND_SHIFT, REDUCED_SPEED
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from gripscale.rubber import Rubber
 
 
 def totals_figure(data: xr.Dataset) -> Figure:
@@ -48,14 +45,6 @@ def totals_figure(data: xr.Dataset) -> Figure:
     named = len(friction.marks) > 1 or bool(keys) or any(np.any(c.beyond) for c in curves)
     legend = "above" if named else ""
     return Sheet([area, friction], legend=legend, legend_columns=4, keys=keys).on_paper()
-
-
-def _wave_panels(data: xr.Dataset) -> list[Panel]:
-    """Return contact area and friction down to each wave, a curve for each prediction."""
-    flags = data["wavelength"].copy(data=style.waves_beyond(data)).transpose(..., "scale")
-    flags = flags.copy(data=np.logical_or.accumulate(flags.values, axis=-1))
-    names = ("running_contact_fraction", "running_friction")
-    return [view.panel(data, name, "scale", over="wavelength", flags=flags) for name in names]
 
 
 def map_figure(result: xr.Dataset) -> Figure:
@@ -155,9 +144,15 @@ def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
         return
     if len(several) == 1 and "wavelength" in result:
         alone = result.isel({dim: 0 for dim in view.dimensions(result) if dim not in several})
+        flags = alone["wavelength"].copy(data=style.waves_beyond(alone)).transpose(..., "scale")
+        flags = flags.copy(data=np.logical_or.accumulate(flags.values, axis=-1))
+        panels = [
+            view.panel(alone, f"running_{name}", "scale", over="wavelength", flags=flags)
+            for name in ("contact_fraction", "friction")
+        ]
         yield Picture(
             "wavelength",
-            Sheet(_wave_panels(alone), legend="beside").on_paper(),
+            Sheet(panels, legend="beside").on_paper(),
             "Contact area and friction of each wave and all longer ones.",
             "Two panels of curves against wavelength, which falls to the right.",
         )
@@ -170,44 +165,6 @@ def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
 
 CUBIC_MM = 1e-9
 LEAST_POWER_SHARE = 0.02  # share of the largest part of the friction from which one is drawn
-_RANKING = (
-    "Friction over that of the first, with the 90 % interval of the ratio, and μ below it; "
-    "friction of all waves down to each wavelength"
-)
-
-
-def compound_pictures(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Iterator[Picture]:
-    """Yield the figures of `gripscale.questions.Compounds`: friction, and moduli."""
-    yield Picture(
-        "compound_friction",
-        ranking_figure(data, "rubber"),
-        f"{_RANKING}; and up to each relaxation time, split as at small strain.",
-        "A point with an interval and two curves for each compound, rising towards short waves "
-        "and long times.",
-    )
-    if rubbers:
-        yield Picture(
-            "compound_moduli",
-            compound_moduli_figure(rubbers),
-            "Storage modulus and loss factor of each compound, dashed beyond what was measured.",
-            "Two panels of curves over the frequency, one curve for each compound.",
-        )
-
-
-def road_pictures(data: xr.Dataset) -> Iterator[Picture]:
-    """Yield the figures of `gripscale.questions.Surfaces`: friction, and statistics."""
-    yield Picture(
-        "roads_friction",
-        ranking_figure(data, "surface"),
-        f"{_RANKING}.",
-        "A point with an interval and a curve for each surface, rising towards short waves.",
-    )
-    yield Picture(
-        "roads_statistics",
-        roads_statistics_figure(data),
-        "Height difference correlation and spectrum of each surface.",
-        "Two panels of curves, one for each surface.",
-    )
 
 
 def ranking_figure(data: xr.Dataset, dim: str) -> Figure:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterable, Sequence
 from dataclasses import field, replace
-from functools import cache
 from typing import Any, ClassVar
 
 import xarray as xr
@@ -168,7 +167,6 @@ def reading_notes(values: Iterable[Any]) -> tuple[str, ...]:
 
 # What conditions do to the contact; the area term does nothing to it.
 _EFFECTS = ("temperature", "softening", "heat", "water")
-ALL_EFFECTS, NO_EFFECTS = "all", "none"
 
 
 def conditions_of(model: Model) -> Conditions:
@@ -184,29 +182,19 @@ def at_temperature(model: Model, kelvin: float) -> Model:
     return model.with_conditions(replace(conditions_of(model), temperature=kelvin))
 
 
-def effects_asked(model: Model) -> list[str]:
-    """Return which of `_EFFECTS` the conditions of a model have."""
-    conditions = conditions_of(model)
-    return [effect for effect in _EFFECTS if getattr(conditions, effect) is not None]
-
-
 def with_effects(model: Model, selection: str) -> Model:
     """Return `model` with all of its effects, without one or with none; its area term stays.
 
     Raises `InputError` if `selection` is neither "all", "no" one that the model has, nor "none".
     """
-    asked = effects_asked(model)
-    without = {ALL_EFFECTS: [], **{f"no {effect}": [effect] for effect in asked}, NO_EFFECTS: asked}
+    conditions = conditions_of(model)
+    asked = [effect for effect in _EFFECTS if getattr(conditions, effect) is not None]
+    without = {"all": [], **{f"no {effect}": [effect] for effect in asked}, "none": asked}
     nothing = without[checks.one_of("effects", selection, without)]
-    return model.with_conditions(conditions_of(model).without(*nothing))
+    return model.with_conditions(conditions.without(*nothing))
 
 
 _OF_NAMED = 293.15  # temperature of the moduli of rubbers known by name [K]
-
-
-@cache
-def _names_of_unfilled() -> set[str]:
-    return {named().name for named in _NAMED_RUBBERS.values()}
 
 
 def for_rubber(model: Model, rubber: Rubber) -> Model:
@@ -218,16 +206,13 @@ def for_rubber(model: Model, rubber: Rubber) -> Model:
     effects = model.conditions
     if effects is None or not model.takes_conditions:
         return model
-    if rubber.name in _names_of_unfilled():
+    if rubber.name in {named().name for named in _NAMED_RUBBERS.values()}:
         effects = replace(effects, softening=None)
         if rubber.shift is None and effects.temperature == _OF_NAMED:
             effects = replace(effects, temperature=None)
     if rubber.shift is None and effects.heat == ThermalProperties():
         effects = replace(effects, heat=None)
     return model if effects == model.conditions else model.with_conditions(effects)
-
-
-NAMED_MODELS = (Chain.name, DirectContact.name)
 
 
 def default_model(case: Case, surfaces: Sequence[Surface] = ()) -> str:
@@ -249,6 +234,6 @@ def model_of(model: Model | str, case: Case, tolerance: float | None = JUDGED_TO
         if isinstance(model, Persson) and model.conditions is None:
             return model.with_conditions(case.conditions)
         return model
-    if checks.one_of("model", model, NAMED_MODELS) == Chain.name:
+    if checks.one_of("model", model, (Chain.name, DirectContact.name)) == Chain.name:
         return case.chain
     return AnswerModel(tolerance, case.conditions, case.below_measurement)

@@ -124,12 +124,12 @@ class Variation(Result):
             share = view.at_places(data, FRICTION_OUTSIDE_BAND)
             columns.append(Column("outside_band", share, "μ", "beyond band", format=percent))
         table = view.table(data, columns, "study", "Predictions of the study")
-        if BEYOND_SHIFT in data:
-            marks = [" *" if beyond else "" for beyond in view.at_places(data, BEYOND_SHIFT)]
-            marked = [*table.columns]
-            marked[table.keys - 1] = replace(marked[table.keys - 1], marks=marks)
-            table = replace(table, columns=marked)
-        return table
+        if BEYOND_SHIFT not in data:
+            return table
+        marks = [" *" if beyond else "" for beyond in view.at_places(data, BEYOND_SHIFT)]
+        *keys, last = table.columns[: table.keys]
+        columns = [*keys, replace(last, marks=marks), *table.columns[table.keys :]]
+        return replace(table, columns=columns)
 
     def pictures(self) -> Iterator[Picture]:
         yield from study_pictures(self.data)
