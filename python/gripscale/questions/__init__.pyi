@@ -46,7 +46,6 @@ from .uncertainty.series_scatter import SeriesScatter as SeriesScatter
 from .uncertainty.variance_shares import Shares as Shares
 from .uncertainty.variance_shares import shares as shares
 from .vary.charts import friction_master_figure as friction_master_figure
-from .vary.charts import map_figure as map_figure
 from .vary.question import Variation as Variation
 from .vary.ranking import Compounds as Compounds
 from .vary.ranking import Surfaces as Surfaces

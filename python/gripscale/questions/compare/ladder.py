@@ -55,11 +55,6 @@ class ComparisonSetup(Described):
     every other model only the temperature."""
 
     @property
-    def of_map(self) -> bool:
-        """Whether a map was measured."""
-        return self.surface.measured is not None and self.surface.measured.map is not None
-
-    @property
     def lines(self) -> tuple[Profile, ...]:
         """The cleaned profiles, or the lines of a map; none of waves stated by hand."""
         return () if self.surface.measured is None else tuple(self.surface.measured.cleaned)
@@ -229,7 +224,8 @@ def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     DIRECT,
 )
 def _continued(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    if setup.continuation is None or setup.of_map:
+    measured = setup.surface.measured
+    if setup.continuation is None or (measured is not None and measured.map is not None):
         return []
     profiles = each_measured(setup.surface)
     return [SampleSpec(setup.continuation, part, name) for name, part in profiles]

@@ -18,6 +18,7 @@ from gripscale.core import Checked, InputError, checked, checks
 from gripscale.core.units import si_value
 from gripscale.experiment.task import Task
 from gripscale.model import Load, Model
+from gripscale.questions.uncertainty.profile_blocks import Indices, ProfileBlocks
 from gripscale.questions.vary.axis import plain_number
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, fit_sines
@@ -69,8 +70,7 @@ class Inputs:
     raw: Callable[[], Sequence[Profile]] | None = None
     # The profiles, where they are not cleaned as in the case.
     cleaned: CleanedProfiles | None = None
-    recorrelated: Callable[[], HeightDifference] | None = None  # gives C_z of drawn blocks
-    redrawn: Callable[[], tuple[Profile, ...]] | None = None  # gives profiles of drawn blocks
+    blocks: tuple[ProfileBlocks, Indices] | None = None  # of the profiles, and which are drawn
     # Whether gaps of the profiles are filled by cubics without a kink, not by straight lines.
     smooth_gaps: bool = False
     load_time_factor: float = 1.0  # how much longer each wave is loaded than the model says [-]
@@ -85,16 +85,16 @@ class Inputs:
     @property
     def correlation(self) -> HeightDifference | None:
         """What the waves are fitted to; None for waves stated by hand."""
-        if self.recorrelated is not None:
-            return self.recorrelated()
+        if self.blocks is not None:
+            return self.blocks[0].correlation(self.blocks[1])
         return self.surface.correlation if self.cleaned is None else self.cleaned.correlation
 
     @property
     def measured(self) -> Measured | None:
         """What the direct contact is solved on."""
         lines: Sequence[Profile]
-        if self.redrawn is not None:
-            lines = self.redrawn()
+        if self.blocks is not None:
+            lines = self.blocks[0].lines(self.blocks[1])
         elif self.cleaned is not None:
             lines = self.cleaned.profiles
         else:

@@ -7,22 +7,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import chart, style
+from gripscale.charts import style
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
 from gripscale.charts.draw import Picture, Sheet
-from gripscale.charts.style import BEYOND_LABEL, COLOURS, GREY, INK, NARROW
+from gripscale.charts.style import BEYOND_LABEL, COLOURS, GREY, NARROW
 from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.io.table import significant
 from gripscale.model import STATUS
 from gripscale.questions import view
 from gripscale.questions.answer.variables import believed
-from gripscale.questions.vary.study import BEYOND_SHIFT, REDUCED_SPEED
+from gripscale.questions.vary.study import REDUCED_SPEED
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,41 +44,6 @@ def totals_figure(data: xr.Dataset) -> Figure:
     named = len(friction.marks) > 1 or bool(keys) or any(np.any(c.beyond) for c in curves)
     legend = "above" if named else ""
     return Sheet([area, friction], legend=legend, legend_columns=4, keys=keys).on_paper()
-
-
-def map_figure(result: xr.Dataset) -> Figure:
-    """Draw friction and A_r/A_0 over the speed, to the right, and the temperature.
-
-    Dots are the predictions; open where some of the friction rests on the rubber beyond its
-    measured band, crosses where the temperature lies beyond those the shift rests on. What did not
-    converge is left white.
-    """
-    result = result.sortby(["temperature", "speed"]).transpose("temperature", "speed", ...)
-    (abscissa, speeds), (ordinate, celsius) = (
-        view.plot_axis(result[name]) for name in ("speed", "temperature")
-    )
-    beyond = style.predictions_beyond(result).astype(bool)
-    shifted = result[BEYOND_SHIFT].values.astype(bool)
-    solved = np.isfinite(result.total_friction.values)
-    x, y = np.meshgrid(speeds, celsius)
-    kinds = (
-        (solved & ~beyond & ~shifted, "solved", ".", INK, 2.5),
-        (solved & beyond & ~shifted, BEYOND_LABEL, "o", INK, 3.0),
-        (solved & shifted, "beyond the temperatures of the shift", "x", GREY, 3.0),
-    )
-    points = [
-        Series(x[rows], y[rows], colour, label, "", marker=marker, size=size,
-               filled=marker != "o", clip=False)
-        for rows, label, marker, colour, size in kinds
-        if rows.any()
-    ]  # fmt: skip
-    frame = replace(abscissa, grid=False), replace(ordinate, grid=False)
-    panels = []
-    for name in view.answers(result):
-        label = f"{view.title(result[name])} [-]"
-        values = chart.ValueMap(speeds, celsius, result[name].values, label, levels=9)
-        panels.append(Panel(*frame, [values, *points]))
-    return Sheet(panels, height=3.3, layout={"sharey": True}).on_paper()
 
 
 def friction_master_figure(result: xr.Dataset) -> Figure:
@@ -116,7 +80,7 @@ def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
 
 
 def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
-    """Yield totals and, over a single axis, what makes them; maps of speed and temperature."""
+    """Yield totals, all temperatures over a_T v and, over a single axis, what makes them."""
     yield Picture(
         "totals",
         totals_figure(result),
@@ -132,13 +96,6 @@ def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
             "does nothing but shift the relaxation times of the rubber.",
             "Two panels of curves against a_T v, one for each temperature.",
         )
-        if min(result.sizes["speed"], result.sizes["temperature"]) > 1:
-            yield Picture(
-                "map",
-                map_figure(result),
-                "Friction and contact area over speed and temperature.",
-                "Two maps over speed and temperature with a dot for each prediction.",
-            )
     several = [dim for dim in view.dimensions(result) if result.sizes[dim] > 1]
     if not (result[STATUS] == "converged").any():
         return
