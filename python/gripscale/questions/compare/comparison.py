@@ -62,11 +62,6 @@ class SolvedLadder(Described):
     rubbers: Sequence[MeasuredRubber] = ()
     """The rubbers of the setups with their sources and doubts."""
 
-    @property
-    def converged(self) -> bool:
-        """Whether every sample of every model may be used."""
-        return bool((reduce.converged(self.samples) | (self.samples.prediction_status == "")).all())
-
     @cached_property
     def data(self) -> xr.Dataset:
         """Everything as a labelled Dataset over the axis and `model`."""
