@@ -201,7 +201,7 @@ def test_both_models_have_the_same_draws(folder):
         ({"samples": 5}, "samples"),
         ({"models": ["persson"]}, "model"),
         ({"models": []}, "models"),
-        ({"vary": {"waves": "5,6"}}, "varies one of speed, pressure"),
+        ({"vary": {"thickness": "5 mm,6 mm"}}, "varies one of speed, pressure"),
         ({"tolerance": 0.0}, "tolerance"),
     ],
 )
