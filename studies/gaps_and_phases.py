@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 import gripscale as gs
-from gripscale.half_space import one_period, random_phases
+from gripscale.half_space import one_period
 from gripscale.surface.resampling import fill_gaps
 from gripscale.surface.sine_fit import first_consistent_lag
+from studies.random_phases import random_phases
 from studies.shipped import road, tread
 
 Array = NDArray[np.float64]

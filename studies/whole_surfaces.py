@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 import gripscale as gs
-from gripscale.half_space import random_phases, surface_of_sines
+from gripscale.half_space import surface_of_sines
 from gripscale.model import FOOTPRINT
 from gripscale.reproduction.inputs import (
     COARSE,
@@ -26,6 +26,7 @@ from gripscale.reproduction.inputs import (
     PaperInputs,
 )
 from gripscale.surface import HeightMap, Profile, SineStack
+from studies.random_phases import random_phases
 
 SEEDS = range(6)
 PERIODS = 12

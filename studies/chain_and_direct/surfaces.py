@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 import gripscale as gs
-from gripscale.half_space import random_phases
 from gripscale.rubber import styrene_butadiene
 from gripscale.surface import self_affine_profile
 from gripscale.surface.low_pass import followed
+from studies.random_phases import random_phases
 from studies.shipped import road, tread
 
 

@@ -91,8 +91,6 @@ def test_questions_on_a_spectrum():
     assert not case.surface.doubts
     with pytest.raises(InputError, match="water needs a map"):
         case.replace(water=True)
-    with pytest.raises(InputError, match="top_height_fraction varies a measured surface"):
-        case.surface.varied(top_height_fraction=0.5)
     with pytest.raises(InputError, match="cleaning must be left out for a spectrum"):
         case.replace(cleaning={})
     assert "random to real phases" in str(gs.compare(case, models=["direct"]))

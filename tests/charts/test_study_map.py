@@ -1,4 +1,4 @@
-"""The map over speed and temperature, and all temperatures over a_T v, on paper and on the page."""
+"""Studies over speed and temperature: all temperatures over a_T v, on paper and on the page."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 from gripscale.model import TOTALS
-from gripscale.questions import Variation, friction_master_figure, map_figure
+from gripscale.questions import Variation, friction_master_figure
 from gripscale.questions.vary.charts import study_pictures
 from gripscale.questions.vary.study import BEYOND_SHIFT, with_master_curve
 from gripscale.rubber import WLF, Rubber
@@ -58,31 +58,6 @@ def test_the_variables_are_listed_with_their_units(study: xr.Dataset) -> None:
     }
 
 
-def test_map_marks_what_was_solved_by_what_it_rests_on(study: xr.Dataset) -> None:
-    figure = map_figure(study)
-    friction, area = figure.axes[:2]
-    marks = {str(one.get_label()): np.asarray(one.get_xydata()) for one in friction.lines}
-    assert {name: len(xy) for name, xy in marks.items()} == {
-        "solved": 49,
-        "beyond the temperatures of the shift": 25,
-    }
-    assert set(marks["beyond the temperatures of the shift"][:, 1]) == {40.0}
-    assert friction.get_ylabel() == "temperature $T$ [°C]"
-    assert area.get_xscale() == "log"
-
-
-def test_map_takes_axes_in_any_order(study: xr.Dataset) -> None:
-    whole = study.drop_sel(speed=study.speed[3])
-    turned = map_figure(whole.isel(temperature=[2, 0, 1], speed=slice(None, None, -1)))
-    images = [
-        [np.asarray(one.get_array()) for one in figure.axes[0].collections]
-        for figure in (map_figure(whole), turned)
-    ]
-    assert len(images[0]) > 0
-    for first, other in zip(*images, strict=True):
-        np.testing.assert_array_equal(first, other)
-
-
 def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
     friction = friction_master_figure(study).axes[0]
     assert len(friction.lines) == 3
@@ -94,9 +69,7 @@ def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
 
 def test_both_are_among_the_figures_of_a_study(study: xr.Dataset) -> None:
     names = {picture.name for picture in study_pictures(study)}
-    assert names == {"totals", "map", "friction_master_curve"}
-    alone = {picture.name for picture in study_pictures(study.isel(temperature=[0]))}
-    assert alone == {"totals", "friction_master_curve"}
+    assert names == {"totals", "friction_master_curve"}
 
 
 def test_page_shows_celsius_and_reduced_speed(study: xr.Dataset, tmp_path: Path) -> None:

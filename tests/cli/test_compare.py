@@ -40,7 +40,7 @@ from gripscale.questions.terminal import PROGRESS_LINES
 from tests.samples import Shell
 
 FORMATS = ("png",)
-RUNGS = ["chain_half_plane", "chain_upper", "sines", "random_phases", "direct", "persson"]
+RUNGS = ["chain_half_plane", "chain_upper", "sines", "direct", "persson"]
 
 
 WAVES_BY_HAND = (
@@ -55,7 +55,7 @@ MEASURED = "speed [mm/s],friction,spread\n100,0.31,0.02\n1000,0.42,0.02\n"
 
 @pytest.fixture(scope="module")
 def comparison(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
-    """What the command prints of six models with two samples each, and where it writes."""
+    """What the command prints of five models with two samples each, and where it writes."""
     folder = tmp_path_factory.mktemp("comparison")
     (folder / "mu.csv").write_text(MEASURED)
     target = folder / "out"
@@ -82,17 +82,10 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
     assert np.isfinite(beside.difference).all()
     data = netcdf.load_dataset(target / "comparison.nc")
     assert data.model.values.tolist() == RUNGS
-    assert data.samples.values.tolist() == [1, 1, 2, 2, 1, 1]
+    assert data.samples.values.tolist() == [1, 1, 2, 1, 1]
     assert (data.status == "converged").all()
     # A spread belongs to what was drawn more than once, and only to that.
-    assert np.isfinite(data.friction_spread).values.tolist() == [
-        False,
-        False,
-        True,
-        True,
-        False,
-        False,
-    ]
+    assert np.isfinite(data.friction_spread).values.tolist() == [False, False, True, False, False]
     assert data.measured_speed.values.tolist() == [0.1, 1.0]
     for label in data.label.values:
         assert str(label) in printed
@@ -112,7 +105,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
 
 @pytest.mark.parametrize("group", ["waves", "windows"])
 def test_rungs_of_any_group_alone_are_drawn(comparison: tuple[str, Path], group: str) -> None:
-    data = netcdf.load_dataset(comparison[1] / "comparison.nc").isel(model=[4])
+    data = netcdf.load_dataset(comparison[1] / "comparison.nc").isel(model=[3])
     data = data.assign_coords(group=("model", [group]))
     for octaves in (data, data.isel(wavelength=slice(0))):  # maps and blocks have no octaves
         assert next(comparison_pictures(octaves)).name == "comparison"
@@ -345,7 +338,6 @@ def test_model_that_failed_is_open_and_says_why(inputs: Path) -> None:
     samples = xr.concat([made.samples, second], "sample")
     samples["prediction_status"].values[0] = ["tolerance not met", ""]
     broken = replace(made, samples=samples)
-    assert not broken.converged
     data = broken.data
     assert np.isnan(data.total_friction.values[0])
     assert data.total_friction[1] == made.data.total_friction[1]

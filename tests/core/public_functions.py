@@ -282,7 +282,6 @@ def _rough() -> Iterator[PublicFunction]:
     direct = {"smallest_wavelength": None, "tolerance": 0.02, "most_points": 64}
     yield PublicFunction(rough.DirectContact, {**direct, "periodic": False})
     yield PublicFunction(rough.one_period, {"line": LINE, "smallest_wavelength": 4e-3})
-    yield PublicFunction(rough.random_phases, {"surface": LINE, "seed": 1})
     yield PublicFunction(rough.surface_of_sines, {"stack": SINES, "length": 8e-3, "seed": 1})
     yield PublicFunction(rough.windows, {"surface": LINE, "length": 1e-2})
     spread = {"length": 1e-2, "most": 2}

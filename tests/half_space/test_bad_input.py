@@ -10,7 +10,7 @@ import pytest
 
 import gripscale as gs
 from gripscale.core.errors import InputError
-from gripscale.half_space import random_phases, windows
+from gripscale.half_space import windows
 from gripscale.surface import HeightMap
 
 from .rough_cases import ZENER, isotropic_heights
@@ -83,8 +83,6 @@ def test_threads_of_a_map():
 def test_other_doors():
     with pytest.raises(InputError, match="surface must be a Profile or a HeightMap; got str"):
         windows("road", 0.1)
-    with pytest.raises(InputError, match="surface must be a Profile or a HeightMap; got ndarray"):
-        random_phases(Z, seed=1)
 
 
 WORDS = [None, True, "3", "", b"1", [], [1.0], (1.0, 2.0), {}, object(), abs, 1 + 0j]
@@ -135,7 +133,6 @@ def test_no_other_exception_comes_out_of_maps():
         for step in (
             lambda s: gs.clean_map(s, **odd),  # noqa: B023 used at once
             lambda s: windows(s, draw.choice([*VALUES, 7e-3, (7e-3, 9e-3)])),
-            lambda s: random_phases(s, draw.choice(VALUES)),
             lambda s: s.line(draw.choice(VALUES)),
             lambda s: gs.solve_rough_contact(ZENER, s, **LOAD),
             lambda s: gs.height_difference(s.turned().lines()),

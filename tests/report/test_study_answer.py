@@ -105,10 +105,6 @@ def test_the_chain_says_that_the_surface_could_answer(folder: Path) -> None:
     answer, _, advice = Variation(data).lines
     assert answer.startswith("Answer by the chain of sine waves, without an interval: friction")
     assert "`--model direct`" in advice
-    waves = Study(read_case(folder / "case.toml"), {"waves": [2, 3]})
-    assert waves.model.name == "chain"
-    *_, advice = Variation(waves.run(folder / "waves")).lines
-    assert "belongs to the chain only" in advice
 
 
 @pytest.mark.parametrize(

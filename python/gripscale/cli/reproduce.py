@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
+from gripscale.core import InputError, checks
 from gripscale.questions import terminal
 from gripscale.questions.terminal import argument, command, option
 
@@ -41,7 +42,6 @@ def reproduce(
 ) -> None:
     """Reproduce figures of Lind & Wangenheim 2014 and judge the paper's statements."""
     from gripscale.core import si_value
-    from gripscale.questions.vary.axis import axis_value
     from gripscale.reproduction.inputs import read_inputs
     from gripscale.reproduction.run import reproduce_paper
     from gripscale.reproduction.statement import verdict_table
@@ -50,7 +50,7 @@ def reproduce(
     inputs = read_inputs(
         surface or (),
         rubber or (),
-        [axis_value("factors", pair) for pair in (factors.split(",") if factors else ())],
+        [factor_pair(text) for text in (factors.split(",") if factors else ())],
         surface_keys=terminal.surface_keys(channel=channel, crop=crop, **units),
         rubber_keys={"modulus": modulus} if modulus else {},
         temperature=si_value("--temperature", temperature, "K"),
@@ -63,3 +63,15 @@ def reproduce(
     closing = f"Figures, data, and statements.md with all numbers and reasons are in {output}"
     tables = [verdict_table(statements)] if statements else []
     terminal.print_parts(console, [*tables, closing])
+
+
+def factor_pair(text: str) -> tuple[float, float]:
+    """Return magnification factors of a text such as 3.5/2.4; raise `InputError` for others."""
+    try:
+        first, second = (float(part) for part in text.split("/"))
+    except ValueError as error:
+        raise InputError(f'factors must be pairs such as "3.5/2.4"; got {text!r}') from error
+    for part in (first, second):
+        if checks.number("factors", part) <= 1.0:
+            raise InputError(f"factors must be greater than 1; got {part:g}")
+    return first, second

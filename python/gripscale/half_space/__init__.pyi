@@ -8,7 +8,6 @@ from .result import shares_by_slope as shares_by_slope
 from .sensitivity import contact_sensitivity as contact_sensitivity
 from .solve import solve_rough_contact as solve_rough_contact
 from .windows import one_period as one_period
-from .windows import random_phases as random_phases
 from .windows import spread_windows as spread_windows
 from .windows import surface_of_sines as surface_of_sines
 from .windows import windows as windows

@@ -46,10 +46,9 @@ from .uncertainty.series_scatter import SeriesScatter as SeriesScatter
 from .uncertainty.variance_shares import Shares as Shares
 from .uncertainty.variance_shares import shares as shares
 from .vary.charts import friction_master_figure as friction_master_figure
-from .vary.charts import map_figure as map_figure
-from .vary.page_side_by_side import Compounds as Compounds
-from .vary.page_side_by_side import Surfaces as Surfaces
 from .vary.question import Variation as Variation
+from .vary.ranking import Compounds as Compounds
+from .vary.ranking import Surfaces as Surfaces
 from .vary.ranking import at_one_temperature as at_one_temperature
 from .vary.ranking import compare_compounds as compare_compounds
 from .vary.ranking import compare_surfaces as compare_surfaces

@@ -23,7 +23,7 @@ from gripscale.surface.cut_off import (
     slope_by_wavelength,
 )
 from gripscale.surface.direction import direction_of_map, direction_of_profiles
-from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
+from gripscale.surface.height_difference import HeightDifference, SelfAffineFit
 from gripscale.surface.low_pass import followed, followed_lines
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.random_phases import Spectrum
@@ -337,41 +337,40 @@ class Surface(Described):
     def varied(
         self,
         *,
-        factors: tuple[float, float] | None = None,
         waves: int | None = None,
         smallest_wavelength: float | None = None,
         cut_off: CutOffRule | None = None,
-        top_height_fraction: float | None = None,
     ) -> Surface:
         """Return the surface with other waves; raise `InputError` if there are none such.
 
-        `factors` are the magnification factors of wavelength and amplitude, from the same first
-        wave down to the same smallest wavelength or cut-off as far as whole waves go. The number of
-        `waves` is fitted anew to a measured surface, and means the first ones of waves by hand.
-        `smallest_wavelength` is the last wave [m], in place of a cut-off: fitted anew, or cut off.
-        `cut_off` is where the roughness ends that they stand for, in its place: a length [m] or
-        another rule of `find_cut_off`; of fitted waves only. `top_height_fraction` is the fraction
-        of the heights that counts, see `height_difference`; of a measured surface only.
+        The number of `waves` is fitted anew to a measured surface, and means the first ones of
+        waves by hand. `smallest_wavelength` is the last wave [m], in place of a cut-off: fitted
+        anew, or cut off. `cut_off` is where the roughness ends that they stand for, in its place: a
+        length [m] or another rule of `find_cut_off`; of fitted waves only.
         """
-        surface = self if top_height_fraction is None else self._of_upper(top_height_fraction)
-        if factors is None and waves is None and smallest_wavelength is None and cut_off is None:
-            return surface
+        if waves is None and smallest_wavelength is None and cut_off is None:
+            return self
         if smallest_wavelength is not None and cut_off is not None:
             raise InputError(
                 "vary smallest_wavelength (the last wave) or cut_off (where the roughness ends), "
                 "not both"
             )
-        if cut_off is not None and (surface.correlation is None or not surface.fit):
-            raise InputError(f"cut_off varies waves that were fitted; got {surface.source}")
-        end = None if cut_off is None else surface._length_of(cut_off)
-        if factors is not None:
-            stack = surface._magnified(factors, waves, smallest_wavelength, end)
-        elif surface.correlation is None or not surface.fit:
-            stack = surface._shortened(waves, smallest_wavelength)
-        else:
-            stack = surface._fitted(surface.correlation, waves, smallest_wavelength, end)
-        kept = surface.rule if stack.cut_off is not None else None
-        return replace(surface, waves=stack, rule=kept if cut_off is None else cut_off)
+        if self.correlation is None or not self.fit:
+            if cut_off is not None:
+                raise InputError(f"cut_off varies waves that were fitted; got {self.source}")
+            return replace(self, waves=self._shortened(waves, smallest_wavelength), rule=None)
+        options = dict(self.fit)
+        fixed = options.get("s_wavelength") is not None
+        if waves is not None:
+            no_end = {"smallest_wavelength": None, "cut_off": None}
+            options |= {"scales": waves} | (no_end if fixed else {})
+        if smallest_wavelength is not None or cut_off is not None:
+            end = None if cut_off is None else self._length_of(cut_off)
+            options |= {"smallest_wavelength": smallest_wavelength, "cut_off": end}
+            options |= {"scales": None} if fixed and waves is None else {}
+        stack = fit_sines(self.correlation, **options)
+        kept = self.rule if stack.cut_off is not None else None
+        return replace(self, waves=stack, rule=kept if cut_off is None else cut_off)
 
     def _length_of(self, rule: CutOffRule) -> float:
         if isinstance(rule, int | float):
@@ -379,69 +378,6 @@ class Surface(Described):
         if self.measured is None:
             raise InputError(f"cut_off = {rule} needs a measured surface; got {self.source}")
         return find_cut_off(self.measured.slopes, rule).wavelength
-
-    def _of_upper(self, share: float) -> Surface:
-        if self.measured is None or self.spectrum is not None or not self.fit:
-            raise InputError(f"top_height_fraction varies a measured surface; got {self.source}")
-        counted = {**self.counted, "top_height_fraction": share}
-        correlation = height_difference(self.measured.followed, **counted)
-        sines = fit_sines(correlation, **self.fit)
-        return replace(self, waves=sines, correlation=correlation, counted=counted)
-
-    def _fitted(
-        self,
-        correlation: HeightDifference,
-        waves: int | None,
-        smallest: float | None,
-        cut_off: float | None,
-    ) -> SineStack:
-        options = dict(self.fit)
-        fixed = options.get("s_wavelength") is not None
-        if waves is not None:
-            no_end = {"smallest_wavelength": None, "cut_off": None}
-            options |= {"scales": waves} | (no_end if fixed else {})
-        if smallest is not None or cut_off is not None:
-            options |= {"smallest_wavelength": smallest, "cut_off": cut_off}
-            options |= {"scales": None} if fixed and waves is None else {}
-        return fit_sines(correlation, **options)
-
-    def _magnified(
-        self,
-        factors: tuple[float, float],
-        waves: int | None,
-        smallest: float | None,
-        cut_off: float | None,
-    ) -> SineStack:
-        first, last = self.sines.wavelength[0], smallest or self.sines.wavelength[-1]
-        half = np.sqrt(factors[0])
-        if smallest is None:
-            cut_off = cut_off or self.sines.cut_off
-            last = last if cut_off is None else cut_off * half
-        if waves is None:
-            if last > first:
-                raise InputError(_beyond_the_largest(first, last))
-            waves = 1 + int(np.log(first / last) / np.log(factors[0]) + 1e-9)
-        order = np.arange(waves)
-        stack = SineStack(
-            wavelength=first / factors[0] ** order,
-            amplitude=self.sines.amplitude[0] / factors[1] ** order,
-            s_wavelength=factors[0],
-            s_amplitude=factors[1],
-        )
-        if cut_off is not None:
-            stack = replace(stack, cut_off=float(stack.wavelength[-1] / half))
-        if self.correlation is None:
-            return stack
-        # with its residual from the measured curve
-        return fit_sines(
-            self.correlation,
-            scales=waves if stack.cut_off is None else None,
-            cut_off=stack.cut_off,
-            s_wavelength=stack.s_wavelength,
-            s_amplitude=stack.s_amplitude,
-            first_wavelength=float(stack.wavelength[0]),
-            first_amplitude=float(stack.amplitude[0]),
-        )
 
     def _shortened(self, waves: int | None, smallest: float | None) -> SineStack:
         count = len(self.sines) if waves is None else waves
@@ -453,14 +389,11 @@ class Surface(Described):
         if smallest is not None:
             keep &= self.sines.wavelength >= smallest
         if not keep.any():
-            raise InputError(_beyond_the_largest(self.sines.wavelength[0], smallest))
+            raise InputError(
+                f"smallest_wavelength must not exceed the largest wave, "
+                f"{self.sines.wavelength[0]:g} m; got {smallest:g} m"
+            )
         return SineStack(self.sines.wavelength[keep], self.sines.amplitude[keep])
-
-
-def _beyond_the_largest(largest: float, smallest: float | None) -> str:
-    return (
-        f"smallest_wavelength must not exceed the largest wave, {largest:g} m; got {smallest:g} m"
-    )
 
 
 def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> Surface:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.chain import Chain
 from gripscale.core.status import Status
 from gripscale.experiment import Task
 from gripscale.half_space import BlockOnProfile, surface_of_sines
@@ -28,7 +29,7 @@ SURFACE = Surface(STACK, "", measured=Measured.of([LINE]))
 LOAD = Load(5e4, 0.1, 0.1, math.inf)
 ROAD = self_affine_profile(0.8, 5e-3, 1e-3, 0.3, 1e-4, seed=4)
 MEASURED = Measured.of([ROAD])
-SUBJECT = ComparisonSetup(RUBBER, Surface(STACK, "", measured=MEASURED), LOAD, HalfPlane())
+SUBJECT = ComparisonSetup(RUBBER, Surface(STACK, "", measured=MEASURED), LOAD, Chain(HalfPlane()))
 
 
 def test_both_models_answer_as_the_pair_does() -> None:

@@ -179,7 +179,9 @@ def test_refuses_rest_and_other_inputs(folder, tmp_path):
     with pytest.raises(InputError, match="speed must be above zero"):
         gs.sensitivity(read_case(folder / "case.toml"), folder=tmp_path, vary={"speed": [0.0, 1.0]})
     with pytest.raises(InputError, match="vary must be"):
-        gs.sensitivity(read_case(folder / "case.toml"), folder=tmp_path, vary={"waves": [2, 3]})
+        gs.sensitivity(
+            read_case(folder / "case.toml"), folder=tmp_path, vary={"cut_off": [2e-3, 3e-3]}
+        )
 
 
 def test_says_why_there_is_no_answer(data):

@@ -150,7 +150,7 @@ def test_few_failures_are_a_warning(half_failing):
     assert SampledAnswer(data.assign(failed=0 * data.failed + 3)).failure
 
 
-def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
+def test_a_refusal_while_solving_ends_the_run(folder, tmp_path):
     """A rubber left with 1 Pa cannot carry 3 bar once loaded for long: the chain refuses it."""
     case = tmp_path / "case.toml"
     for name in ("road.txt", "dma.txt"):
@@ -158,10 +158,8 @@ def test_a_refusal_while_solving_is_a_failure_too(folder, tmp_path):
     text = (folder / "case.toml").read_text()
     case.write_text(text.replace("footprint =", 'load_time = "infinite"\nfootprint ='))
     choice = Uncertainty(without=["waves", "modulus"], ranges={"equilibrium_modulus": "1 Pa,6 MPa"})
-    data = propagate(read_case(case), choice, samples=10, models=["chain"])
-    assert int(data.failed.sum()) == 5
-    assert "equilibrium_modulus [Pa] must be" in SampledAnswer(data).failure
-    assert set(data.status_word.values.ravel()) == {"converged", ""}  # a refusal has no word
+    with pytest.raises(InputError, match=r"equilibrium_modulus \[Pa\] must be"):
+        propagate(read_case(case), choice, samples=10, models=["chain"])
 
 
 @pytest.fixture(scope="module")
@@ -203,7 +201,7 @@ def test_both_models_have_the_same_draws(folder):
         ({"samples": 5}, "samples"),
         ({"models": ["persson"]}, "model"),
         ({"models": []}, "models"),
-        ({"vary": {"waves": "5,6"}}, "varies one of speed, pressure"),
+        ({"vary": {"thickness": "5 mm,6 mm"}}, "varies one of speed, pressure"),
         ({"tolerance": 0.0}, "tolerance"),
     ],
 )
@@ -225,24 +223,15 @@ def test_the_command_writes_result_table_and_figures(folder, tmp_path):
     case = folder / "case.toml"
     left_out = ("waves", "cleaning", "profile", "modulus")
     without = [word for name in left_out for word in ("--without", name)]
-    options = [
-        "--samples",
-        ENOUGH,
-        "--model",
-        "chain",
-        *without,
-        "--output",
-        tmp_path,
-        "--workers",
-        2,
-    ]
+    options = ["--samples", ENOUGH, "--model", "chain", *without, "--output", tmp_path]
     code, output = called(case, *options)
     assert code == 0, output
-    assert "What matters most (chain)" in output
     assert {path.name for path in (tmp_path / "figures").iterdir()} == {
         f"{name}.png" for name in ("answer", "distributions")
     }
-    assert netcdf.load_dataset(tmp_path / "uncertainty.nc").sizes["sample"] == ENOUGH
+    data = netcdf.load_dataset(tmp_path / "uncertainty.nc")
+    assert data.sizes["sample"] == ENOUGH
+    assert data.friction_share.notnull().all()
     text = (tmp_path / "uncertainty.txt").read_text()
     assert "Quantiles of the samples, without the factors of the answer" in text
     page = write_report(tmp_path).read_text()

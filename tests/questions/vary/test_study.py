@@ -22,7 +22,6 @@ from gripscale.core.provenance import SHOWING, fingerprint
 from gripscale.core.status import Status
 from gripscale.core.units import display_unit_of
 from gripscale.experiment import Progress, Task, task
-from gripscale.half_space.model import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.questions import Study
@@ -99,34 +98,6 @@ def test_number_of_workers_changes_nothing(case: Path, tmp_path: Path, same_byte
     same_bytes(study.run(tmp_path / "one", workers=1), study.run(tmp_path / "three", workers=3))
 
 
-def test_factors_keep_the_first_wave_and_waves_are_counted(case: Path, tmp_path: Path) -> None:
-    study = Study(read_case(case), {"factors": "3/3.2,10/10", "rubber": ["styrene_butadiene"]})
-    result = study.run(tmp_path)
-    assert result.wavelength.dims == ("factors", "rubber", "scale")
-    np.testing.assert_allclose(
-        result.wavelength.isel(rubber=0),
-        [[10e-3, 10e-3 / 3, 10e-3 / 9], [10e-3, 1e-3, np.nan]],
-        rtol=1e-14,
-    )
-    np.testing.assert_allclose(result.amplitude[:, 0, 1], [0.25e-3, 0.08e-3], rtol=1e-14)
-    assert result.s_amplitude.values.tolist() == [3.2, 10.0]
-    assert np.isfinite(result.total_friction).all()
-
-
-def test_pressure_classes_are_of_the_chain(case: Path, tmp_path: Path) -> None:
-    study = Study(read_case(case), {"pressure_classes": [1, 4]})
-    result = study.run(tmp_path)
-    assert isinstance(study.model, Chain)
-    for count in (1, 4):
-        alone = replace(study.model, pressure_classes=count).predict(
-            study.rubbers[0], study.surfaces[0], study.points[0].task.load
-        )
-        assert result.total_friction.sel(pressure_classes=count) == alone.total_friction
-    assert len(set(result.total_friction.values)) == 2
-    with pytest.raises(InputError, match="belongs to the chain; got the model direct"):
-        Study(read_case(case), {"pressure_classes": [1, 4]}, model=DirectContact())
-
-
 def test_rubbers_and_surfaces_may_be_given_as_objects(case: Path, tmp_path: Path) -> None:
     elastic = gs.Rubber(equilibrium_modulus=5e6)
     study = Study(
@@ -144,7 +115,6 @@ def test_rubbers_and_surfaces_may_be_given_as_objects(case: Path, tmp_path: Path
     [
         ({"rubber": "nowhere.txt"}, FileError, "rubber nowhere.txt is neither a file here or"),
         ({"surface": "nowhere.txt"}, FileError, "surface nowhere.txt is neither a file"),
-        ({"waves": "4"}, InputError, "waves must be at most 3"),
         ({"smallest_wavelength": "1 m"}, InputError, "smallest_wavelength must not exceed"),
     ],
 )

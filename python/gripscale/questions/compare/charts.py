@@ -110,12 +110,7 @@ class Row:
 
 def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
     """Yield the lines of one panel; both panels have the same."""
-    for row in _rows(comparison, name):
-        yield replace(row, most=UPPER_LIMITS.get(name, math.inf))
-
-
-def _rows(comparison: xr.Dataset, name: str) -> Iterator[Row]:
-    comparison = on_the_surface(comparison)
+    comparison, most = on_the_surface(comparison), UPPER_LIMITS.get(name, math.inf)
     totals = comparison[f"total_{name}"].values.tolist()
     values = dict(zip(comparison.model.values, totals, strict=True))
     for at, (member, bad) in enumerate(zip(values, flawed(comparison), strict=True)):
@@ -134,8 +129,10 @@ def _rows(comparison: xr.Dataset, name: str) -> Iterator[Row]:
             colour=GREY if theory else ORANGE if judge else INK,
             filled=not bad,
             note="failed" if math.isnan(values[member]) and not theory else "none",
+            most=most,
         )
-    yield from _best(comparison, name, values.get(DirectContact.name, math.nan))
+    for row in _best(comparison, name, values.get(DirectContact.name, math.nan)):
+        yield replace(row, most=most)
     for series in measured_series(comparison):
         point = series.at(float(comparison.nominal_speed)) if name == "friction" else None
         if point is None:
@@ -265,27 +262,17 @@ def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
     return Sheet([_axis_panel(comparison, name) for name in AXIS_TITLES], height=3.7).on_paper()
 
 
-_MARGIN = 0.03  # room beside the values of an axis, over its extent
-
-
 def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
-    total, axis, area = f"total_{name}", varied(comparison), name == "contact_fraction"
+    total, axis = f"total_{name}", varied(comparison)
     data = by_label(on_the_surface(comparison))
     spread = data[f"{name}_spread"]
     # a spread above the number itself has no end on a logarithmic axis
     low = np.maximum(data[total] - spread, 1e-3 * data[total])
-    high = np.minimum(data[total] + spread, 1.0 if area else np.inf)
+    high = np.minimum(data[total] + spread, UPPER_LIMITS.get(name, np.inf))
     data = data.assign(spread_low=low, spread_high=high)
     data[total].attrs["interval"] = "spread_low spread_high"
     panel = view.panel(data, total, axis)
-    whole = data["converged_samples"] == data["samples"]
-    marks = [
-        replace(mark, filled=whole.sel(model=mark.label).values)
-        if isinstance(mark, Series)
-        else mark
-        for mark in panel.marks
-    ]
-    x = view.plot_axis(comparison[axis])[1]
+    marks, x = list(panel.marks), view.plot_axis(comparison[axis])[1]
     if np.isfinite(comparison[f"answer_{name}_factor"]).any():
         answer = believed(comparison, name)
         values, *ends = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))
@@ -295,22 +282,14 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
         curves = view.panel(data.assign(adhesive=adhesive), "adhesive", axis).marks
         look: dict[str, Any] = {"label": "with the area term", "dash": "dashdot", "marker": ""}
         marks += [replace(mark, width=0.9, **look) for mark in curves if isinstance(mark, Series)]
-    low, high = float(x.min()), float(x.max())
+    abscissa = panel.x
     if axis == "speed" and name == "friction":
         points = list(measured_points(comparison, view.shown_unit(comparison[axis])))
         marks += points
-        speeds = [speed for series in points for speed in np.asarray(series.x)]
-        low, high = min([low, *speeds]), max([high, *speeds])
-    log = low > 0.0 and high > 8.0 * low
-    # room for a marker at each end
-    extent = (high / low) ** _MARGIN if log else _MARGIN * (high - low)
-    low, high = (low / extent, high * extent) if log else (low - extent, high + extent)
-    least = min(0.0, float(comparison.total_friction.min()))
-    return Panel(
-        replace(panel.x, log=log, low=low, high=high),
-        PlotAxis(f"{AXIS_TITLES[name]} [-]", log=area, low=None if area else least),
-        marks,
-    )
+        ends = [*x, *(speed for series in points for speed in np.asarray(series.x))]
+        low, high = float(min(ends)), float(max(ends))
+        abscissa = replace(abscissa, log=low > 0.0 and high > 8.0 * low, low=low, high=high)
+    return Panel(abscissa, replace(panel.y, label=f"{AXIS_TITLES[name]} [-]"), marks)
 
 
 MOST_COLUMNS = 3

@@ -20,8 +20,7 @@ def compare_command(
         str | None,
         terminal.option(
             "Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
-            "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off, "
-            "top_height_fraction, waves.",
+            "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off.",
             metavar="NAME=VALUES",
         ),
     ] = None,
@@ -34,7 +33,7 @@ def compare_command(
         ),
     ] = None,
     output: terminal.OwnFolder = None,
-    seeds: Annotated[int, typer.Option(help="Random phases drawn of each surface.")] = 3,
+    seeds: Annotated[int, typer.Option(help="Random phases drawn of the sine waves.")] = 3,
     tolerance: Annotated[
         float, typer.Option(help="Estimated relative error of each direct contact.")
     ] = 0.05,

@@ -62,11 +62,6 @@ class SolvedLadder(Described):
     rubbers: Sequence[MeasuredRubber] = ()
     """The rubbers of the setups with their sources and doubts."""
 
-    @property
-    def converged(self) -> bool:
-        """Whether every sample of every model may be used."""
-        return bool((reduce.converged(self.samples) | (self.samples.prediction_status == "")).all())
-
     @cached_property
     def data(self) -> xr.Dataset:
         """Everything as a labelled Dataset over the axis and `model`."""
@@ -117,15 +112,7 @@ class SolvedLadder(Described):
 
 
 # Inputs a comparison can be made over: numbers of the load and of the surface.
-COMPARED_OVER = (
-    "speed",
-    "pressure",
-    "temperature",
-    "smallest_wavelength",
-    "waves",
-    "cut_off",
-    "top_height_fraction",
-)
+COMPARED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "cut_off")
 
 MOST_SEEDS = 1000
 FEWEST_WINDOWS = 3  # windows whose scatter is believed
@@ -145,10 +132,17 @@ def comparison_setups(
     axis: Axis | None = None
     if vary is not None:
         study = Study(case, vary, model=Chain.name)
-        axis = _axis(study)
+        axis = study.axes[0]
+        if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
+            names = ", ".join(other.name for other in study.axes)
+            raise InputError(f"a comparison varies one of {', '.join(COMPARED_OVER)}; got {names}")
+        if not axis.numeric:
+            raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
+        if len(axis.values) < 2:
+            raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
         tasks = {point.label: point.task for point in study.points}
         rubbers = study.measured_rubbers
-    setups = {}
+    setups: dict[str, ComparisonSetup] = {}
     water = None if case.conditions is None else case.conditions.water  # which the chain leaves out
     for label, task in tasks.items():
         chain = checks.instance("model", task.model, Chain)
@@ -159,11 +153,14 @@ def comparison_setups(
             task.rubber,
             task.surface,
             task.load,
-            chain.solver,
+            Chain(
+                chain.solver,
+                pressure_classes=chain.pressure_classes,
+                conditions=conditions and conditions.dry,
+            ),
             checks.whole("seeds", seeds, least=1, most=MOST_SEEDS),
             checks.positive("tolerance", tolerance),
             case.klueppel_heinrich,
-            chain.pressure_classes,
             continuation=replace(case.continuation(), conditions=conditions),
             conditions=conditions,
         )
@@ -182,19 +179,6 @@ def telling_new(bench: Bench) -> Bench:
             on_task(progress)
 
     return replace(bench, on_task=tell)
-
-
-def _axis(study: Study) -> Axis:
-    """Return the varied input of a comparison; raise `InputError` unless it is one of numbers."""
-    axis = study.axes[0]
-    if len(study.axes) > 1 or axis.name not in COMPARED_OVER:
-        names = ", ".join(other.name for other in study.axes)
-        raise InputError(f"a comparison varies one of {', '.join(COMPARED_OVER)}; got {names}")
-    if not axis.numeric:
-        raise InputError(f"a comparison varies {axis.name} by numbers; got {axis.labels[0]}")
-    if len(axis.values) < 2:
-        raise InputError(f"{axis.name} must have at least two values; got {axis.labels[0]}")
-    return axis
 
 
 def ladder_design(
@@ -360,16 +344,16 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     ]
     text = "1 where the wavelength excites the rubber outside the measured frequencies"
     add("outside_band", by_load(excited, "wavelength"), text)
-    count = (samples.prediction_status != "").sum("sample")
-    add("samples", count, "number of samples")
+    add("samples", (samples.prediction_status != "").sum("sample"), "number of samples")
     count = reduce.converged(samples).sum("sample")
     add("converged_samples", count, "number of samples that converged")
     add("status", reduce.status(samples), "converged, or what failed")
     add("status_word", reduce.status_word(samples), "word of the status")
     add("seconds", samples.seconds.sum("sample"), "time its samples took", "s")
-    pressures = [setup.load.pressure for setup in setups]
-    add("nominal_pressure", by_load(pressures), "nominal pressure", "Pa")
-    add("nominal_speed", by_load([setup.load.speed for setup in setups]), "sliding speed", "m/s")
+    loads = [setup.load for setup in setups]
+    pressures, speeds = by_load([x.pressure for x in loads]), by_load([x.speed for x in loads])
+    add("nominal_pressure", pressures, "nominal pressure", "Pa")
+    add("nominal_speed", speeds, "sliding speed", "m/s")
     words = {
         "label": "the model in words",
         "group": "what it can be asked for with",
@@ -386,7 +370,7 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     text = "lower end of the octave"
     coords["wavelength"] = labelled("wavelength", wavelength, "m", text, _SOURCE)
     subjects: list[Doubtful] = [setups[0].surface, *comparison.rubbers]
-    loads, conditions = [setup.load for setup in setups], setups[0].conditions
+    conditions = setups[0].conditions
     return xr.Dataset(
         data,
         {"model": [member.name for member in comparison.models], **coords},

@@ -19,7 +19,7 @@ from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.curve import ContinuedContact
 from gripscale.core import Described, InputError, checks
 from gripscale.half_space.model import BlockOnProfile, DirectContact
-from gripscale.half_space.windows import random_phases, spread_windows, surface_of_sines
+from gripscale.half_space.windows import spread_windows, surface_of_sines
 from gripscale.model import Load, Model
 from gripscale.questions.answer.estimate import DIRECT
 from gripscale.rubber import Rubber
@@ -29,7 +29,6 @@ from gripscale.surface.surface import each_measured, with_single_measurement
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 from gripscale.theory.persson import Persson
-from gripscale.wave.kernel import WaveSolver
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -39,16 +38,14 @@ class ComparisonSetup(Described):
     rubber: Rubber
     surface: Surface
     load: Load
-    solver: WaveSolver
-    """What solves one wave of the chain, as the case says."""
+    chain: Chain
+    """The chain of the case, under `conditions` without water."""
     seeds: int = 3
-    """Random phases drawn of each surface."""
+    """Random phases drawn of the sine waves."""
     tolerance: float = 0.05
     """Estimated relative error of each direct contact."""
     klueppel_heinrich: KlueppelHeinrich | None = None
     """That theory with its fitted parameters; without them it says nothing."""
-    pressure_classes: int = 1
-    """In how many classes of equal load the chain hands its pressure down, as the case says."""
     windows: int = 3
     """Windows of the profiles that are solved at finite strain."""
     continuation: ContinuedContact | None = None
@@ -56,11 +53,6 @@ class ComparisonSetup(Described):
     conditions: Conditions | None = None
     """What changes the rubber. Chain and direct contact know all of it, Persson's theory no heat,
     every other model only the temperature."""
-
-    @property
-    def of_map(self) -> bool:
-        """Whether a map was measured."""
-        return self.surface.measured is not None and self.surface.measured.map is not None
 
     @property
     def lines(self) -> tuple[Profile, ...]:
@@ -75,11 +67,6 @@ class ComparisonSetup(Described):
     def rubber_for(self, model: Model) -> Rubber:
         """Return the rubber as measured for a model with conditions, else `rubber_before`."""
         return self.rubber_before if model.conditions is None else self.rubber
-
-    def chain(self, solver: WaveSolver) -> Chain:
-        """Return the chain of the case with a solver."""
-        conditions = self.conditions and self.conditions.dry
-        return Chain(solver, pressure_classes=self.pressure_classes, conditions=conditions)
 
     @property
     def direct(self) -> DirectContact:
@@ -149,15 +136,15 @@ def _compared(
 
 @_compared("chain", "chain, finite strain", "waves")
 def _chain(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    if isinstance(setup.solver, HalfPlane):
+    if isinstance(setup.chain.solver, HalfPlane):
         return []
-    return [SampleSpec(setup.chain(setup.solver), setup.surface)]
+    return [SampleSpec(setup.chain, setup.surface)]
 
 
 @_compared("chain_half_plane", "chain, small strain", "waves", "small strain assumed", "chain")
 def _chain_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    solver = setup.solver if isinstance(setup.solver, HalfPlane) else HalfPlane()
-    return [SampleSpec(setup.chain(solver), setup.surface)]
+    solver = setup.chain.solver if isinstance(setup.chain.solver, HalfPlane) else HalfPlane()
+    return [SampleSpec(replace(setup.chain, solver=solver), setup.surface)]
 
 
 # Waves and pressure classes of the chain that comes nearest to direct contact on surfaces it was
@@ -178,13 +165,14 @@ def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     surface = setup.surface
     upper_already = surface.counted.get("top_height_fraction", 1.0) < 1.0
     cut_off_already = surface.sines.cut_off is not None
-    if upper_already and cut_off_already and setup.pressure_classes > 1:
+    if upper_already and cut_off_already and setup.chain.pressure_classes > 1:
         return []
     end, max_lag = surface.cutoff_wavelength, surface.counted.get("max_lag")
     sines = _of_upper_half(setup.lines, max_lag, end) if setup.lines else None
     if sines is None:
         return []
-    chain = replace(setup.chain(HalfPlane(points=POINTS_OF_A_CLASS)), pressure_classes=CLASSES)
+    solver = HalfPlane(points=POINTS_OF_A_CLASS)
+    chain = replace(setup.chain, solver=solver, pressure_classes=CLASSES)
     return [SampleSpec(chain, Surface(sines, "waves of the upper half"))]
 
 
@@ -203,9 +191,7 @@ def _of_upper_half(
 LENGTH_OF_SINES = 10  # period of a surface of sines over its largest wave
 
 
-@lru_cache(maxsize=16)
-def _of_sines(sines: SineStack, seed: int) -> Profile:
-    return surface_of_sines(sines, LENGTH_OF_SINES * float(sines.wavelength[0]), seed)
+_of_sines = lru_cache(maxsize=16)(surface_of_sines)  # drawn once for all loads
 
 
 @_compared(
@@ -216,30 +202,15 @@ def _of_sines(sines: SineStack, seed: int) -> Profile:
     "chain_half_plane",
 )
 def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    lines = (_of_sines(setup.surface.sines, seed) for seed in range(setup.seeds))
+    sines, length = setup.surface.sines, LENGTH_OF_SINES * float(setup.surface.sines.wavelength[0])
+    lines = (_of_sines(sines, length, seed) for seed in range(setup.seeds))
     dry = setup.conditions and setup.conditions.dry  # lines have no pools
     in_full = replace(setup.direct, periodic=True, conditions=dry)
     return [SampleSpec(in_full, with_single_measurement(setup.surface, x)) for x in lines]
 
 
-_shuffled = lru_cache(maxsize=64)(random_phases)  # drawn once for all loads
-
-
 @_compared(
-    "random_phases", "direct contact, random phases", "measured", "the whole spectrum", "sines"
-)
-def _random_phases(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    surface = setup.surface
-    measured = [] if surface.measured is None else surface.measured.surfaces
-    return [
-        SampleSpec(setup.direct, with_single_measurement(surface, _shuffled(part, seed)), part.name)
-        for part in measured
-        for seed in range(setup.seeds)
-    ]
-
-
-@_compared(
-    DIRECT, "direct contact, measured surface", "measured", "the measured phases", "random_phases"
+    DIRECT, "direct contact, measured surface", "measured", "the surface as measured", "sines"
 )
 def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(setup.direct, part, name) for name, part in each_measured(setup.surface)]
@@ -253,7 +224,8 @@ def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     DIRECT,
 )
 def _continued(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    if setup.continuation is None or setup.of_map:
+    measured = setup.surface.measured
+    if setup.continuation is None or (measured is not None and measured.map is not None):
         return []
     profiles = each_measured(setup.surface)
     return [SampleSpec(setup.continuation, part, name) for name, part in profiles]

@@ -168,12 +168,6 @@ def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
         yield " ".join([*effects, "Else only the temperature before the contact counts."])
 
 
-def best_line(comparison: xr.Dataset) -> str:
-    """Return the answer in one line, the same in every version: scripts read it."""
-    doubt = "; not to be relied on" if no_answer(comparison) else ""
-    return f"Best estimate ({100.0 * LEVEL:.0f} %): {with_half_widths(comparison)}{doubt}"
-
-
 def with_half_widths(answer: xr.Dataset) -> str:
     """Return area and friction of an answer with the half widths of their intervals."""
     texts = []
@@ -269,8 +263,9 @@ class Comparison(Result):
         yield from temperature_only(self.data)
         if self.at_measured is not None:
             yield residual_table(self.at_measured)
-        if not self.axis and has_answer(self.data):
-            yield best_line(self.data)
+        if not self.axis and has_answer(self.data):  # the same in every version: scripts read it
+            doubt = "; not to be relied on" if no_answer(self.data) else ""
+            yield f"Best estimate ({100.0 * LEVEL:.0f} %): {with_half_widths(self.data)}{doubt}"
 
     def table(self) -> Table:
         """Return the models, one a row; over a varied input the friction of each."""
@@ -335,7 +330,7 @@ def compare(
     vary : mapping, optional
         One input of numbers with its values, as for `gripscale.questions.Study`.
     seeds : int
-        Random phases drawn of each surface.
+        Random phases drawn of the sine waves.
     tolerance : float
         Estimated relative error of each direct contact.
     models : sequence of str

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from gripscale.questions import terminal
 from gripscale.questions.terminal import CasePath, Modulus, OwnFolder, Workers, case_command, option
-
-if TYPE_CHECKING:
-    from gripscale.experiment.solve import Progress
 
 
 @case_command
@@ -49,25 +46,18 @@ def sensitivity_command(
 ) -> None:
     """Tell which part of the master curve, and which input, decides the friction of a case."""
     from gripscale.case_file.named_inputs import read_named_inputs
-    from gripscale.questions.sensitivity.friction_sensitivity import LOSS
-    from gripscale.questions.sensitivity.question import DERIVED_OVER, effect_sentence, sensitivity
+    from gripscale.questions.sensitivity.question import DERIVED_OVER, sensitivity
     from gripscale.questions.vary.axis import parse_axes
 
     axes = parse_axes(vary or (), DERIVED_OVER)
     work = terminal.CaseCommand(case)
     work.open_results(output, "sensitivity", f"What decides the friction of {work.file.path}")
-
-    def print_effect(progress: Progress) -> None:
-        if LOSS in progress.result:
-            effect = effect_sentence(progress.result)
-            terminal.print_wrapped(work.console, f"{progress.label}: {effect}.")
-
     result = sensitivity(
         work.case,
         vary=read_named_inputs(axes, work.file, modulus) or None,
         bands_per_decade=bands,
         contact_fraction=contact_fraction,
         with_feedback=with_feedback,
-        **work.solving(workers) | {"on_task": print_effect},
+        **work.solving(workers),
     )
     work.finish(result, "tables and figure")

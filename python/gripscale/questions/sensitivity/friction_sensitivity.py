@@ -2,16 +2,12 @@
 
 The profiles of a surface add their friction by length. With m_k the share of profile k in it,
 
-    d ln mu = sum_k m_k d ln mu_k.
+    d ln mu = sum_k m_k d ln mu_k,
 
-Derivatives of the direct contact are those of the grid with four points in the smallest wave: on
-the shipped road they are within 1 % of those of a grid eight times finer, where the friction from
-the traction itself differs by 15 %. On twenty self-affine lines of 205 mm the sum by E' is off by
-4.8 % (root mean square; 11 % at most), that by E'' by 1.6 %, d ln mu/d ln p_0 by 0.05 (0.10).
-
-Where softening or heat change the rubber with the contact there are two derivatives: with the
-rubber of every scale kept, of everything, from one adjoint solution; and with its answer to the
-change, of speed, pressure and temperature, from differences of whole solutions.
+on the grid with four points in the smallest wave (docs/sensitivity.md has its errors). Where
+softening or heat change the rubber with the contact there are two derivatives: with the rubber of
+every scale kept, from one adjoint solution; and with its answer to the change, of speed, pressure
+and temperature, from differences of whole solutions.
 """
 
 from __future__ import annotations

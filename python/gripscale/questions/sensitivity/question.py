@@ -55,7 +55,8 @@ from gripscale.report.failures import failures_in, first_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_EFFECTS = {LOSS: "E''", STORAGE: "E'"}
+# The two moduli by the names of their derivatives: word, symbol in tables and in figures.
+_MODULI = {LOSS: ("loss", "E″", "E''"), STORAGE: ("storage", "E′", "E'")}
 
 
 def sensitivity_figure(data: xr.Dataset) -> Figure:
@@ -76,7 +77,7 @@ def sensitivity_figure(data: xr.Dataset) -> Figure:
     ]
     low = float(data.loss_modulus.min()) / MEGA / 2.0
     panels = [Panel(axis, PlotAxis("modulus [MPa]", log=True, low=low), [*moduli, *rules])]
-    for name, letter in _EFFECTS.items():
+    for name, (_, _, letter) in _MODULI.items():
         # bands that are not excited at a point have no derivative
         by_decade = data[name].where(data[name] != 0.0) * int(data.attrs["bands_per_decade"])
         flags = xr.DataArray(False)
@@ -89,8 +90,6 @@ def sensitivity_figure(data: xr.Dataset) -> Figure:
 
 # What may be varied: derivatives are taken at each value.
 DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
-# The two moduli: heading of a column, name of the derivative, and symbol.
-_MODULI = (("loss", LOSS, "E″"), ("storage", STORAGE, "E′"))
 _BY = "d_ln_friction_d_"
 # Ends of the names of derivatives by one number, with their headings and units.
 SCALARS = {
@@ -169,7 +168,7 @@ class Sensitivity(Result):
         """Return the derivatives by each input, the moduli summed over frequency."""
         listed = list(points(self.data))
         columns = [Column("point", [text for text, _ in listed], "")]
-        for key, name, symbol in _MODULI:
+        for name, (key, symbol, _) in _MODULI.items():
             sums = self.data[name].sum("frequency").values.ravel()
             columns.append(Column(key, sums, symbol, format=signed))
         notes = ["Per cent of friction for a per cent of the input; of temperature, for a kelvin."]
@@ -194,7 +193,7 @@ class Sensitivity(Result):
         columns = [Column("decade", [f"1e{row} to 1e{row + 1}" for row in rows], "rad/s")]
         for i, (text, point) in enumerate(listed[:_MOST_POINTS]):
             unit = text if len(listed) > 1 else ""
-            for _, name, symbol in _MODULI:
+            for name, (_, symbol, _) in _MODULI.items():
                 values = [float(point[name].values[decade == row].sum()) for row in rows]
                 columns.append(Column(f"{name}_{i}", values, symbol, unit, format=signed))
         notes = []
@@ -338,7 +337,9 @@ def sensitivity(
         data = solve_design(study.design, bench, derivatives_of_answer)
     data = data.assign_coords(coordinates(study.axes, case.units))
     if STORAGE in data:
-        data = with_rules_of_thumb(data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.rubbers[0])
+        data = with_rules_of_thumb(
+            data.fillna({STORAGE: 0.0, LOSS: 0.0}), study.measured_rubbers[0].rubber
+        )
     attrs = {
         "title": "What decides the friction of a case",
         "model": "direct",

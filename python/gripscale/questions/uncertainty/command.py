@@ -81,24 +81,22 @@ def uncertainty_command(
     from gripscale.experiment.solve import PROCESSES
     from gripscale.half_space.model import DirectContact
     from gripscale.questions.answer.page import answer_lines
-    from gripscale.questions.uncertainty import question
-    from gripscale.questions.uncertainty.propagation import SAMPLED_OVER, stated_models
+    from gripscale.questions.uncertainty.propagation import SAMPLED_OVER, Plan, propagate
+    from gripscale.questions.uncertainty.question import SampledAnswer
     from gripscale.questions.uncertainty.sampled_inputs import length
-    from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
     from gripscale.questions.uncertainty.sources import BOTH
     from gripscale.questions.vary.axis import parse_axes, values_by_name
 
-    models = () if model is None else BOTH[checks.one_of("model", model, BOTH)]
-    axes = None if vary is None else parse_axes([vary], SAMPLED_OVER)
-    options: dict[str, Any] = {
+    asked: dict[str, Any] = {
+        "models": None if model is None else BOTH[checks.one_of("model", model, BOTH)],
+        "vary": None if vary is None else parse_axes([vary], SAMPLED_OVER),
         "without": without or None,
         "ranges": values_by_name(ranges or (), "range", "cut_off=50 um:200 um"),
         "block_length": None if block_length is None else length(block_length),
     }
     work = terminal.CaseCommand(case)
-    choice = Uncertainty.of_case(stated_options(work.case), **options)
-    models = models or stated_models(work.case, choice)
-    if cluster is None and DirectContact.name in models and worker_count(workers) > 2:
+    plan = Plan.of(work.case, **asked, samples=samples, seed=seed, tolerance=tolerance)
+    if cluster is None and DirectContact.name in plan.models and worker_count(workers) > 2:
         cluster = PROCESSES
     work.open_results(output, "uncertainty", f"Uncertainty of {work.file.path}")
 
@@ -109,16 +107,5 @@ def uncertainty_command(
         lines = ["", f"Without the errors of the inputs: {number}", "Solving the samples ..."]
         terminal.print_parts(work.console, lines)
 
-    result = question.uncertainty(
-        work.case,
-        **options,
-        samples=samples,
-        seed=seed,
-        models=models,
-        vary=axes,
-        tolerance=tolerance,
-        client=cluster,
-        on_answer=print_answer,
-        **work.solving(workers),
-    )
-    work.finish(result, "tables and figures")
+    data = propagate(plan, client=cluster, on_answer=print_answer, **work.solving(workers))
+    work.finish(SampledAnswer(data), "tables and figures")

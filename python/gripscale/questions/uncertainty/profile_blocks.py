@@ -1,18 +1,14 @@
 """Blocks of the measured profiles: another stretch of the same road might have been measured.
 
-A block bootstrap (H. R. Kunsch, Ann. Stat. 17 (1989) 1217, doi:10.1214/aos/1176347265): profiles
-are cut into n contiguous blocks, several times the largest wave long and so nearly independent, and
-blocks are drawn with replacement. n - 1 of them are drawn: the variance of a mean over n drawn ones
-is too small by the factor (n - 1)/n (J. N. K. Rao & C. F. J. Wu, J. Am. Stat. Assoc. 83 (1988) 231,
-doi:10.1080/01621459.1988.10478591).
+A block bootstrap (H. R. Kunsch, Ann. Stat. 17 (1989) 1217, doi:10.1214/aos/1176347265): blocks are
+several largest waves long, so nearly independent, and drawn with replacement. Of n blocks n - 1 are
+drawn, as the variance over n drawn ones is too small by (n - 1)/n (J. N. K. Rao & C. F. J. Wu, J.
+Am. Stat. Assoc. 83 (1988) 231, doi:10.1080/01621459.1988.10478591). The sums over pairs of their
+correlation C_z are added up. For the direct contact they become new profiles, joined by
 
-- Of the correlation C_z, a sum over pairs, the sums of the drawn blocks are added up.
-- For the direct contact the drawn blocks become new profiles. Where one goes over into the next,
+    z = cos(u) z_1 + sin(u) z_2,    u from 0 to pi/2 over half the largest wave,
 
-      z = cos(u) z_1 + sin(u) z_2,    u from 0 to pi/2 over half the largest wave,
-
-  so that unrelated heights keep their variance, and no step appears that was not measured. The
-  nominal pressure is shared among the blocks as it is among asperities of a measured profile.
+so that unrelated heights keep their variance, and no step appears that was not measured.
 """
 
 from __future__ import annotations

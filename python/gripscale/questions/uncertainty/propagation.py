@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -153,10 +153,13 @@ class Plan(Checked):
     tolerance: float | None = checked(checks.positive, default=None)
 
     @classmethod
-    def of(cls, case: Case, choice: Uncertainty, **asked: Any) -> Plan:
+    def of(cls, case: Case, **asked: Any) -> Plan:
         """Return what a case states where an argument is None; arguments as `uncertainty`."""
         asked = {name: value for name, value in asked.items() if value is not None}
-        options = {"samples": SAMPLES, "seed": 0, **sampling.stated_options(case), **asked}
+        chosen = {name: asked.pop(name, None) for name in ("without", "ranges", "block_length")}
+        stating: Mapping[str, Any] = case.options.get("uncertainty", {})
+        choice = Uncertainty.of_case(stating, **chosen)
+        options = {"samples": SAMPLES, "seed": 0, **stating, **asked}
         models = asked.get("models")
         named = stated_models(case, choice) if models is None else models
         named = [named] if isinstance(named, str) else list(named)
@@ -225,7 +228,7 @@ def stated_models(case: Case, uncertainty: Uncertainty) -> tuple[str, ...]:
     The direct contact of a map takes minutes and has no blocks to draw. A range of a source that
     only the chain has asks for both.
     """
-    word, measured = sampling.stated_options(case).get("model"), case.surface.measured
+    word, measured = case.options.get("uncertainty", {}).get("model"), case.surface.measured
     if word is None and (measured is None or measured.map is not None):
         word = "chain"
     elif word is None:
@@ -244,13 +247,14 @@ def propagate(
     on_answer: OnAnswer | None = None,
 ) -> xr.Dataset:
     """Predict each sample of a plan; return the Dataset of `gripscale.uncertainty`, and keep it."""
-    path = None if folder is None else Path(folder) / _RESULT
-    chosen = plan.uncertainty.of(plan.case, plan.models)
+    case, chosen = plan.case, plan.uncertainty.of(plan.case, plan.models)
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
-        samples = sampling.draws(Inputs.of(plan.case), chosen.sources, plan.samples, plan.seed)
+        samples = sampling.draws(Inputs.of(case), chosen.sources, plan.samples, plan.seed)
         data = solve_samples(plan, SampleSet(chosen, list(samples)), bench, on_answer)
-    return data if path is None else netcdf.load_dataset(netcdf.save(data, path))
+    if folder is None:
+        return data
+    return netcdf.load_dataset(netcdf.save(data, Path(folder) / _RESULT))
 
 
 def solve_samples(

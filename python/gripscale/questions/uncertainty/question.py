@@ -33,8 +33,7 @@ from gripscale.questions.uncertainty.propagation import (
     Plan,
     propagate,
 )
-from gripscale.questions.uncertainty.sampled_answer import NOT_ALONE, next_measurements
-from gripscale.questions.uncertainty.sampling import Uncertainty, stated_options
+from gripscale.questions.uncertainty.sampled_answer import next_measurements
 from gripscale.questions.uncertainty.sources import SOURCES, STATED
 from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.report.elements import Card
@@ -62,7 +61,10 @@ class SampledAnswer(NumbersWithIntervals):
     @property
     def failure(self) -> str:
         """Samples without an answer, where the others do not stand for all of them."""
-        return _without_answer(self.data) if _too_many_failed(self.data) else ""
+        data = self.data
+        too_many = bool((data.failed > MOST_FAILED * data.sizes["sample"]).any())
+        of_case = bool(failures_in(data, "status_case"))
+        return _without_answer(data) if of_case or too_many else ""
 
     @property
     def findings(self) -> Sequence[Finding]:
@@ -80,14 +82,6 @@ class SampledAnswer(NumbersWithIntervals):
             yield view.table(data, columns, "answers", f"Answer by {axis}")
         yield from self._part_tables()
         yield self._quantile_table()
-        for title, part in _by_model(data):
-            if part.model == DIRECT:
-                continue
-            if np.isfinite(part.friction_share).any():
-                yield _share_table(title, part)
-            else:
-                count = data.sizes["sample"]
-                yield f"{count} samples are too few to split the error between inputs ({title})."
         yield from (f"Not sampled: {each}." for each in json.loads(data.attrs["left_out"]))
 
     def table(self) -> Table:
@@ -105,7 +99,11 @@ class SampledAnswer(NumbersWithIntervals):
 
     def _quantile_table(self) -> Table:
         """Return the quantiles of friction and contact fraction of each model and load."""
-        rows = [(title, part, name) for title, part in _by_model(self.data) for name in HEADS]
+        rows = []
+        for model in self.data.model.values:
+            for label, part in view.points(self.data.sel(model=model)):
+                title = f"{model}{f', {label}' if label else ''}"
+                rows += [(title, part, name) for name in HEADS]
         quantiles = np.array([part[f"{name}_quantile"].values for _, part, name in rows])
         columns = [
             Column("model", [title for title, _, _ in rows]),
@@ -122,13 +120,6 @@ class SampledAnswer(NumbersWithIntervals):
 
     def pictures(self) -> Iterator[Picture]:
         yield from uncertainty_pictures(self.data)
-
-
-def _by_model(data: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield what each model and load is called, with its part."""
-    for name in data.model.values:
-        for label, part in view.points(data.sel(model=name)):
-            yield f"{name}{f', {label}' if label else ''}", part
 
 
 def _interval_sentence(data: xr.Dataset) -> str:
@@ -175,21 +166,6 @@ def _part_table(part: xr.Dataset, title: str) -> Table:
     return Table("parts", columns, title, notes)
 
 
-def _share_table(title: str, part: xr.Dataset) -> Table:
-    """Return the share of each source in the samples of one model at one load, most first."""
-    part = part.isel(source=np.argsort(-part.friction_share.values, kind="stable"))
-    columns, whole = [Column("source", [*part.label.values.tolist(), NOT_ALONE])], "{:.0%}".format
-    for name, symbol in HEADS.items():
-        share = part[f"{name}_share"].values
-        every = np.maximum([*share, 1.0 - share.sum()], 0.0)
-        error = [*part[f"{name}_share_error"].values, np.nan]
-        columns += [
-            Column(f"{name}_share", every, "share of variance", group=symbol, format=whole),
-            Column(f"{name}_share_error", error, "±", group=symbol, format=whole),
-        ]
-    return Table("shares", columns, f"What matters most ({title})")
-
-
 def _without_answer(data: xr.Dataset) -> str:
     """Return how many samples have no answer, and why the first; empty if all have one."""
     failed, of_case = failures_in(data, "status"), failures_in(data, "status_case")
@@ -198,12 +174,6 @@ def _without_answer(data: xr.Dataset) -> str:
         count = f"{len(failed)} of {data.status.size} samples have no answer and count in no"
         texts.insert(0, f"{count} quantile; the first: {explained(failed[0])}")
     return "; ".join(texts)
-
-
-def _too_many_failed(data: xr.Dataset) -> bool:
-    """Return whether the case has no answer, or too few samples have one to stand for all."""
-    most = MOST_FAILED * data.sizes["sample"]
-    return bool(failures_in(data, "status_case")) or bool((data.failed > most).any())
 
 
 def uncertainty(
@@ -242,11 +212,12 @@ def uncertainty(
     models : sequence of str, optional
         "chain", "direct" or both; "direct" where profiles were measured by default.
     without : sequence of str, optional
-        Sources that are taken to be known, see `gripscale.questions.Uncertainty`.
+        Sources that are taken to be known.
     ranges : mapping, optional
-        What is known of a source, in place of its default, see `gripscale.questions.Uncertainty`.
+        What is known of a source, in place of its default.
     block_length : float, optional
-        Length of the blocks of profiles that are drawn [m].
+        Length of the blocks of profiles that are drawn [m]. For these three see
+        `gripscale.questions.Uncertainty`.
     vary : mapping, optional
         Speeds or pressures; the same samples at each.
     tolerance : float, optional
@@ -269,11 +240,16 @@ def uncertainty(
         `source` in the variance (`gripscale.questions.shares`). The folder gets `uncertainty.nc`,
         and the predictions in `predictions`.
     """
-    choice = Uncertainty.of_case(
-        stated_options(case), without=without, ranges=ranges, block_length=block_length
-    )
     plan = Plan.of(
-        case, choice, samples=samples, seed=seed, models=models, vary=vary, tolerance=tolerance
+        case,
+        samples=samples,
+        seed=seed,
+        models=models,
+        without=without,
+        ranges=ranges,
+        block_length=block_length,
+        vary=vary,
+        tolerance=tolerance,
     )
     data = propagate(
         plan, folder, workers=workers, client=client, on_task=on_task, on_answer=on_answer

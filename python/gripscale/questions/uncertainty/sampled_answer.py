@@ -1,20 +1,15 @@
 """The answer of a case with what is not known of its inputs, and the parts of its interval.
 
-The number is that of `gripscale run`: the direct contact of the measured surface, solved to 5 %,
-times the factors of `answer_of_samples`. The samples widen its interval. With y_0 of
-the case itself and y_s of sample s, all on the same grid,
+The number is that of `gripscale run`; the samples widen its interval. With y_0 of the case itself
+and y_s of sample s, all on the same grid,
 
     s_samples^2 = mean (ln y_s - ln y_0)^2,
     s^2 = s_samples^2 + s_grid^2 + sum over factors s_f^2 (+ s_road^2),
 
-about the case and not about the mean of the samples, because the number is that of the case. Drawn
-blocks of the profiles are the sampling of the road: with them s_road is in s_samples and does not
-count again.
-
-Source k has the part S_k var(ln y_s) of s_samples^2 (`variance_shares`); what no
-source explains alone, and the distance of the case from the mean, is one more part. Degrees of
-freedom are those of the samples; of drawn blocks, and of the part that may be theirs, blocks less
-one.
+where drawn blocks of the profiles are the sampling of the road: with them s_road is in s_samples.
+Source k has the part S_k var(ln y_s) of s_samples^2 (`variance_shares`); the rest is one more part.
+Degrees of freedom are those of the samples; of drawn blocks, and of the part that may be theirs,
+blocks less one. See docs/uncertainty.md.
 """
 
 from __future__ import annotations

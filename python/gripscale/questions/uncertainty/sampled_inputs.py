@@ -10,23 +10,22 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
-from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
-from gripscale.core import Checked, InputError, checked, checks, provenance
+from gripscale.core import Checked, InputError, checked, checks
 from gripscale.core.units import si_value
 from gripscale.experiment.task import Task
-from gripscale.model import Load, Model, OnProgress
+from gripscale.model import Load, Model
+from gripscale.questions.uncertainty.profile_blocks import Indices, ProfileBlocks
 from gripscale.questions.vary.axis import plain_number
 from gripscale.rubber import Rubber
 from gripscale.surface import Profile, fit_sines
 from gripscale.surface.height_difference import HeightDifference, height_difference
 from gripscale.surface.resampling import fill_gaps_smoothly
 from gripscale.surface.sine_fit import MOST_SINE_WAVES
-from gripscale.surface.surface import Measured, Surface, SurfacePart
+from gripscale.surface.surface import Measured, Surface
 
 
 class LongerLoad(Load):
@@ -71,8 +70,7 @@ class Inputs:
     raw: Callable[[], Sequence[Profile]] | None = None
     # The profiles, where they are not cleaned as in the case.
     cleaned: CleanedProfiles | None = None
-    recorrelated: Callable[[], HeightDifference] | None = None  # gives C_z of drawn blocks
-    redrawn: Callable[[], tuple[Profile, ...]] | None = None  # gives profiles of drawn blocks
+    blocks: tuple[ProfileBlocks, Indices] | None = None  # of the profiles, and which are drawn
     # Whether gaps of the profiles are filled by cubics without a kink, not by straight lines.
     smooth_gaps: bool = False
     load_time_factor: float = 1.0  # how much longer each wave is loaded than the model says [-]
@@ -87,16 +85,16 @@ class Inputs:
     @property
     def correlation(self) -> HeightDifference | None:
         """What the waves are fitted to; None for waves stated by hand."""
-        if self.recorrelated is not None:
-            return self.recorrelated()
+        if self.blocks is not None:
+            return self.blocks[0].correlation(self.blocks[1])
         return self.surface.correlation if self.cleaned is None else self.cleaned.correlation
 
     @property
     def measured(self) -> Measured | None:
         """What the direct contact is solved on."""
         lines: Sequence[Profile]
-        if self.redrawn is not None:
-            lines = self.redrawn()
+        if self.blocks is not None:
+            lines = self.blocks[0].lines(self.blocks[1])
         elif self.cleaned is not None:
             lines = self.cleaned.profiles
         else:
@@ -140,14 +138,16 @@ class Inputs:
         return replace(surface, waves=fit_sines(correlation, **self.fit)), model
 
     def tasks(self, model: Model, loads: Sequence[Load]) -> list[Task]:
-        """Return what has to be solved under each load; a refusal of the model is an answer."""
+        """Return what has to be solved under each load; raise `InputError` for inputs of no use."""
         surface, changed = self.for_model(model)
-        relevant, solved = surface.only(changed.needs), FailSafeModel(changed)
+        if changed.conditions is not None:  # refuses a temperature without a shift
+            changed.conditions.before(self.rubber)
+        relevant = surface.only(changed.needs)
         factor = math.exp(self.log_pressure)
         loads = [replace(load, pressure=load.pressure * factor) for load in loads]
         if isinstance(model, Chain) and self.load_time_factor != 1.0:
             loads = [LongerLoad(**vars(load), factor=self.load_time_factor) for load in loads]
-        return [Task(self.rubber, relevant, load, solved) for load in loads]
+        return [Task(self.rubber, relevant, load, changed) for load in loads]
 
 
 class Range(Checked):
@@ -237,31 +237,3 @@ def _quantity(text: Any, kind: str, unit: str) -> float:
 modulus = partial(_quantity, kind="pressure", unit="Pa")
 length = partial(_quantity, kind="length", unit="m")
 kelvins = partial(_quantity, kind="temperature difference", unit="K")
-
-
-@dataclass(frozen=True)
-class FailSafeModel(Model):
-    """Another model, whose refusal of an input is an answer that says why, and ends no others."""
-
-    model: Model
-
-    @property
-    def name(self) -> str:
-        """Word for the model within."""
-        return self.model.name
-
-    @property
-    def needs(self) -> frozenset[SurfacePart]:
-        """Parts of a surface that the model within depends on."""
-        return self.model.needs
-
-    def predict(
-        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
-    ) -> xr.Dataset:
-        """Return the answer of the model within, or why there is none as `prediction_status`."""
-        try:
-            return self.model.predict(rubber, surface, load, on_progress=on_progress)
-        except InputError as refusal:
-            nothing = xr.Dataset(attrs=provenance.version_attributes())
-            totals = dict.fromkeys(model.TOTALS, math.nan)
-            return model.predicted_answer(nothing, totals, str(refusal), self.name, load)

@@ -23,12 +23,6 @@ from gripscale.questions.uncertainty.sources import (
 )
 
 
-def stated_options(case: Case) -> Mapping[str, Any]:
-    """Return the arguments of `gripscale.uncertainty` that a case states."""
-    stating: Mapping[str, Any] = case.options.get("uncertainty", {})
-    return stating
-
-
 class Chosen(NamedTuple):
     """The sources that are drawn, and a sentence on each of the others."""
 

@@ -119,12 +119,7 @@ class BlockDraw:
         """Draw blocks of the profiles as they are cleaned in the sample."""
         drawn, cleaned = self.blocks.draw(random), inputs.cleaned
         blocks = self.blocks if cleaned is None else self.of_cleaned(cleaned)
-        changed = replace(
-            inputs,
-            recorrelated=partial(blocks.correlation, drawn),
-            redrawn=partial(blocks.lines, drawn),
-        )
-        return changed, self.blocks.log_ratios(drawn).tolist()
+        return replace(inputs, blocks=(blocks, drawn)), self.blocks.log_ratios(drawn).tolist()
 
 
 # Models by the word of a case for one or both of them.

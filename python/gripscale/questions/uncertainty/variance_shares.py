@@ -1,22 +1,15 @@
 """What matters most: the share of the variance of an answer that each source explains.
 
-    S_k = Var(E[y | x_k]) / Var(y)
-
-the first-order Sobol index (I. M. Sobol, Math. Comput. Simul. 55 (2001) 271,
+The first-order Sobol index (I. M. Sobol, Math. Comput. Simul. 55 (2001) 271,
 doi:10.1016/S0378-4754(00)00270-6) of y, the logarithm of friction or contact fraction, from samples
-that vary all sources at once. A source is described by the coordinates of its draws: x and x^2 of
-one number, linear terms of several. With all of them in one least-squares fit
+that vary all sources at once. All sources are in one least-squares fit, x and x^2 of a source of
+one number x, linear terms of others:
 
     y = c + sum_k f_k(x_k) + rest,    V_k = Var f_k - s^2 tr_k,    S_k = V_k / (sum_k V_k + s^2),
 
-where s^2 is the variance of the rest and s^2 tr_k what f_k has of it by chance: without it a source
-without effect would get its number of terms over the number of samples. The variance of y is taken
-as the sum, which it is of independent sources: of few samples they go together by chance. One fit
-of all sources, and not a mean over x_k alone, leaves only the rest as noise. What it cannot see
-(steps, interactions, anything the coordinates of a draw do not tell) is the share of none.
-
-Errors are those of the jackknife (B. Efron & C. Stein, Ann. Stat. 9 (1981) 586,
-doi:10.1214/aos/1176345462) for independent samples, too large for evenly spread ones.
+where s^2 is the variance of the rest and s^2 tr_k what f_k has of it by chance
+(docs/uncertainty.md). Errors are those of the jackknife (B. Efron & C. Stein, Ann. Stat. 9 (1981)
+586, doi:10.1214/aos/1176345462) for independent samples, too large for evenly spread ones.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@ from gripscale.questions.registry import Form, FormField
 
 KINDS = {
     "study": "question:Variation",
-    "compounds": "page_side_by_side:Compounds",
-    "surfaces": "page_side_by_side:Surfaces",
+    "compounds": "ranking:Compounds",
+    "surfaces": "ranking:Surfaces",
 }
 COMMANDS = {
     "study": "command:study_command",
@@ -15,17 +15,11 @@ COMMANDS = {
 FORMS = (
     Form(
         "study",
-        "Speed sweep",
-        "Friction and contact area by speed.",
-        (FormField("--vary", "speeds", "0.003:30:log9", "speed="),),
-    ),
-    Form(
-        "study",
-        "Map of speed and temperature",
-        "Friction and contact area over both; the rubber needs a shift.",
+        "Sweep of speed, or of speed and temperature",
+        "Friction and contact area by speed; with temperatures, such as 0 C:60 C:lin4, by both.",
         (
-            FormField("--vary", "speeds", "0.003:30:log5", "speed="),
-            FormField("--vary", "temperatures", "0 C:60 C:lin4", "temperature="),
+            FormField("--vary", "speeds", "0.003:30:log9", "speed="),
+            FormField("--vary", "temperatures", "", "temperature="),
         ),
     ),
     Form(

@@ -20,25 +20,16 @@ from gripscale.core.units import (
     unit_of,
 )
 from gripscale.experiment.design import named_values
-from gripscale.model import MOST_CLASSES
 from gripscale.surface.cut_off import RmsSlope, cut_off_rule
-from gripscale.surface.sine_fit import MOST_SINE_WAVES
 
 
 class VariedInput(NamedTuple):
     """One input that a study can vary."""
 
     long_name: str
-    quantity: str = ""  # kind of quantity; empty for plain numbers and for names
+    quantity: str = ""  # kind of quantity; empty for names
     example: str = "1:10:log5"  # of a range
     symbol: str = ""
-    noun: str = ""  # what stands behind a plain number
-    most: int = 0  # largest of whole numbers
-
-    @property
-    def numeric(self) -> bool:
-        """Whether its values are numbers; a cut-off may also be a rule in words."""
-        return bool(self.quantity or self.noun)
 
     @property
     def unit(self) -> str:
@@ -55,14 +46,6 @@ VARIED_INPUTS = {
     "smallest_wavelength": VariedInput("smallest wavelength", "length", "0.1 mm:1 mm:log4"),
     "thickness": VariedInput("thickness of the rubber", "length", "1 mm:8 mm:log4"),
     "cut_off": VariedInput("shortest wavelength of the roughness", "length", "0.1 mm:1 mm:log4"),
-    "top_height_fraction": VariedInput(
-        "fraction of the heights, from the top, that counts", noun="of the heights"
-    ),
-    "waves": VariedInput("number of waves", noun="waves", most=MOST_SINE_WAVES),
-    "pressure_classes": VariedInput(
-        "number of pressure classes", noun="pressure classes", most=MOST_CLASSES
-    ),
-    "factors": VariedInput("magnification factors of wavelength and amplitude"),
     "effects": VariedInput("effects of the conditions on the rubber"),
     "rubber": VariedInput("rubber"),
     "surface": VariedInput("surface"),
@@ -111,8 +94,8 @@ class Axis:
 
     @property
     def numeric(self) -> bool:
-        """Whether the values are numbers, in SI units."""
-        return VARIED_INPUTS[self.name].numeric and not any(
+        """Whether the values are numbers, in SI units; a cut-off may be a rule in words."""
+        return bool(VARIED_INPUTS[self.name].quantity) and not any(
             isinstance(value, str | RmsSlope) for value in self.values
         )
 
@@ -137,42 +120,24 @@ def axis_value(name: str, value: Any) -> Any:
     Raises `InputError` if it cannot be used.
     """
     number, kind = plain_number(value), VARIED_INPUTS[name]
-    if kind.quantity:
-        if name == "temperature" and isinstance(value, str) and not isinstance(number, str):
-            raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
-        try:
-            if name == "cut_off" and isinstance(number, str | dict | RmsSlope):
-                return cut_off_rule(value)
-            if isinstance(number, str):
-                number = parse_quantity(number, kind.quantity)
-        except ValueError as error:
-            raise InputError(f"{name} = {value!r}: {error}") from error
-        check = checks.not_negative if name == "speed" else checks.positive
-        si = check(name, number, unit=kind.unit)
-        if name == "temperature" and si < COLDEST:
-            raise InputError(
-                f'temperature must be in kelvin or have a unit, such as "20 C"; got {si:g} K'
-            )
-        return si
-    if kind.most:
-        return checks.whole(name, number, least=1, most=kind.most)
-    if name == "factors":
-        parts = value.split("/") if isinstance(value, str) else value
-        try:
-            first, second = (float(part) for part in parts)
-        except (TypeError, ValueError) as error:
-            raise InputError(f'factors must be pairs such as "3.5/2.4"; got {value!r}') from error
-        for part in (first, second):
-            if checks.number(name, part) <= 1.0:
-                raise InputError(f"factors must be greater than 1; got {part:g}")
-        return (first, second)
-    if name == "effects":
-        # which of them there are, only the conditions of a model tell
+    if not kind.quantity:  # which effects there are, only the conditions of a model tell
         return checks.instance(name, value, str).replace("_", " ")
-    share = checks.positive(name, number)
-    if share > 1.0:
-        raise InputError(f"{name} must be at most 1; got {share:g}")
-    return share
+    if name == "temperature" and isinstance(value, str) and not isinstance(number, str):
+        raise InputError(f'temperature must have a unit, such as "20 C"; got {value!r}')
+    try:
+        if name == "cut_off" and isinstance(number, str | dict | RmsSlope):
+            return cut_off_rule(value)
+        if isinstance(number, str):
+            number = parse_quantity(number, kind.quantity)
+    except ValueError as error:
+        raise InputError(f"{name} = {value!r}: {error}") from error
+    check = checks.not_negative if name == "speed" else checks.positive
+    si = check(name, number, unit=kind.unit)
+    if name == "temperature" and si < COLDEST:
+        raise InputError(
+            f'temperature must be in kelvin or have a unit, such as "20 C"; got {si:g} K'
+        )
+    return si
 
 
 def plain_number(value: Any) -> Any:
@@ -181,18 +146,6 @@ def plain_number(value: Any) -> Any:
         return float(value) if isinstance(value, str) else value
     except ValueError:
         return value
-
-
-# Axes with their values, from Python or from a text such as one of these.
-#
-# - speed=0.003:30:log9: nine speeds [m/s], evenly spaced in their logarithm (lin9: evenly)
-# - pressure=1 bar,3 bar: a list, with units
-# - cut_off=0.5 mm,instrument,rms_slope 1.3: lengths and the other rules of a case file
-# - top_height_fraction=0.3:1:lin8, pressure_classes=1,2,4,8: numbers and whole numbers
-# - factors=3.5/2.4,3/2.2,6/3: magnification factors of wavelength and amplitude
-# - temperature=0 C:60 C:lin7, 20 C,40 C: always with a unit; effects=all,no heat,none: what of the
-#   conditions of the model counts
-# - rubber=case,dma.txt: the case's own, a master curve, a rubber known by name
 
 
 def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
@@ -234,12 +187,9 @@ def parse_axes(texts: Sequence[str], names: Iterable[str] = VARIED_INPUTS) -> di
 
 def _label(name: str, value: Any, unit: str) -> str:
     """Return what a value is called: a temperature in degrees C, other numbers with a `unit`."""
-    if isinstance(value, tuple):
-        return "/".join(f"{part:g}" for part in value)
     if isinstance(value, str | RmsSlope):
         return str(value)
-    text = f"{value - ZERO_CELSIUS:.6g} C" if name == "temperature" else f"{value:.6g}"
-    return f"{text}{unit if isinstance(value, float) else ''}"
+    return f"{value - ZERO_CELSIUS:.6g} C" if name == "temperature" else f"{value:.6g}{unit}"
 
 
 def _entries(name: str, value: Any) -> Iterable[Any]:
@@ -266,7 +216,7 @@ def _entries(name: str, value: Any) -> Iterable[Any]:
 
 def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[float]:
     """Return evenly spaced values between two ends in SI units, the ends exactly."""
-    if not VARIED_INPUTS[name].numeric:
+    if not VARIED_INPUTS[name].quantity:
         raise InputError(f"{name} must be a list, not a range; got {first}:{last}")
     if isinstance(plain_number(first), str) != isinstance(plain_number(last), str):
         raise InputError(f"{name} must have a unit at both ends or none; got {first}:{last}")
@@ -279,6 +229,4 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     else:
         checks.positive(f"{name} of a log range", low)
         values = np.geomspace(low, high, number)
-    if VARIED_INPUTS[name].most:
-        return [float(value) for value in np.unique(np.rint(values))]
     return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]

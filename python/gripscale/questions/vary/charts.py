@@ -6,29 +6,25 @@ Contact area and friction against wavelength over a study are figures 5 to 9 of 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
-from gripscale.charts import chart, style
+from gripscale.charts import style
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
 from gripscale.charts.draw import Picture, Sheet
-from gripscale.charts.style import BEYOND_LABEL, COLOURS, GREY, INK, NARROW
+from gripscale.charts.style import BEYOND_LABEL, COLOURS, GREY, NARROW
 from gripscale.core.units import MILLI, SQUARE_MM
 from gripscale.io.table import significant
 from gripscale.model import STATUS
 from gripscale.questions import view
 from gripscale.questions.answer.variables import believed
-from gripscale.questions.inputs.charts_of_rubber import compound_moduli_figure
-from gripscale.questions.vary.study import BEYOND_SHIFT, REDUCED_SPEED
+from gripscale.questions.vary.study import REDUCED_SPEED
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from gripscale.rubber import Rubber
 
 
 def totals_figure(data: xr.Dataset) -> Figure:
@@ -48,49 +44,6 @@ def totals_figure(data: xr.Dataset) -> Figure:
     named = len(friction.marks) > 1 or bool(keys) or any(np.any(c.beyond) for c in curves)
     legend = "above" if named else ""
     return Sheet([area, friction], legend=legend, legend_columns=4, keys=keys).on_paper()
-
-
-def _wave_panels(data: xr.Dataset) -> list[Panel]:
-    """Return contact area and friction down to each wave, a curve for each prediction."""
-    flags = data["wavelength"].copy(data=style.waves_beyond(data)).transpose(..., "scale")
-    flags = flags.copy(data=np.logical_or.accumulate(flags.values, axis=-1))
-    names = ("running_contact_fraction", "running_friction")
-    return [view.panel(data, name, "scale", over="wavelength", flags=flags) for name in names]
-
-
-def map_figure(result: xr.Dataset) -> Figure:
-    """Draw friction and A_r/A_0 over the speed, to the right, and the temperature.
-
-    Dots are the predictions; open where some of the friction rests on the rubber beyond its
-    measured band, crosses where the temperature lies beyond those the shift rests on. What did not
-    converge is left white.
-    """
-    result = result.sortby(["temperature", "speed"]).transpose("temperature", "speed", ...)
-    (abscissa, speeds), (ordinate, celsius) = (
-        view.plot_axis(result[name]) for name in ("speed", "temperature")
-    )
-    beyond = style.predictions_beyond(result).astype(bool)
-    shifted = result[BEYOND_SHIFT].values.astype(bool)
-    solved = np.isfinite(result.total_friction.values)
-    x, y = np.meshgrid(speeds, celsius)
-    kinds = (
-        (solved & ~beyond & ~shifted, "solved", ".", INK, 2.5),
-        (solved & beyond & ~shifted, BEYOND_LABEL, "o", INK, 3.0),
-        (solved & shifted, "beyond the temperatures of the shift", "x", GREY, 3.0),
-    )
-    points = [
-        Series(x[rows], y[rows], colour, label, "", marker=marker, size=size,
-               filled=marker != "o", clip=False)
-        for rows, label, marker, colour, size in kinds
-        if rows.any()
-    ]  # fmt: skip
-    frame = replace(abscissa, grid=False), replace(ordinate, grid=False)
-    panels = []
-    for name in view.answers(result):
-        label = f"{view.title(result[name])} [-]"
-        values = chart.ValueMap(speeds, celsius, result[name].values, label, levels=9)
-        panels.append(Panel(*frame, [values, *points]))
-    return Sheet(panels, height=3.3, layout={"sharey": True}).on_paper()
 
 
 def friction_master_figure(result: xr.Dataset) -> Figure:
@@ -127,7 +80,7 @@ def stacked_panels(data: xr.Dataset) -> dict[str, Panel]:
 
 
 def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
-    """Yield totals and, over a single axis, what makes them; maps of speed and temperature."""
+    """Yield totals, all temperatures over a_T v and, over a single axis, what makes them."""
     yield Picture(
         "totals",
         totals_figure(result),
@@ -143,21 +96,20 @@ def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
             "does nothing but shift the relaxation times of the rubber.",
             "Two panels of curves against a_T v, one for each temperature.",
         )
-        if min(result.sizes["speed"], result.sizes["temperature"]) > 1:
-            yield Picture(
-                "map",
-                map_figure(result),
-                "Friction and contact area over speed and temperature.",
-                "Two maps over speed and temperature with a dot for each prediction.",
-            )
     several = [dim for dim in view.dimensions(result) if result.sizes[dim] > 1]
     if not (result[STATUS] == "converged").any():
         return
     if len(several) == 1 and "wavelength" in result:
         alone = result.isel({dim: 0 for dim in view.dimensions(result) if dim not in several})
+        flags = alone["wavelength"].copy(data=style.waves_beyond(alone)).transpose(..., "scale")
+        flags = flags.copy(data=np.logical_or.accumulate(flags.values, axis=-1))
+        panels = [
+            view.panel(alone, f"running_{name}", "scale", over="wavelength", flags=flags)
+            for name in ("contact_fraction", "friction")
+        ]
         yield Picture(
             "wavelength",
-            Sheet(_wave_panels(alone), legend="beside").on_paper(),
+            Sheet(panels, legend="beside").on_paper(),
             "Contact area and friction of each wave and all longer ones.",
             "Two panels of curves against wavelength, which falls to the right.",
         )
@@ -170,44 +122,6 @@ def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
 
 CUBIC_MM = 1e-9
 LEAST_POWER_SHARE = 0.02  # share of the largest part of the friction from which one is drawn
-_RANKING = (
-    "Friction over that of the first, with the 90 % interval of the ratio, and μ below it; "
-    "friction of all waves down to each wavelength"
-)
-
-
-def compound_pictures(data: xr.Dataset, rubbers: Mapping[str, Rubber]) -> Iterator[Picture]:
-    """Yield the figures of `gripscale.questions.Compounds`: friction, and moduli."""
-    yield Picture(
-        "compound_friction",
-        ranking_figure(data, "rubber"),
-        f"{_RANKING}; and up to each relaxation time, split as at small strain.",
-        "A point with an interval and two curves for each compound, rising towards short waves "
-        "and long times.",
-    )
-    if rubbers:
-        yield Picture(
-            "compound_moduli",
-            compound_moduli_figure(rubbers),
-            "Storage modulus and loss factor of each compound, dashed beyond what was measured.",
-            "Two panels of curves over the frequency, one curve for each compound.",
-        )
-
-
-def road_pictures(data: xr.Dataset) -> Iterator[Picture]:
-    """Yield the figures of `gripscale.questions.Surfaces`: friction, and statistics."""
-    yield Picture(
-        "roads_friction",
-        ranking_figure(data, "surface"),
-        f"{_RANKING}.",
-        "A point with an interval and a curve for each surface, rising towards short waves.",
-    )
-    yield Picture(
-        "roads_statistics",
-        roads_statistics_figure(data),
-        "Height difference correlation and spectrum of each surface.",
-        "Two panels of curves, one for each surface.",
-    )
 
 
 def ranking_figure(data: xr.Dataset, dim: str) -> Figure:

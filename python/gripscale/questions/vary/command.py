@@ -34,8 +34,7 @@ def study_command(
         typer.Option(
             help="What to vary, once or twice: speed=0.003:30:log9, pressure='1 bar,3 bar', "
             "temperature='0 C:60 C:lin7', effects=all,no_heat,none, smallest_wavelength, cut_off, "
-            "thickness=1 mm:8 mm:log4, top_height_fraction, waves, pressure_classes, "
-            "factors=3.5/2.4,3/2.2, rubber=case,dma.txt, surface.",
+            "thickness=1 mm:8 mm:log4, rubber=case,dma.txt, surface.",
             metavar="NAME=VALUES",
         ),
     ],

@@ -1,20 +1,15 @@
 """Which waves and which relaxation times of the rubber make the friction.
 
-By octave of wavelength, and by decade of relaxation time: an estimate in small-strain terms. The
-contact pressure of one wave has harmonics p_k. On a half-plane of modulus E*, harmonic k
-dissipates, per sliding distance and up to factors common to all of them,
+By octave of wavelength, and by decade of relaxation time: an estimate in small-strain terms. On a
+half-plane of modulus E*, harmonic p_k of the contact pressure of a wave dissipates
 
     D_k = |p_k|^2 E''(w_k) / |E*(w_k)|^2,       w_k = 2 pi k v / lambda,
 
 and E'' is a sum over the Maxwell elements (Ferry, Viscoelastic Properties of Polymers, 3rd ed.
-(1980), ch. 3), so each D_k splits into their parts. The parts, added by decade of relaxation time
-and scaled to the friction coefficient that was solved, are what is returned: the pressure is the
-solver's, at finite strain; the split is that of small strain. An octave of a direct contact counts
-as one harmonic at its middle, w = 2 pi v / (sqrt(2) lambda) with its lower end lambda.
-
-A series samples a continuous spectrum (Ferry, ch. 4), so an element stands for the times between it
-and half way to its neighbours. Where it only stood for its own, a whole share would jump from one
-decade into the next as a temperature shifts the times.
+(1980), ch. 3). The parts are scaled to the friction that was solved. An octave of a direct contact
+counts as one harmonic at its middle, w = 2 pi v / (sqrt(2) lambda) with its lower end lambda. An
+element stands for the times up to half way to its neighbours (Ferry, ch. 4): else a whole share
+would jump from one decade into the next as a temperature shifts the times.
 """
 
 from __future__ import annotations

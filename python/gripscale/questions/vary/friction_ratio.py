@@ -3,24 +3,10 @@
     G = ln(mu / mu_0),    P(mu > mu_0) = T_n(G / s)
 
 with the standard error s of G, n degrees of freedom of s and T_n the distribution of Student's t.
-Errors that both share cancel in G. Two compounds slide on the same pieces of the same profiles,
-and what is left has these sources:
-
-- sampling: the scatter of the pieces of the road (`gripscale.half_space.sampling_error`). With the
-  relative residuals e_i of a piece under each compound, var(G) = n/(n - 1) sum (e_i - e_i,0)^2.
-- grid: the change of G from the grid before the last, times 0.4 (`grid_sequence`), or the
-  difference between the ratios of the two frictions, whichever is larger; even within it.
-- rubber: other series fit a measurement as well. With s the derivative of ln mu along a change of
-  ln E*, a series k changes ln mu by s . ln(E*_k/E*), to first order. Each series is an extreme of
-  three standard deviations, and the largest change is taken for three. Compounds were measured by
-  themselves: both errors count.
-- surface: the step from lines to their surface changes with the contact area, and is missed by
-  `LOAD_SENSITIVITY` times the difference of the logarithms of both areas.
-- conditions: what is not known of softening and heat (`gripscale.conditions.conditions`) is the
-  same of both, and the difference of its changes counts; the scatter between treads of each
-  compound that has a typical softening counts by itself, and so does what its series misses.
-
-Two roads share none of the errors of their answers.
+Errors that both share cancel in G. Two compounds slide on the same pieces of the same profiles;
+what is left are the sampling of the pieces, the grids, other series of each rubber, the step from
+lines to a surface and the conditions (docs/side-by-side.md). Two roads share none of the errors of
+their answers.
 """
 
 from __future__ import annotations

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import field, replace
-from functools import cache
 from typing import Any, ClassVar
 
 import xarray as xr
@@ -168,7 +167,6 @@ def reading_notes(values: Iterable[Any]) -> tuple[str, ...]:
 
 # What conditions do to the contact; the area term does nothing to it.
 _EFFECTS = ("temperature", "softening", "heat", "water")
-ALL_EFFECTS, NO_EFFECTS = "all", "none"
 
 
 def conditions_of(model: Model) -> Conditions:
@@ -184,29 +182,19 @@ def at_temperature(model: Model, kelvin: float) -> Model:
     return model.with_conditions(replace(conditions_of(model), temperature=kelvin))
 
 
-def effects_asked(model: Model) -> list[str]:
-    """Return which of `_EFFECTS` the conditions of a model have."""
-    conditions = conditions_of(model)
-    return [effect for effect in _EFFECTS if getattr(conditions, effect) is not None]
-
-
 def with_effects(model: Model, selection: str) -> Model:
     """Return `model` with all of its effects, without one or with none; its area term stays.
 
     Raises `InputError` if `selection` is neither "all", "no" one that the model has, nor "none".
     """
-    asked = effects_asked(model)
-    without = {ALL_EFFECTS: [], **{f"no {effect}": [effect] for effect in asked}, NO_EFFECTS: asked}
+    conditions = conditions_of(model)
+    asked = [effect for effect in _EFFECTS if getattr(conditions, effect) is not None]
+    without = {"all": [], **{f"no {effect}": [effect] for effect in asked}, "none": asked}
     nothing = without[checks.one_of("effects", selection, without)]
-    return model.with_conditions(conditions_of(model).without(*nothing))
+    return model.with_conditions(conditions.without(*nothing))
 
 
 _OF_NAMED = 293.15  # temperature of the moduli of rubbers known by name [K]
-
-
-@cache
-def _names_of_unfilled() -> set[str]:
-    return {named().name for named in _NAMED_RUBBERS.values()}
 
 
 def for_rubber(model: Model, rubber: Rubber) -> Model:
@@ -218,7 +206,7 @@ def for_rubber(model: Model, rubber: Rubber) -> Model:
     effects = model.conditions
     if effects is None or not model.takes_conditions:
         return model
-    if rubber.name in _names_of_unfilled():
+    if rubber.name in {named().name for named in _NAMED_RUBBERS.values()}:
         effects = replace(effects, softening=None)
         if rubber.shift is None and effects.temperature == _OF_NAMED:
             effects = replace(effects, temperature=None)
@@ -227,29 +215,13 @@ def for_rubber(model: Model, rubber: Rubber) -> Model:
     return model if effects == model.conditions else model.with_conditions(effects)
 
 
-def rubber_before(rubber: Rubber, model: Model) -> Rubber:
-    """Return `rubber` at the temperature it has before the contact of `model`.
+def default_model(case: Case, surfaces: Sequence[Surface] = ()) -> str:
+    """Return the name of what predicts a case by default, on its surface or on `surfaces`.
 
-    Raises `InputError` if it has no shift, or none to this temperature.
+    The direct contact where every surface was measured, else the chain.
     """
-    return rubber if model.conditions is None else model.conditions.before(rubber)
-
-
-NAMED_MODELS = (Chain.name, DirectContact.name)
-# Inputs that no other model of a case depends on.
-OF_THE_CHAIN = ("factors", "waves", "pressure_classes")
-
-
-def default_model(case: Case, varied: Mapping[str, Sequence[Any]] | None = None) -> str:
-    """Return the name of what predicts a case by default, whose inputs take the `varied` values.
-
-    The direct contact where every surface was measured and no input of the chain alone is varied,
-    else the chain. Raises `InputError` if a surface is none that `surface_of` takes.
-    """
-    values = varied or {}
-    surfaces = [surface_of(value, case) for value in values.get("surface", (OF_THE_CASE,))]
-    measured = all(surface.measured is not None for surface in surfaces)
-    return DirectContact.name if measured and not {*OF_THE_CHAIN} & {*values} else Chain.name
+    measured = all(surface.measured is not None for surface in surfaces or [case.surface])
+    return DirectContact.name if measured else Chain.name
 
 
 def model_of(model: Model | str, case: Case, tolerance: float | None = JUDGED_TO) -> Model:
@@ -262,6 +234,6 @@ def model_of(model: Model | str, case: Case, tolerance: float | None = JUDGED_TO
         if isinstance(model, Persson) and model.conditions is None:
             return model.with_conditions(case.conditions)
         return model
-    if checks.one_of("model", model, NAMED_MODELS) == Chain.name:
+    if checks.one_of("model", model, (Chain.name, DirectContact.name)) == Chain.name:
         return case.chain
     return AnswerModel(tolerance, case.conditions, case.below_measurement)

@@ -41,7 +41,6 @@ from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page import input_sections
 from gripscale.questions.result import Result
 from gripscale.questions.vary.charts import study_pictures
-from gripscale.questions.vary.inputs import OF_THE_CHAIN
 from gripscale.questions.vary.study import BEYOND_SHIFT, Study
 from gripscale.report.elements import Card, Section, case_title, percent_text
 from gripscale.report.equations import method_section
@@ -125,12 +124,12 @@ class Variation(Result):
             share = view.at_places(data, FRICTION_OUTSIDE_BAND)
             columns.append(Column("outside_band", share, "μ", "beyond band", format=percent))
         table = view.table(data, columns, "study", "Predictions of the study")
-        if BEYOND_SHIFT in data:
-            marks = [" *" if beyond else "" for beyond in view.at_places(data, BEYOND_SHIFT)]
-            marked = [*table.columns]
-            marked[table.keys - 1] = replace(marked[table.keys - 1], marks=marks)
-            table = replace(table, columns=marked)
-        return table
+        if BEYOND_SHIFT not in data:
+            return table
+        marks = [" *" if beyond else "" for beyond in view.at_places(data, BEYOND_SHIFT)]
+        *keys, last = table.columns[: table.keys]
+        columns = [*keys, replace(last, marks=marks), *table.columns[table.keys :]]
+        return replace(table, columns=columns)
 
     def pictures(self) -> Iterator[Picture]:
         yield from study_pictures(self.data)
@@ -159,8 +158,6 @@ def _why_no_interval(data: xr.Dataset) -> str:
         return "no interval: the direct contact alone has none; leave the model out"
     if not data.attrs.get("surface_measured"):
         return "no interval: no surface was measured that could judge it"
-    if set(view.dimensions(data)) & set(OF_THE_CHAIN):
-        return "the varied input belongs to the chain only: `gripscale run` has the answer"
     return "the surface was measured: `--model direct`, the default, gives the answer"
 
 

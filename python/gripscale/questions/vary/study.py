@@ -20,8 +20,6 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case, fitted_for_load
-from gripscale.chain.chain import Chain
-from gripscale.core import InputError
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
 from gripscale.experiment.design import (
@@ -49,7 +47,6 @@ from gripscale.questions.vary.friction_parts import (
 )
 from gripscale.questions.vary.inputs import AnswerModel
 from gripscale.rubber import Rubber
-from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.surface import Surface
 
 _RENAMED = {"temperature": "wave_temperature"}  # variables over waves that have the name of an axis
@@ -84,14 +81,9 @@ def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.
         values = np.array(axis.values) if numeric else np.array(axis.labels, dtype=object)
         attrs = variable_attributes(kind.long_name, kind.unit if numeric else "1")
         display = axis.display_unit(units)
-        unit = kind.noun if display is None else display.unit
-        attrs |= {name: text for name, text in ((GIVEN, unit), ("symbol", kind.symbol)) if text}
+        attrs |= {} if display is None else {GIVEN: display.unit}
+        attrs |= {"symbol": kind.symbol} if kind.symbol else {}
         coords[axis.name] = xr.Variable(axis.name, values, attrs)
-        if axis.name == "factors":
-            for at, name in enumerate(("s_wavelength", "s_amplitude")):
-                factors = [pair[at] for pair in axis.values]
-                attrs = variable_attributes(f"magnification factor {name}")
-                coords[name] = xr.Variable("factors", factors, attrs)
     return coords
 
 
@@ -134,8 +126,7 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
 
 
 OF_THE_LOAD = ("pressure", "speed", "thickness")  # inputs that vary the load
-# Inputs that vary the waves of a surface.
-OF_A_SURFACE = ("factors", "waves", "smallest_wavelength", "cut_off", "top_height_fraction")
+OF_A_SURFACE = ("cut_off", "smallest_wavelength")  # inputs that vary the waves of a surface
 STUDY_FILE = "study.nc"  # the Dataset, in the folder of the study
 
 
@@ -151,16 +142,15 @@ class Study:
     vary
         One or two of speed, pressure, temperature, smallest_wavelength, thickness, cut_off (numbers
         in SI units, or texts with a unit; a cut_off also "instrument", "rms_slope 1.3" or another
-        `CutOffRule`), top_height_fraction (numbers), waves, pressure_classes (whole numbers),
-        factors (pairs of magnification factors, or "3.5/2.4"), effects (of the conditions: "all",
-        "no heat", "none"), rubber and surface (names and files, or a mapping from names to
-        `Rubber`, `SineStack`, names and files), each with its values, or with a text as on the
-        command line ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
+        `CutOffRule`), effects (of the conditions: "all", "no heat", "none"), rubber and surface
+        (names and files, or a mapping from names to `Rubber`, `SineStack`, names and files), each
+        with its values, or with a text as on the command line ("0.003:30:log9", "1 bar,3 bar"). A
+        speed of zero is static contact.
     model
         What predicts: "direct", "chain" with the solver of the case, both under its conditions, or
         a model. Persson's theory without conditions gets those of the case, one that takes none
         the rubber at its temperature. By default the direct contact where every surface was
-        measured and no input of the chain alone is varied, else the chain.
+        measured, else the chain.
     tolerance
         Estimated relative error of a direct contact that is chosen by name or by default.
     """
@@ -175,47 +165,59 @@ class Study:
     ) -> None:
         self.case = case
         self.axes: tuple[Axis, ...] = axes_of(vary)
-        if model is None:
-            model = inputs.default_model(case, {axis.name: axis.values for axis in self.axes})
-        self.model = inputs.model_of(model, case, tolerance)
-        for value in self._values("temperature"):
-            inputs.at_temperature(self.model, value)
-        for value in self._values("effects"):
-            inputs.with_effects(self.model, value)
-        if "pressure_classes" in vary and not isinstance(self.model, Chain):
-            raise InputError(
-                f"pressure_classes belongs to the chain; got the model {self.model.name}"
-            )
-        self._varied: dict[Any, Surface] = {}
-
-    @cached_property
-    def surfaces(self) -> list[Surface]:
+        values = {axis.name: axis.values for axis in self.axes}
+        surfaces = values.get("surface", (OF_THE_CASE,))
+        self.surfaces = [inputs.surface_of(value, case) for value in surfaces]
         """The varied surfaces, or the one of the case."""
-        values = self._values("surface") or (OF_THE_CASE,)
-        return [inputs.surface_of(value, self.case) for value in values]
-
-    @cached_property
-    def rubbers(self) -> list[Rubber]:
-        """The varied rubbers, or the one of the case."""
-        return [measured.rubber for measured in self.measured_rubbers]
-
-    @cached_property
-    def measured_rubbers(self) -> list[MeasuredRubber]:
-        """The `rubbers` with what they come from and what is doubtful of them."""
-        values = self._values("rubber") or (OF_THE_CASE,)
-        return [inputs.measured_rubber_of(value, self.case) for value in values]
-
-    def _values(self, name: str) -> tuple[Any, ...]:
-        return next((axis.values for axis in self.axes if axis.name == name), ())
+        rubbers = values.get("rubber", (OF_THE_CASE,))
+        self.measured_rubbers = [inputs.measured_rubber_of(value, case) for value in rubbers]
+        """The varied rubbers, or the one of the case, with what they come from."""
+        if model is None:
+            model = inputs.default_model(case, self.surfaces)
+        self.model = inputs.model_of(model, case, tolerance)
+        for value in values.get("temperature", ()):
+            inputs.at_temperature(self.model, value)
+        for value in values.get("effects", ()):
+            inputs.with_effects(self.model, value)
 
     @cached_property
     def design(self) -> Design:
-        """The points in motion (or at rest, where the speed is zero), last axis fastest."""
-        return self._design(self.axes)
+        """The points over the axes; nothing is solved if one of them is impossible."""
+        case, points, sizes = self.case, [], {axis.name: len(axis.values) for axis in self.axes}
+        varied: dict[Any, Surface] = {}  # each choice of waves is fitted once
+        for index in np.ndindex(*sizes.values()):
+            at = dict(zip(sizes, index, strict=True))
+            values: dict[str, Any] = {axis.name: axis.values[at[axis.name]] for axis in self.axes}
+            model, measured = self.model, self.measured_rubbers[at.get("rubber", 0)]
+            if "temperature" in values:
+                model = inputs.at_temperature(model, values["temperature"])
+            if "effects" in values:
+                model = inputs.with_effects(model, values["effects"])
+            if measured.rubber.name != case.rubber.name:
+                model = inputs.for_rubber(model, measured.rubber)
+            if model.conditions is not None:  # refuses a temperature without a shift
+                model.conditions.before(measured.rubber)
+            load = replace(case.load, **{k: v for k, v in values.items() if k in OF_THE_LOAD})
+            if load.speed == 0.0:
+                load = replace(load, load_time="passage")
+            changes = {name: values[name] for name in OF_A_SURFACE if name in values}
+            number = at.get("surface", 0)
+            key = (number, *changes.items())
+            if key not in varied:
+                varied[key] = self.surfaces[number].varied(**changes)
+            conditions = model.conditions if model.takes_conditions else case.conditions
+            # each point is the answer of a case with its load
+            rubber = fitted_for_load(measured, varied[key], load, conditions).rubber
+            if not model.takes_conditions and conditions is not None:
+                rubber = conditions.before(rubber)
+            words = [f"{axis.name} {axis.called(at[axis.name], case.units)}" for axis in self.axes]
+            task = Task(rubber, varied[key], load, model)
+            points.append(Point(index, ", ".join(words), task))
+        return Design(sizes, points)
 
     @property
     def points(self) -> Sequence[Point]:
-        """All points of `design`."""
+        """All points of `design`, last axis fastest; a speed of zero is rubber at rest."""
         return self.design.points
 
     def run(
@@ -266,49 +268,14 @@ class Study:
         result = result.assign_coords(coordinates(self.axes, self.case.units))
         result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
-            result = with_master_curve(result, self.rubbers[0])
+            result = with_master_curve(result, self.measured_rubbers[0].rubber)
         return described(result).assign_attrs(self.attributes)
-
-    def _design(self, axes: tuple[Axis, ...]) -> Design:
-        """Return the points over the axes; nothing is solved if one of them is impossible."""
-        case, points, sizes = self.case, [], {axis.name: len(axis.values) for axis in axes}
-        for index in np.ndindex(*sizes.values()):
-            at = dict(zip(sizes, index, strict=True))
-            values: dict[str, Any] = {axis.name: axis.values[at[axis.name]] for axis in axes}
-            model, measured = self.model, self.measured_rubbers[at.get("rubber", 0)]
-            if "pressure_classes" in values and isinstance(model, Chain):
-                model = replace(model, pressure_classes=values["pressure_classes"])
-            if "temperature" in values:
-                model = inputs.at_temperature(model, values["temperature"])
-            if "effects" in values:
-                model = inputs.with_effects(model, values["effects"])
-            if measured.rubber.name != case.rubber.name:
-                model = inputs.for_rubber(model, measured.rubber)
-            inputs.rubber_before(measured.rubber, model)
-            loads = {name: values[name] for name in OF_THE_LOAD if name in values}
-            load = replace(case.load, **loads)
-            if load.speed == 0.0:
-                load = replace(load, load_time="passage")
-            # each choice of waves is fitted once
-            changes = {name: values[name] for name in sorted(values) if name in OF_A_SURFACE}
-            number = at.get("surface", 0)
-            key = (number, *changes.items())
-            if key not in self._varied:
-                self._varied[key] = self.surfaces[number].varied(**changes)
-            conditions = model.conditions if model.takes_conditions else case.conditions
-            # each point is the answer of a case with its load
-            rubber = fitted_for_load(measured, self._varied[key], load, conditions).rubber
-            if not model.takes_conditions and conditions is not None:
-                rubber = conditions.before(rubber)
-            words = [f"{axis.name} {axis.called(at[axis.name], case.units)}" for axis in axes]
-            label = ", ".join(words)
-            points.append(Point(index, label, Task(rubber, self._varied[key], load, model)))
-        return Design(sizes, points)
 
     @property
     def attributes(self) -> dict[str, Any]:
         """What the study is of; nothing in it depends on when or how often it was run."""
         load, model = self.case.load, self.model
+        rubbers = [measured.rubber for measured in self.measured_rubbers]
         conditions = model.conditions if model.takes_conditions else self.case.conditions
         return {
             "title": "Study of real contact area and friction of rubber on a rough surface",
@@ -327,8 +294,8 @@ class Study:
             "varied": json.dumps({axis.name: list(axis.labels) for axis in self.axes}),
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
             "surface_measured": int(all(s.measured is not None for s in self.surfaces)),
-            "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in self.rubbers),
-            "rubber_parameters": json.dumps([rubber.to_dict() for rubber in self.rubbers]),
+            "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in rubbers),
+            "rubber_parameters": json.dumps([rubber.to_dict() for rubber in rubbers]),
             "notes": "\n".join(
                 dict.fromkeys(str(f) for surface in self.surfaces for f in surface.findings)
             ),
