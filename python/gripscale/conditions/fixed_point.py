@@ -162,9 +162,7 @@ class _CoarseModel(Generic[S]):
 
     def __init__(self, evaluate: _Solve[S], start: Iteration[S]) -> None:
         self.evaluate, self.last, self.count = evaluate, start, 1
-        self.sequence = AndersonSequence(start.value if start.x is None else start.x)
-        if start.x is not None:
-            self.sequence.add(start.value)
+        self.sequence = AndersonSequence(start.value)
         zero = np.zeros_like(start.value)
         self.defect = _Defect(None, zero, zero, zero)
 

@@ -41,16 +41,27 @@ def save(
         # `to_netcdf` asks Dask, where it is installed, for a lock: seconds of imports
         lock = xr.backends.netCDF4_.NETCDF4_PYTHON_LOCK
         kind: Any = xr.backends.NetCDF4DataStore
+        values = _Values()
         with closing(kind.open(temporary, mode="w", lock=lock)) as store:
-            data.dump_to_store(store)
+            data.dump_to_store(store, writer=values)
             for name, group in (groups or {}).items():
-                group.dump_to_store(store.get_child_store(name))
+                group.dump_to_store(store.get_child_store(name), writer=values)
+            for target, array in values:
+                target[...] = array
         with temporary.open("r+b") as file:
             digest = _digest(file, temporary.stat().st_size)
             file.write(_SEAL + digest + b"\n")
 
     with held_back():
         return write_whole(path, write)
+
+
+class _Values(list[tuple[Any, Any]]):
+    """Arrays to write when all variables are defined: HDF5 leaves its define mode only once."""
+
+    def add(self, source: Any, target: Any, region: Any = None) -> None:
+        """Note an array of one variable, as xarray calls it."""
+        self.append((target, source))
 
 
 def load_dataset(path: str | Path) -> xr.Dataset:
