@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from gripscale.chain.heat import Warming, WaveHeat, strains, warming_with_interface
+from gripscale.chain.heat import Warming, WaveHeat, strains, warming
 from gripscale.chain.prediction import ChainResult, ChainSolve
 from gripscale.conditions.conditions import SLOPE_FACTOR, Conditions, RubberState, rubber_under
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
@@ -157,4 +157,4 @@ def chain_warming(conditions: Conditions, solved: ChainResult) -> list[Warming]:
             solved.contact_fraction, load.pressure, load.speed, warm
         )
 
-    return warming_with_interface(heats, conditions, friction_at, speed=load.speed, time=time)
+    return warming(heats, conditions, friction_at, speed=load.speed, time=time)

@@ -102,7 +102,7 @@ class Warming:
 _SURFACE = rise.LossDepth(0.0)
 
 
-def warming_with_interface(
+def warming(
     waves: Sequence[WaveHeat],
     conditions: Conditions,
     friction_at: Callable[[float], float],
@@ -110,14 +110,15 @@ def warming_with_interface(
     speed: float,
     time: float,
 ) -> list[Warming]:
-    """Return the temperature rise on each wave, with the heat of an area term and the counterface.
+    """Return the temperature rise of the rubber on each wave of a chain, largest first.
 
-    `friction_at` is the friction of the area term [-] at a rise in the contact [K].
+    `friction_at` is the friction of the area term [-] at a rise in the contact [K], `time` the
+    duration of the nominal contact [s]. What the counterface takes up does not warm the rubber.
     """
     thermal, road = conditions.heat, conditions.counterface
     assert thermal is not None
-    if not waves or speed == 0.0 or (conditions.shear_stress is None and road is None):
-        return warming(waves, speed=speed, time=time, thermal=thermal)
+    if speed == 0.0 or not waves:
+        return [Warming(0.0, 0.0, 0.0, 0.0) for _ in waves]
     cold, unit = _rises(waves, speed, time, thermal, np.array([0.0, 1.0]))
     of_cold, by_unit = float(cold[-1, -1]), float(unit[-1, -1] - cold[-1, -1])
     in_road = math.inf
@@ -134,19 +135,6 @@ def warming_with_interface(
             friction_at, lambda mu: of_cold + divided.net(mu) * by_unit
         )
     rises = cold + divided.net(friction) * (unit - cold)  # linear in it
-    return [Warming(*of_wave) for of_wave in rises.tolist()]
-
-
-def warming(
-    waves: Sequence[WaveHeat], *, speed: float, time: float, thermal: rise.ThermalProperties
-) -> list[Warming]:
-    """Return the temperature rise of the rubber on each wave of a chain, largest first.
-
-    `time` is the duration of the nominal contact [s].
-    """
-    if speed == 0.0 or not waves:
-        return [Warming(0.0, 0.0, 0.0, 0.0) for _ in waves]
-    rises = _rises(waves, speed, time, thermal, np.zeros(1))[0]
     return [Warming(*of_wave) for of_wave in rises.tolist()]
 
 

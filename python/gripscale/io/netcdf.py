@@ -12,6 +12,7 @@ import shutil
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
 from gripscale.core.errors import FileError
@@ -41,11 +42,13 @@ def save(
         # `to_netcdf` asks Dask, where it is installed, for a lock: seconds of imports
         lock = xr.backends.netCDF4_.NETCDF4_PYTHON_LOCK
         kind: Any = xr.backends.NetCDF4DataStore
-        values = _Values()
+        # arrays after all variables: HDF5 then leaves its define mode only once
+        values: list[tuple[Any, Any]] = []
+        writer = SimpleNamespace(add=lambda array, target: values.append((target, array)))
         with closing(kind.open(temporary, mode="w", lock=lock)) as store:
-            data.dump_to_store(store, writer=values)
+            data.dump_to_store(store, writer=writer)
             for name, group in (groups or {}).items():
-                group.dump_to_store(store.get_child_store(name), writer=values)
+                group.dump_to_store(store.get_child_store(name), writer=writer)
             for target, array in values:
                 target[...] = array
         with temporary.open("r+b") as file:
@@ -54,14 +57,6 @@ def save(
 
     with held_back():
         return write_whole(path, write)
-
-
-class _Values(list[tuple[Any, Any]]):
-    """Arrays to write when all variables are defined: HDF5 leaves its define mode only once."""
-
-    def add(self, source: Any, target: Any, region: Any = None) -> None:
-        """Note an array of one variable, as xarray calls it."""
-        self.append((target, source))
 
 
 def load_dataset(path: str | Path) -> xr.Dataset:
