@@ -68,8 +68,8 @@ def solve_run(
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
         result.chain = solved_chain(case, bench_of(target))
         terminal.end_steps()
-    assert result.chain is not None
     result.save(target / ANSWER_FILE)
+    assert result.chain is not None
     netcdf.save(result.chain, target / CHAIN_FILE)
     if result.curve is not None:
         cut_off_result(result.curve, case).save(target / CURVE_FILE)
