@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.chain.heat import WaveHeat, warming, warming_with_interface
+from gripscale.chain.heat import WaveHeat, warming
 from gripscale.conditions import Conditions, ConstantStress, GaussianStress, LossDepth
 from gripscale.conditions import flash_temperature as rise
 from gripscale.conditions.flash_temperature import STONE
@@ -23,7 +23,7 @@ def _full_contact(friction):
 
 
 def _shared(waves, conditions, friction):
-    return warming_with_interface(waves, conditions, lambda _: friction, speed=SPEED, time=TIME)
+    return warming(waves, conditions, lambda _: friction, speed=SPEED, time=TIME)
 
 
 def test_in_full_contact_the_effusivities_share_the_heat():
@@ -40,7 +40,7 @@ def test_in_full_contact_the_effusivities_share_the_heat():
 
 def test_the_road_cools_the_heat_of_the_hysteresis():
     conditions = Conditions(heat=THERMAL, counterface=STONE)
-    [cold] = warming([_full_contact(0.3)], speed=SPEED, time=TIME, thermal=THERMAL)
+    [cold] = _shared([_full_contact(0.3)], Conditions(heat=THERMAL), math.nan)
     [warm] = _shared([_full_contact(0.3)], conditions, math.nan)
     both = THERMAL.effusivity + STONE.effusivity
     assert warm.contact == pytest.approx(cold.contact * THERMAL.effusivity / both, rel=1e-12)

@@ -34,7 +34,7 @@ def test_a_settled_chain_is_its_own_rubber(solver, options):
     assert found.converged
     assert found.scales[0].details["passes"] <= 8
     heats = [WaveHeat.of(wave, wave.rubber) for wave in found.scales]
-    warm = warming(heats, speed=1.0, time=0.05, thermal=THERMAL)
+    warm = warming(heats, Conditions(heat=THERMAL), lambda _: 0.0, speed=1.0, time=0.05)
     strain = strains(found.scales, "slope")
 
     def again(wave, so_far):

@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from gripscale.chain.heat import Warming, WaveHeat, strains, warming_with_interface
+from gripscale.chain.heat import Warming, WaveHeat, strains, warming
 from gripscale.chain.prediction import ChainResult, ChainSolve
-from gripscale.conditions.conditions import Conditions, RubberState, rubber_under
+from gripscale.conditions.conditions import SLOPE_FACTOR, Conditions, RubberState, rubber_under
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
 from gripscale.core import Array, Status
 from gripscale.rubber import Rubber
@@ -120,8 +120,12 @@ class _ChainEvaluation:
     load_steps: Counter[int] = field(default_factory=Counter)
 
     def __call__(self, x: Array | None, last: ChainResult | None) -> Iteration[ChainResult]:
-        """Return the evaluation of `x`; without it the rubber is as before the contact."""
+        """Return the evaluation of `x`; without it waves in full contact soften the cold rubber."""
         start = last if self.solver.warm else None
+        if x is None and self.conditions.softening is not None:
+            slopes = [2.0 * math.pi * w.amplitude / w.wavelength for w in self.solver.waves]
+            strain = SLOPE_FACTOR * np.sqrt(0.5 * np.cumsum(np.square(slopes)))
+            x = pack_state(np.zeros_like(strain), strain)
         if x is None:
             before = self.conditions.before(self.rubber)
             solved = self.solver(lambda wave, so_far: before, start)
@@ -153,4 +157,4 @@ def chain_warming(conditions: Conditions, solved: ChainResult) -> list[Warming]:
             solved.contact_fraction, load.pressure, load.speed, warm
         )
 
-    return warming_with_interface(heats, conditions, friction_at, speed=load.speed, time=time)
+    return warming(heats, conditions, friction_at, speed=load.speed, time=time)

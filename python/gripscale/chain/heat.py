@@ -14,8 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import astuple, dataclass
-from functools import partial
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -98,7 +97,7 @@ class Warming:
 _SURFACE = rise.LossDepth(0.0)
 
 
-def warming_with_interface(
+def warming(
     waves: Sequence[WaveHeat],
     conditions: Conditions,
     friction_at: Callable[[float], float],
@@ -106,57 +105,52 @@ def warming_with_interface(
     speed: float,
     time: float,
 ) -> list[Warming]:
-    """Return the temperature rise on each wave, with the heat of an area term and the counterface.
+    """Return the temperature rise of the rubber on each wave of a chain, largest first.
 
-    `friction_at` is the friction of the area term [-] at a rise in the contact [K].
+    `friction_at` is the friction of the area term [-] at a rise in the contact [K], `time` the
+    duration of the nominal contact [s]. What the counterface takes up does not warm the rubber.
     """
     thermal, road = conditions.heat, conditions.counterface
     assert thermal is not None
-    part = partial(warming, waves, speed=speed, time=time, thermal=thermal)
-    cold = part()
-    if not waves or speed == 0.0 or (conditions.shear_stress is None and road is None):
-        return cold
-    unit = part(interface=1.0)
-    by_unit, in_road = unit[-1].contact - cold[-1].contact, math.inf
+    if speed == 0.0 or not waves:
+        return [Warming(0.0, 0.0, 0.0, 0.0) for _ in waves]
+    cold, unit = _rises(waves, speed, time, thermal, np.array([0.0, 1.0]))
+    of_cold, by_unit = float(cold[-1, -1]), float(unit[-1, -1] - cold[-1, -1])
+    in_road = math.inf
     if road is not None:
         in_road = speed * waves[0].pressure * rise.uniform_at_surface(time, _SURFACE, road)
         for wave in waves:
             m = rise.harmonic_decay(wave.wavenumbers, 0.0, 0.0, road)
             harmonics = wave.contact * rise.PassingHarmonics(m, time, road).at_surface(_SURFACE)
-            in_road += speed * wave.pressure * _mean(harmonics, wave.contact)
-    divided = rise.Partition(cold[-1].contact, by_unit, in_road)
+            in_road += speed * wave.pressure * float(_mean(harmonics, wave.contact))
+    divided = rise.Partition(of_cold, by_unit, in_road)
     friction = 0.0
     if conditions.shear_stress is not None:
         friction = rise.settled_interface(
-            friction_at, lambda mu: cold[-1].contact + divided.net(mu) * by_unit
+            friction_at, lambda mu: of_cold + divided.net(mu) * by_unit
         )
-    net = divided.net(friction)  # rises are linear in it
-    pairs = zip(map(astuple, cold), map(astuple, unit), strict=True)
-    return [Warming(*(a + net * (b - a) for a, b in zip(*pair, strict=True))) for pair in pairs]
+    rises = cold + divided.net(friction) * (unit - cold)  # linear in it
+    return [Warming(*of_wave) for of_wave in rises.tolist()]
 
 
-def warming(
+def _rises(
     waves: Sequence[WaveHeat],
-    *,
     speed: float,
     time: float,
     thermal: rise.ThermalProperties,
-    interface: float = 0.0,
-) -> list[Warming]:
-    """Return the temperature rise of the rubber on each wave of a chain, largest first.
+    interface: Array,
+) -> Array:
+    """Return the rises of `Warming` for each friction `interface` [-], (interfaces, waves, 4) [K].
 
-    `time` is the duration of the nominal contact [s], `interface` the friction whose heat enters
-    the rubber at the surface of the real contact [-].
+    The heat of that friction enters the rubber at the surface of the real contact.
     """
-    if speed == 0.0 or not waves:
-        return [Warming(0.0, 0.0, 0.0, 0.0) for _ in waves]
     nominal = speed * waves[0].pressure
     deep = [rise.uniform_where_lost(time, wave.depth, thermal) for wave in waves]
     top = [rise.uniform_at_surface(time, wave.depth, thermal) for wave in waves]
     heats = [nominal * wave.friction for wave in waves]
-    from_interface = nominal * interface
+    from_interface, interface = nominal * interface, interface[:, None]
     on_surface = from_interface * rise.uniform_at_surface(time, _SURFACE, thermal)
-    out, larger_waves = [], 0.0
+    out, larger_waves = [], np.zeros(interface.size)
     for i, wave in enumerate(waves):
         # by the harmonics of this wave: where it loses energy, and in its contact
         k, heat = wave.wavenumbers, speed * wave.pressure
@@ -168,21 +162,20 @@ def warming(
             at_surface = rise.harmonic_at_surface(m, other.depth, thermal)
             by_smaller += heat * other.friction * wave.contact * at_surface
         where_lost = loss * rise.harmonic_where_lost(m, wave.depth, thermal)
-        where_lost += wave.depth.decay(m) * by_smaller
+        where_lost = where_lost + wave.depth.decay(m) * by_smaller
         own_pattern = _mean(where_lost, wave.lost)
         in_contact = loss * rise.harmonic_at_surface(m, wave.depth, thermal) + by_smaller
         contact = _mean(in_contact, wave.contact)
         surface = float(np.dot(heats, top)) + on_surface + larger_waves + contact
         uniform = rise.uniform_from_others(heats, top, i) + heats[i] * deep[i]
-        uniform += from_interface * top[i]
-        out.append(Warming(uniform, larger_waves, own_pattern, surface))
-        larger_waves += contact
-    return out
+        out.append((uniform + from_interface * top[i], larger_waves, own_pattern, surface))
+        larger_waves = larger_waves + contact
+    return np.array(out).transpose(2, 0, 1)
 
 
-def _mean(temperature: np.ndarray, weight: np.ndarray) -> float:
-    """Return the mean of a temperature over a pattern of unit mean, both as harmonics."""
-    return float(2.0 * (temperature * weight.conj()).real.sum())
+def _mean(temperature: ComplexArray, weight: ComplexArray) -> Array:
+    """Return the mean of temperatures over a pattern of unit mean, harmonics on the last axis."""
+    return np.asarray(2.0 * (temperature * weight.conj()).real.sum(axis=-1))
 
 
 def strains(waves: Sequence[ScaleResult], norm: StrainNorm) -> list[float]:

@@ -12,6 +12,7 @@ import shutil
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
 from gripscale.core.errors import FileError
@@ -41,10 +42,15 @@ def save(
         # `to_netcdf` asks Dask, where it is installed, for a lock: seconds of imports
         lock = xr.backends.netCDF4_.NETCDF4_PYTHON_LOCK
         kind: Any = xr.backends.NetCDF4DataStore
+        # arrays after all variables: HDF5 then leaves its define mode only once
+        values: list[tuple[Any, Any]] = []
+        writer = SimpleNamespace(add=lambda array, target: values.append((target, array)))
         with closing(kind.open(temporary, mode="w", lock=lock)) as store:
-            data.dump_to_store(store)
+            data.dump_to_store(store, writer=writer)
             for name, group in (groups or {}).items():
-                group.dump_to_store(store.get_child_store(name))
+                group.dump_to_store(store.get_child_store(name), writer=writer)
+            for target, array in values:
+                target[...] = array
         with temporary.open("r+b") as file:
             digest = _digest(file, temporary.stat().st_size)
             file.write(_SEAL + digest + b"\n")

@@ -323,21 +323,21 @@ def screen_outliers(curve: Curve, times: Array, prior: Prior, threshold: float) 
 
 def _deviation(position: Array, value: Array, kept: Mask) -> Array:
     """Return each value minus the straight line through its nearest kept neighbours."""
-    result = np.empty_like(value)
-    members = np.flatnonzero(kept)
-    for row in range(len(value)):
-        others = members[members != row]
-        # Half of the neighbours on each side, more where one side ends.
-        split = int(np.searchsorted(others, row))
-        start = min(max(split - _NEIGHBOURS // 2, 0), max(len(others) - _NEIGHBOURS, 0))
-        near = others[start : start + _NEIGHBOURS]
-        run, rise = position[near] - position[row], value[near]
-        across = run[:, None] - run
-        pairs = across > 0.0
-        slopes = (rise[:, None] - rise)[pairs] / across[pairs]
-        slope = float(np.median(slopes)) if slopes.size else 0.0
-        result[row] = value[row] - np.median(rise - slope * run)
-    return result
+    members, rows = np.flatnonzero(kept), np.arange(len(value))
+    # Half of the neighbours on each side, more where one side ends.
+    split, others = np.searchsorted(members, rows), members.size - kept
+    start = np.clip(split - _NEIGHBOURS // 2, 0, np.maximum(others - _NEIGHBOURS, 0))
+    place = start[:, None] + np.arange(min(_NEIGHBOURS, int(others.min())))
+    near = members[place + (kept[:, None] & (place >= split[:, None]))]  # without the row itself
+    run, rise = position[near] - position[:, None], value[near]
+    across = run[:, :, None] - run[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slopes = (rise[:, :, None] - rise[:, None]) / across
+    slopes = np.sort(np.where(across > 0.0, slopes, np.nan).reshape(len(rows), -1))
+    pairs = (across > 0.0).sum(axis=(1, 2))  # none where all frequencies are the same
+    middle = [slopes[rows, np.maximum(at, 0) // 2] for at in (pairs - 1, pairs)]
+    slope = np.where(pairs > 0, 0.5 * (middle[0] + middle[1]), 0.0)
+    return np.asarray(value - np.median(rise - slope[:, None] * run, axis=1))
 
 
 def _spread(deviation: Array) -> float:

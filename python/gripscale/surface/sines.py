@@ -13,7 +13,7 @@ fixed grid, so that equal input gives equal output.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
 
 import numpy as np
@@ -119,6 +119,7 @@ FIRST_WAVELENGTH, FIRST_AMPLITUDE, S_WAVELENGTH, S_AMPLITUDE = range(4)
 
 FACTOR_RANGE = (1.5, 30.0)  # smallest and largest magnification of wavelength tried
 AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)  # smallest and largest magnification of amplitude tried
+_NEAR = 1e-5  # tolerance of the fits of all starts, of which the closest goes on to 1e-11
 _PLATEAU_COUNTED = 4.0  # largest lag that counts by default, in lags at which the plateau begins
 
 
@@ -303,9 +304,10 @@ def search(target: TargetCurve, trial: WaveTrial, refined: int = 10) -> ClosestW
         tied = search(target, replace(trial, single_factor=True), refined)
         grid += [] if tied is None else [tied.logs[trial.free]]
     starts = sorted((np.clip(q, low, high) for q in grid), key=distance)[:refined]
-    fits = [
-        least_squares(residuals, q, bounds=(low, high), xtol=1e-11, ftol=1e-11, gtol=1e-11)
+    refine = partial(least_squares, residuals, bounds=(low, high), gtol=1e-11)
+    near = [
+        refine(q, xtol=_NEAR, ftol=_NEAR)
         for q in dict.fromkeys(tuple(q) for q in starts)  # fixed values make starts equal
     ]
-    closest = min(fits, key=lambda fit: float(fit.cost))
+    closest = refine(min(near, key=lambda fit: float(fit.cost)).x, xtol=1e-11, ftol=1e-11)
     return ClosestWaves(trial.fill(closest.x), trial.waves, float(np.sqrt(2.0 * closest.cost)))

@@ -156,8 +156,8 @@ def answer_of_samples(
         data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
         if "isotropic_surface" in factors:
             data[REACH] = unknown.copy(data=_line_of(direct).reach)
-    errors_of: dict[str, LogError] = {}
-    errors_of_total: dict[str, LogError] = {}
+    term = unknown if direct is None else direct.get("adhesive_friction", unknown)
+    errors_of_total: dict[str, LogError] = {}  # of the area term, where there is one
     remaining, fit = xr.ones_like(unknown), xr.zeros_like(unknown)
     if direct is not None and contacts:
         area = reduce.mean(direct, "contact_fraction")
@@ -176,23 +176,20 @@ def answer_of_samples(
             LogError(sigma.isel(factor=at).fillna(0.0), error.freedom)
             for at, error in enumerate(each)
         ]
-        errors_of[name] = combined([*errors, *of_inputs])
-        errors = [LogError(remaining**0.5 * error.sigma, error.freedom) for error in errors]
-        errors_of_total[name] = combined([*errors, *of_inputs])
-        data = data.assign(with_interval(name, mean * value.prod("factor"), errors_of[name]))
+        error = combined([*errors, *of_inputs])
+        data = data.assign(with_interval(name, mean * value.prod("factor"), error))
+        if bool(term.notnull().any()):
+            errors = [LogError(remaining**0.5 * part.sigma, part.freedom) for part in errors]
+            errors_of_total[name] = combined([*errors, *of_inputs])
         data[f"answer_{name}_sampling_error"] = road.sigma
         data[f"answer_{name}_grid_error"] = grid
         data[f"answer_{name}_factor"] = value
         data[f"answer_{name}_factor_uncertainty"] = sigma
     if direct is not None and "adhesive_friction" in direct:
-        term = reduce.mean(direct, "adhesive_friction")
-        data = with_interface(
-            data,
-            term * data["answer_contact_fraction_factor"].prod("factor"),
-            errors_of_total,
-            _stress_error(conditions),
-            fit,
-        )
+        if errors_of_total:
+            term = reduce.mean(direct, "adhesive_friction")
+            term = term * data["answer_contact_fraction_factor"].prod("factor")
+            data = with_interface(data, term, errors_of_total, _stress_error(conditions), fit)
         if getattr(conditions and conditions.shear_stress, "fitted_to", None) is not None:
             data[ERROR_LEFT] = remaining
     return described(data)

@@ -169,7 +169,15 @@ def mean(samples: xr.Dataset, name: str) -> xr.DataArray:
     values = usable(samples, name)
     if "length" not in samples:
         return values.mean("sample")
-    return values.weighted(samples["length"].fillna(1.0)).mean("sample")
+
+    def weighted(x: Array, length: Array) -> Array:  # a third of the time of `xr.weighted`
+        total = np.einsum("...i,...i", ~np.isnan(x), length)
+        weighed = np.einsum("...i,...i", np.where(np.isnan(x), 0.0, x), length)
+        return np.asarray(weighed / np.where(total != 0.0, total, math.nan))
+
+    lengths, dims = samples["length"].fillna(1.0), [["sample"], ["sample"]]
+    mean: xr.DataArray = xr.apply_ufunc(weighted, values, lengths, input_core_dims=dims)
+    return mean
 
 
 def spread(values: xr.DataArray) -> xr.DataArray:
