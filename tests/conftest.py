@@ -1,6 +1,6 @@
 """What all tests stand on: the cores of their process, the command line, and the browser.
 
-The same roads are read by hundreds of tests: their waves are searched for once in a process.
+The same roads and rubbers are read by hundreds of tests: they are fitted once in a process.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import pickle
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from typing import Any
 
@@ -18,6 +18,7 @@ from typer.testing import CliRunner, Result
 
 from gripscale.cli import app
 from gripscale.core.parallel import sharing
+from gripscale.rubber import maxwell_fit, prony
 from gripscale.surface import sine_fit
 from tests.browsing import started_browser
 from tests.samples import Shell
@@ -43,19 +44,31 @@ def _heeds_interrupts() -> Iterator[None]:
     signal.signal(signal.SIGINT, before)
 
 
-@pytest.fixture(scope="session", autouse=True)
-def _waves_found_once() -> Iterator[None]:
-    """Keep what the search for waves returns, by all that it is given."""
-    search, known = sine_fit.search, {}
+def _kept(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that keeps what `function` returns, by all that it is given."""
+    known: dict[bytes, Any] = {}
 
-    def kept(*given: Any, **options: Any) -> Any:
+    def call(*given: Any, **options: Any) -> Any:
         key = pickle.dumps((given, options))
         if key not in known:
-            known[key] = search(*given, **options)
+            known[key] = function(*given, **options)
         return known[key]
 
+    return call
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _fitted_once() -> Iterator[None]:
+    """Search for the waves of the same road, and fit the same rubber, once in a process."""
+    fits = (
+        (sine_fit, "search"),
+        (maxwell_fit, "screen_outliers"),
+        (maxwell_fit, "fit_spectrum"),
+        (prony, "extremes"),
+    )
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sine_fit, "search", kept)
+        for module, name in fits:
+            patch.setattr(module, name, _kept(getattr(module, name)))
         yield
 
 
