@@ -10,10 +10,12 @@ import pickle
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
+from functools import cache
 from typing import Any
 
 import matplotlib.figure  # noqa: F401  # commands of the tests draw in this process
 import pytest
+import typer.testing
 from typer.testing import CliRunner, Result
 
 from gripscale.cli import app
@@ -69,6 +71,14 @@ def _fitted_once() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         for module, name in fits:
             patch.setattr(module, name, _kept(getattr(module, name)))
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _commands_built_once() -> Iterator[None]:
+    """Build the commands from their functions, a tenth of a second, once in a process."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(typer.testing, "_get_command", cache(typer.testing._get_command))
         yield
 
 
