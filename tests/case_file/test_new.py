@@ -363,11 +363,7 @@ ROWS = [f"{t},{f:g},{100.0 - t + f:g},20" for t in (-20, 0, 20, 40) for f in (0.
 @pytest.mark.parametrize(
     ("titles", "rows", "words"),
     [
-        (
-            "Temp,freq_Hz,E1_MPa,E2_MPa",
-            ROWS,
-            "modulus as two of storage, .*, such as --columns f",
-        ),
+        ("Temp,freq_Hz,E1_MPa,E2_MPa", ROWS, "modulus as two of storage, .*, such as --columns f"),
         (
             "T [°C],f [Hz],E' [MPa],E'' [MPa]",
             [*ROWS[:4], ROWS[4][1:], *ROWS[5:]],

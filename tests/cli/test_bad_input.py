@@ -151,10 +151,7 @@ MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
     ids=[f"{i}: {words[:30]}" for i, (_, words) in enumerate(MISTAKES)],
 )
 def test_a_mistake_is_one_sentence(
-    shell: Shell,
-    changed: Callable[..., Path],
-    command: Callable[[Path], list[object]],
-    words: str,
+    shell: Shell, changed: Callable[..., Path], command: Callable[[Path], list[object]], words: str
 ) -> None:
     refused(shell(*command(changed().parent)), words)
 
