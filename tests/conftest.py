@@ -5,6 +5,7 @@ The same roads and rubbers are read by hundreds of tests: they are fitted once i
 
 from __future__ import annotations
 
+import gc
 import os
 import pickle
 import signal
@@ -29,6 +30,13 @@ from tests.samples import Shell
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Start with the golden files: in the middle, two processes would each prepare their runs."""
     items.sort(key=lambda item: not item.nodeid.startswith("tests/golden"))
+
+
+def pytest_collection_finish() -> None:
+    """Look for garbage less often, and not among what all tests share."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(100_000, 50, 100)
 
 
 @pytest.fixture(scope="session", autouse=True)

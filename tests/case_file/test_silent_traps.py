@@ -238,21 +238,8 @@ SOFT = dma_text(5.0, 1.0, "E' [kPa],E'' [kPa]")
 
 @pytest.mark.parametrize(
     "changes",
-    [
-        {"road": road_text(titles="x [mm]\tz [um]"), "dma": SOFT},
-        {"road": MIRROR, "dma": SOFT},
-        {"road": road_text(1e3 * ROUGH.z)},
-        {
-            "road": road_text(titles="x [um]\tz [mm]"),
-            "case": CASE.replace('smallest_wavelength = "1 mm"', 'cut_off = "instrument"'),
-        },
-        {"dma": dma_text(5.0, 1.0, "E' [Pa],E'' [Pa]")},
-        {
-            "dma": dma_text(5e3, 1e3),
-            "case": CASE.replace("[load]", 'bulk_modulus = "1e5 GPa"\n[load]'),
-        },
-    ],
-    ids=["heights", "mirror", "heights too large", "distances", "too soft", "too stiff"],
+    [{"road": road_text(titles="x [mm]\tz [um]"), "dma": SOFT}, {"road": MIRROR, "dma": SOFT}],
+    ids=["heights", "mirror"],
 )
 def test_an_answer_that_no_road_or_rubber_has_doubts_its_units_first(
     tmp_path: Path, changes: dict[str, Any]

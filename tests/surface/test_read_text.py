@@ -50,14 +50,6 @@ def test_separators_and_line_ends(tmp_path, separator, end):
     assert profile.z == pytest.approx([z * 1e-6 for _, z in ROWS])
 
 
-def test_decimal_commas_bytes_order_mark_and_missing_heights(tmp_path):
-    text = table(separator=";", header="\ufeffx [mm];z [mm]\n").replace(".", ",")
-    text = text.replace("1,5;-0,75", "1,5;NaN")
-    profile = read_profile(written(tmp_path, text))
-    assert profile.z[2] == pytest.approx(0.5e-3)
-    assert np.flatnonzero(np.isnan(profile.z)).tolist() == [3]
-
-
 def test_units_come_from_titles_or_arguments_and_must_agree(tmp_path):
     bare = written(tmp_path, table(header=""))
     assert read_profile(bare, x_unit="cm", z_unit="µm").x[1] == pytest.approx(0.5e-2)
