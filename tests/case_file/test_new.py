@@ -476,18 +476,12 @@ def test_what_is_proposed_is_among_the_doubts_of_the_case(tmp_path: Path) -> Non
     ("name", "text", "words"),
     [
         ("road.csv", "x [mm],z [mm]\n0,1\n", "at least 16 points; got 1"),
-        (
-            "road.csv",
-            "x [mm],z [mm]\n" + "\n".join(f"{0.1 * i:.1f},0" for i in range(400)),
-            "a plane has no roughness",
-        ),
-        (
-            "dma.csv",
-            "f (Hz),E' (MPa),E'' (MPa)\n1,5e6,1e6\n10,6e6,1.2e6\n100,7e6,1.4e6\n",
-            r"modulus_unit.*7e\+03 GPa, which no solid has",
-        ),
+        ("road.csv", "x [mm],z [mm]\n" + "\n".join(f"{0.1 * i:.1f},0" for i in range(400)),
+         "a plane has no roughness"),
+        ("dma.csv", "f (Hz),E' (MPa),E'' (MPa)\n1,5e6,1e6\n10,6e6,1.2e6\n100,7e6,1.4e6\n",
+         r"modulus_unit.*7e\+03 GPa, which no solid has"),
     ],
-)
+)  # fmt: skip
 def test_files_of_no_road_or_rubber_are_refused(
     tmp_path: Path, name: str, text: str, words: str
 ) -> None:
