@@ -22,8 +22,8 @@ from gripscale.core import InputError, checks, doubt, parse_quantity
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask
 from gripscale.io import netcdf
-from gripscale.io.folders import make_folder, write_text
-from gripscale.io.table import Column, Table, change, fixed, percent, significant, write_csv
+from gripscale.io.folders import make_folder, write_csv, write_text
+from gripscale.io.table import Column, Table, change, fixed, percent, significant
 from gripscale.questions.design.charts import SAME, answering_point, design_figure
 from gripscale.questions.design.compound_design import (
     DESIGN_FILE,
@@ -347,6 +347,8 @@ def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
     The number in the name is tan(delta) at the rolling condition in per cent of today's. The JSON
     file is what `gripscale export rubber` takes. Returns the paths.
     """
+    import pandas as pd
+
     target = Path(folder)
     make_folder(target)
     paths = []
@@ -361,13 +363,12 @@ def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
             f"design of gripscale, not measured; from {data.attrs['rubber']}",
         )
         paths.append(write_master_curve(target / f"{rubber.name}.csv", curve))
-        series = Table(
-            "prony",
-            [
-                Column("relaxation_time", data.relaxation_time.values, unit="s"),
-                Column("modulus", point.modulus.values, unit="Pa"),
-                Column("modulus_over_today", point.modulus_ratio.values, unit="1"),
-            ],
+        series = pd.DataFrame(
+            {
+                "relaxation_time [s]": data.relaxation_time.values,
+                "modulus [Pa]": point.modulus.values,
+                "modulus_over_today [-]": point.modulus_ratio.values,
+            }
         )
         paths.append(write_csv(series, target / f"{rubber.name}_prony.csv"))
         text = json.dumps(rubber.to_dict(), indent=1)
