@@ -11,7 +11,7 @@ import scipy.fft
 import gripscale as gs
 from gripscale._kernel import GapExtension
 from gripscale.half_space import active_set
-from gripscale.half_space.active_set import FAR, LOSSY, REACH
+from gripscale.half_space.active_set import CONTACT_REACH, FAR, LOSSY
 from gripscale.half_space.grid import Grid, doubled, resampled
 from gripscale.half_space.grid_sequence import GridRecord, errors, grid_contact_fraction
 from gripscale.half_space.response import HalfSpace, Response
@@ -72,7 +72,7 @@ def test_a_gap_of_a_line_is_a_harmonic_function():
     wide = np.zeros(4000, dtype=bool)
     wide[1000:1300] = wide[1500:1600] = True
     values = np.where(np.flatnonzero(wide) < 1400, 2.0, 3.0)
-    extended = extended_on(wide, values, REACH)[1300:1500]
+    extended = extended_on(wide, values, CONTACT_REACH)[1300:1500]
     # the solid angle of each contact in a strip: a conformal map takes the gap to a half-line
     centre, half = 1399.5, 100.5
     point = (np.arange(1300, 1500) - centre) / half
@@ -82,13 +82,22 @@ def test_a_gap_of_a_line_is_a_harmonic_function():
         kernel = np.sqrt((1.0 - point[:, None] ** 2) / (at**2 - 1.0)) / (at - point[:, None])
         return np.trapezoid(kernel, at, axis=1) / np.pi if length else 0.0
 
-    wanted = 3.0 * seen(REACH * 100.0) + 2.0 * seen(REACH * 300.0)[::-1]
+    wanted = 3.0 * seen(CONTACT_REACH * 100.0) + 2.0 * seen(CONTACT_REACH * 300.0)[::-1]
     np.testing.assert_allclose(extended[5:-5], wanted[5:-5], rtol=0.01)
-    line = extended_on(TWO_CONTACTS, [2.0, 3.0, 5.0, 7.0], REACH)
+    line = extended_on(TWO_CONTACTS, [2.0, 3.0, 5.0, 7.0], CONTACT_REACH)
     np.testing.assert_allclose(line[TWO_CONTACTS], [2.0, 3.0, 5.0, 7.0])
     # contacts across the end of the period are one: of three points, seen over a gap of three
     first = (
-        2.0 / np.pi * np.arctan(np.sqrt([REACH * 3 / (REACH * 3 + 4) * 3, REACH / (REACH + 4) / 3]))
+        2.0
+        / np.pi
+        * np.arctan(
+            np.sqrt(
+                [
+                    CONTACT_REACH * 3 / (CONTACT_REACH * 3 + 4) * 3,
+                    CONTACT_REACH / (CONTACT_REACH + 4) / 3,
+                ]
+            )
+        )
     )
     np.testing.assert_allclose(line[2], first @ [3.0, 5.0], rtol=1e-6)
 

@@ -37,11 +37,11 @@ and from the other one, the weight is the harmonic measure
 
     w = 2/pi arctan sqrt(L b / ((L + g) a)),
 
-with `REACH` L in place of L for the contacts behind it. It halves the products of the neighbours
-alone, on roads and self-affine lines. On a map u(x) next to A is the mean of the others with the
-weights of the sum, over the neighbours of x in A. Neighbours outside A count as u(x) itself, and
-all farther points as zero with the weight `FAR`, chosen by measurements on elastic and lossy
-rubbers.
+with `CONTACT_REACH` L in place of L for the contacts behind it. It needs half the products of the
+neighbours alone, on roads and self-affine lines. On a map u(x) next to A is the mean of the others
+with the weights of the sum, over the neighbours of x in A. Neighbours outside A count as u(x)
+itself, and all farther points as zero with the weight `FAR`, chosen by measurements on elastic and
+lossy rubbers.
 
 Of very lossy rubber, E* ~ (i w)^a, S is of the order 1 + a and its weights fall off as
 |x - y|^-(2 + a): the displacement of a gap is that of its two ends. At the order 2 it would be
@@ -72,7 +72,7 @@ _Index = NDArray[np.intp]
 FAR = 2.0  # weight of all farther points of a map, over that of a neighbour along an axis
 # Length of the contacts beside a gap with those behind them, over their own: from 10 to 40 the
 # products differ by less than a tenth.
-REACH = 20.0
+CONTACT_REACH = 20.0
 # Loss angle, median of the waves, above which a line takes the linear extension [rad].
 LOSSY = 0.45
 # Factor of Q r there: it is 3 to 30 times smaller than the error of the pressure (root mean square,
@@ -132,7 +132,9 @@ class PointsInContact:
         if len(response.grid.shape) > 1:
             self._extension = GapExtension.of_map(active.reshape(response.grid.shape), FAR)
         else:
-            self._extension = GapExtension.of_line(active, None if self._lossy_line else REACH)
+            self._extension = GapExtension.of_line(
+                active, None if self._lossy_line else CONTACT_REACH
+            )
         self._single = np.zeros(response.grid.shape, dtype=np.float32)
         self.products = 0
 
