@@ -1,23 +1,27 @@
 """What all tests stand on: the cores of their process, the command line, and the browser.
 
-The same roads are read by hundreds of tests: their waves are searched for once in a process.
+The same roads and rubbers are read by hundreds of tests: they are fitted once in a process.
 """
 
 from __future__ import annotations
 
+import gc
 import os
 import pickle
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import nullcontext
+from functools import cache
 from typing import Any
 
 import matplotlib.figure  # noqa: F401  # commands of the tests draw in this process
 import pytest
+import typer.testing
 from typer.testing import CliRunner, Result
 
 from gripscale.cli import app
 from gripscale.core.parallel import sharing
+from gripscale.rubber import maxwell_fit, prony
 from gripscale.surface import sine_fit
 from tests.browsing import started_browser
 from tests.samples import Shell
@@ -26,6 +30,13 @@ from tests.samples import Shell
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Start with the golden files: in the middle, two processes would each prepare their runs."""
     items.sort(key=lambda item: not item.nodeid.startswith("tests/golden"))
+
+
+def pytest_collection_finish() -> None:
+    """Look for garbage less often, and not among what all tests share."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(100_000, 50, 100)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -43,19 +54,39 @@ def _heeds_interrupts() -> Iterator[None]:
     signal.signal(signal.SIGINT, before)
 
 
-@pytest.fixture(scope="session", autouse=True)
-def _waves_found_once() -> Iterator[None]:
-    """Keep what the search for waves returns, by all that it is given."""
-    search, known = sine_fit.search, {}
+def _kept(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a function that keeps what `function` returns, by all that it is given."""
+    known: dict[bytes, Any] = {}
 
-    def kept(*given: Any, **options: Any) -> Any:
+    def call(*given: Any, **options: Any) -> Any:
         key = pickle.dumps((given, options))
         if key not in known:
-            known[key] = search(*given, **options)
+            known[key] = function(*given, **options)
         return known[key]
 
+    return call
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _fitted_once() -> Iterator[None]:
+    """Search for the waves of the same road, and fit the same rubber, once in a process."""
+    fits = (
+        (sine_fit, "search"),
+        (maxwell_fit, "screen_outliers"),
+        (maxwell_fit, "fit_spectrum"),
+        (prony, "extremes"),
+    )
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sine_fit, "search", kept)
+        for module, name in fits:
+            patch.setattr(module, name, _kept(getattr(module, name)))
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _commands_built_once() -> Iterator[None]:
+    """Build the commands from their functions, a tenth of a second, once in a process."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(typer.testing, "_get_command", cache(typer.testing._get_command))
         yield
 
 

@@ -88,11 +88,7 @@ amplitude = "0.08 mm"
 """
 
 
-def case_text(
-    surface: str,
-    rubber: str = STYRENE_BUTADIENE,
-    solver: str = COARSE_BLOCK,
-) -> str:
+def case_text(surface: str, rubber: str = STYRENE_BUTADIENE, solver: str = COARSE_BLOCK) -> str:
     """Return the text of a case at 3 bar and 0.3 m/s with the keys of three of its tables.
 
     A measured rubber is unfilled: its moduli do not fall with the strain.

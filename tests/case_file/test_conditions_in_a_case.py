@@ -188,96 +188,51 @@ def test_sweeps_at_several_temperatures_make_the_rubber(tmp_path: Path) -> None:
 
 WRONG = [
     # wrong unit, or none
-    (
-        'temperature = "40 C"',
-        "temperature = 313.15",
-        "[conditions] temperature = 313.15: the unit is",
-    ),
-    (
-        'temperature = "40 C"',
-        'temperature = "40 mm"',
-        "[conditions] temperature = '40 mm': unknown unit",
-    ),
-    (
-        '"1.15 g/cm^3"',
-        '"1150 kg"',
-        "[conditions] heat: density = '1150 kg': unknown unit 'kg'; expected",
-    ),
+    ('temperature = "40 C"', "temperature = 313.15",
+     "[conditions] temperature = 313.15: the unit is"),
+    ('temperature = "40 C"', 'temperature = "40 mm"',
+     "[conditions] temperature = '40 mm': unknown unit"),
+    ('"1.15 g/cm^3"', '"1150 kg"',
+     "[conditions] heat: density = '1150 kg': unknown unit 'kg'; expected"),
     ('"0.25 W/(m K)"', '"0.25 W/K"', "[conditions] heat: conductivity = '0.25 W/K': unknown unit"),
     ('"5 MPa"', '"5 Mpa"', "[conditions] shear_stress: stress_0 = '5 Mpa': unknown unit 'Mpa'"),
-    (
-        '"6 mm/s"',
-        '"0 mm/s"',
-        "shear_stress: speed_0 = '0 mm/s': expected a value greater than zero",
-    ),
+    ('"6 mm/s"', '"0 mm/s"',
+     "shear_stress: speed_0 = '0 mm/s': expected a value greater than zero"),
     ('critical_strain = "2 %"', 'critical_strain = "2 mm"', "softening: critical_strain = '2 mm'"),
     ('c2 = "120 K"', 'c2 = "120 kg"', "[rubber] shift: c2 = '120 kg': unknown unit"),
     # half
     ('measured_at = "0.1 %"\n', "", "[conditions] softening: measured_at is missing"),
     ("width = 0.1\n", "", "[conditions] shear_stress: width is missing"),
-    (
-        'kind = "kraus"\n',
-        "",
-        "[conditions] softening: kind is missing; expected one of kraus, table",
-    ),
-    (
-        'reference_temperature = "20 C"',
-        "",
-        "reference_temperature must be given with an activation_energy",
-    ),
-    (
-        SOFTENING,
-        'strain_norm = "slope"\n',
-        "strain_norm belongs to softening, which is not asked for",
-    ),
+    ('kind = "kraus"\n', "",
+     "[conditions] softening: kind is missing; expected one of kraus, table"),
+    ('reference_temperature = "20 C"', "",
+     "reference_temperature must be given with an activation_energy"),
+    (SOFTENING, 'strain_norm = "slope"\n',
+     "strain_norm belongs to softening, which is not asked for"),
     (', c2 = "120 K"', "", "[rubber] shift: c2 is missing"),
     # twice
-    (
-        'temperature = "40 C"',
-        'temperature = "40 C"\ntemperature = "50 C"',
-        "is not valid TOML: Cannot overwrite",
-    ),
-    (
-        'kind = "kraus"',
-        'kind = "kraus"\nfiles = ["a.csv"]',
-        "[conditions] softening: unknown key files",
-    ),
+    ('temperature = "40 C"', 'temperature = "40 C"\ntemperature = "50 C"',
+     "is not valid TOML: Cannot overwrite"),
+    ('kind = "kraus"', 'kind = "kraus"\nfiles = ["a.csv"]',
+     "[conditions] softening: unknown key files"),
     ("[conditions]\n", "vertical = true\n[conditions]\n", "unknown key [solver] vertical"),
     (NAMED, NAMED + "\nvertical = true", "vertical belongs to a measured file"),
     (NAMED, 'file = "a.csv"\nvertical = true\nshift = "b.csv"', "either shift (given) or vertical"),
     # misspelt, or what nobody has
-    (
-        "storage_ratio",
-        "storage_ration",
-        "softening: unknown key storage_ration; did you mean storage_ratio",
-    ),
-    (
-        'kind = "gaussian"',
-        'kind = "gauss"',
-        "shear_stress: kind = 'gauss': expected one of constant,",
-    ),
-    (
-        SOFTENING,
-        '[conditions.softening]\nkind = "table"\nfiles = ["a.csv"]\nmeasured_at = "0.2 %"\n'
-        'modulus_unit = "Mpa"\n',
-        "[conditions] softening: modulus_unit = 'Mpa': expected one of Pa, kPa,",
-    ),
-    (
-        "[conditions.heat]",
-        "[conditions.heating]",
-        "unknown key [conditions] heating; did you mean heat?",
-    ),
-    (
-        "storage_ratio = 0.3",
-        "storage_ratio = 1.3",
-        "softening: storage_ratio = 1.3: expected a number, above 0, at most 1",
-    ),
-    (
-        "[conditions]\n",
-        '[compare]\nmeasured = "mu.csv"\n[conditions]\n',
-        "[compare]: unknown key measured; expected one of layer_ratio",
-    ),
-]
+    ("storage_ratio", "storage_ration",
+     "softening: unknown key storage_ration; did you mean storage_ratio"),
+    ('kind = "gaussian"', 'kind = "gauss"',
+     "shear_stress: kind = 'gauss': expected one of constant,"),
+    (SOFTENING, '[conditions.softening]\nkind = "table"\nfiles = ["a.csv"]\nmeasured_at = "0.2 %"\n'
+     'modulus_unit = "Mpa"\n',
+     "[conditions] softening: modulus_unit = 'Mpa': expected one of Pa, kPa,"),
+    ("[conditions.heat]", "[conditions.heating]",
+     "unknown key [conditions] heating; did you mean heat?"),
+    ("storage_ratio = 0.3", "storage_ratio = 1.3",
+     "softening: storage_ratio = 1.3: expected a number, above 0, at most 1"),
+    ("[conditions]\n", '[compare]\nmeasured = "mu.csv"\n[conditions]\n',
+     "[compare]: unknown key measured; expected one of layer_ratio"),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("old", "new", "words"), WRONG)
@@ -288,18 +243,13 @@ def test_wrong_half_or_twice_is_one_sentence(
 
 
 UNUSABLE = [
-    (
-        '\nshift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }',
-        "",
-        "heat needs a rubber with reference_temperature and shift",
-    ),
+    ('\nshift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }', "",
+     "heat needs a rubber with reference_temperature and shift"),
     ('temperature = "40 C"', 'temperature = "-150 C"', "[conditions] temperature"),
-    (
-        'kind = "wlf", c1 = 8.0, c2 = "120 K"',
-        'kind = "arrhenius", activation_energy = "80 kJ/mol", valid_range = ["60 C", "20 C"]',
-        "valid_range",
-    ),
-]
+    ('kind = "wlf", c1 = 8.0, c2 = "120 K"',
+     'kind = "arrhenius", activation_energy = "80 kJ/mol", valid_range = ["60 C", "20 C"]',
+     "valid_range"),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("old", "new", "words"), UNUSABLE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import tomllib
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +13,11 @@ import pytest
 
 from gripscale.case_file.kinds import FileKeys
 from gripscale.case_file.laboratory import all_taken
-from gripscale.case_file.new import NewCase, new_case
+from gripscale.case_file.new import new_case
 from gripscale.case_file.prepare import read_case
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.text_table import files_read_once
-from tests.case_file.test_new import SOLID, modulus, road
+from tests.case_file.test_new import SOLID, keys, moduli_rows, modulus, road
 from tests.samples import Shell
 
 HERTZ = np.geomspace(1e-3, 1e6, 28)
@@ -47,21 +48,10 @@ def shifts(titles: str = "temperature [C],a_T [-]") -> str:
 
 
 FRICTION = "speed [m/s],friction\n0.001,0.9\n0.01,1.2\n0.1,1.5\n1,1.6\n"
-RAMP = "\n".join(
-    ["T [°C],f [Hz],E' [MPa],E'' [MPa]"]
-    + [
-        f"{t},10,{1e-6 * (e := modulus(t, 10)).real:.6g},{1e-6 * e.imag:.6g}"
-        for t in range(-20, 61, 4)
-    ]
-)
-SWEEPS = "\n".join(
-    ["T [°C],f [Hz],E' [MPa],E'' [MPa]"]
-    + [
-        f"{t},{f:.4g},{1e-6 * (e := modulus(t, f)).real:.6g},{1e-6 * e.imag:.6g}"
-        for t in range(0, 41, 10)
-        for f in np.geomspace(0.1, 100, 10)
-    ]
-)
+TITLES = "T [°C],f [Hz],E' [MPa],E'' [MPa]"
+RAMP = "\n".join([TITLES, *moduli_rows(product(range(-20, 61, 4), [10.0]), 1e-6)])
+BY_FREQUENCY = product(range(0, 41, 10), np.geomspace(0.1, 100, 10))
+SWEEPS = "\n".join([TITLES, *moduli_rows(BY_FREQUENCY, 1e-6)])
 MAP = "\n".join(
     ["x [mm],y [mm],z [um]"]
     + [
@@ -178,10 +168,6 @@ COMPOUND = {
     "A_friction.csv": FRICTION,
     "notes.txt": "of compound A\n",
 }
-
-
-def keys(case: NewCase) -> dict[str, Any]:
-    return tomllib.loads(case.path.read_text(encoding="utf-8"))
 
 
 def test_the_files_of_a_compound_make_its_case(tmp_path: Path) -> None:

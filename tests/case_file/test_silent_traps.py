@@ -88,131 +88,69 @@ def with_sentinel() -> str:
     return road_text(z)
 
 
+EXCHANGED = "\n".join(
+    ["f [Hz],E'' [MPa],E' [MPa],tan delta"]
+    + [f"{f:.5g},{5 * f**0.1:.6g},{f**0.1:.6g},0.2" for f in np.geomspace(1, 1e6, 20)]
+)
+UNNAMED = "\n".join(
+    ["f [Hz],E' [MPa],E'' [MPa]"]
+    + [f"{f * s**0.1:.5g},{5 * s:g},{s:g}" for f in (0.1, 1, 10) for s in range(1, 25)]
+)
 TRAPS: dict[str, tuple[dict[str, Any], str]] = {
     "a plate at one end": ({"road": with_plate(20e-3)}, "plates, supports or filled gaps"),
     "a support below": ({"road": with_plate(-9e-3)}, "mm below the road"),
-    "a plate in the middle": (
-        {"road": with_plate(12e-3, where=slice(900, 1200))},
-        "they carry the rubber in place of the surface",
-    ),
-    "a crop that keeps the plate": (
-        {
-            "road": with_plate(20e-3),
-            "case": CASE.replace("scales", 'crop = ["0 mm", "150 mm"]\nscales'),
-        },
-        "plates, supports or filled gaps",
-    ),
+    "a plate in the middle": ({"road": with_plate(12e-3, where=slice(900, 1200))},
+     "they carry the rubber in place of the surface"),
+    "a crop that keeps the plate": ({"road": with_plate(20e-3),
+     "case": CASE.replace("scales", 'crop = ["0 mm", "150 mm"]\nscales')},
+     "plates, supports or filled gaps"),
     "a mark of missing heights": ({"road": with_sentinel()}, "does it mark missing heights?"),
-    "heights in another unit": (
-        {"road": road_text(titles="x [mm]\tz [um]")},
-        "is the unit of heights right?",
-    ),
-    "distances in another unit": (
-        {"road": road_text(titles="x [m]\tz [mm]")},
-        "is the unit of",
-    ),
-    "axes exchanged": (
-        {"road": "\n".join(["z [mm]\tx [mm]", *road_text().split("\n")[1:]])},
-        "expected",
-    ),
-    "a picture as a road": (
-        {"road": b"\x89PNG\r\n" + bytes(range(256)) * 9},
-        "expected a file with measured values; got a picture (PNG)",
-    ),
-    "no temperature anywhere": (
-        {"case": CASE.replace('reference_temperature = "20 C"\n', "")},
-        "states the temperature of its moduli",
-    ),
-    "moduli exchanged": (
-        {
-            "dma": "f [Hz],E'' [MPa],E' [MPa],tan delta\n"
-            + "\n".join(
-                f"{f:.5g},{5 * f**0.1:.6g},{f**0.1:.6g},0.2" for f in np.geomspace(1, 1e6, 20)
-            )
-        },
-        "look exchanged",
-    ),
-    "tan delta as a loss modulus": (
-        {"dma": dma_text(60.0, "0.2")},
-        "E'' looks like the loss factor (tan delta)",
-    ),
-    "a loss modulus in another unit": (
-        {"dma": dma_text(5.0, 1e3)},
-        "E'' looks 1000 times too large",
-    ),
-    "a loss factor in % without its unit": (
-        {"dma": dma_text(5.0, "20", "E' [MPa],tan delta")},
-        "E'' looks like one of a loss factor in %",
-    ),
-    "an angle in degrees as a loss factor": (
-        {"dma": dma_text(5.0, "11.3", "E' [MPa],tan delta")},
-        "E'' looks like one of a phase angle in degrees",
-    ),
-    "a loss modulus above the storage modulus": (
-        {"dma": dma_text(5.0, 20.0)},
-        "storage and loss modulus look exchanged",
-    ),
-    "moduli in another unit, too large": (
-        {
-            "dma": dma_text(5e6, 1e6),
-            "case": CASE.replace("[load]", 'bulk_modulus = "1e8 GPa"\n[load]'),
-        },
-        "is that of no rubber: is the unit of the moduli right (modulus_unit)?",
-    ),
-    "moduli in another unit, too small": (
-        {"dma": dma_text(5.0, 1.0, "E' [Pa],E'' [Pa]")},
-        "is that of no rubber: is the unit of the moduli right (modulus_unit)?",
-    ),
-    "sweeps without their temperatures": (
-        {"dma": "\n".join([dma_text(5.0, 1.0), *dma_text(50.0, 10.0).split("\n")[1:]])},
-        "the same frequencies again with moduli 10 times apart",
-    ),
-    "moduli of temperatures that are not named": (
-        {
-            "dma": "\n".join(
-                ["f [Hz],E' [MPa],E'' [MPa]"]
-                + [f"{f * s**0.1:.5g},{5 * s:g},{s:g}" for f in (0.1, 1, 10) for s in range(1, 25)]
-            )
-        },
-        "rows of nearly one frequency differ",
-    ),
-    "heights in another unit, too large": (
-        {"road": road_text(1e3 * ROUGH.z)},
-        "of the heights stand at steps",
-    ),
-    "distances in another unit, too small": (
-        {"road": road_text(titles="x [um]\tz [mm]")},
-        "is the unit of heights or of distances right?",
-    ),
-    "a pressure without its unit": (
-        {"case": CASE.replace('"3 bar"', "3")},
-        "is its unit right?",
-    ),
-    "a pressure in another unit": (
-        {"case": CASE.replace('"3 bar"', '"3 GPa"')},
-        "Pressure = 3",
-    ),
-    "a speed in another unit": (
-        {"case": CASE.replace('"0.3 m/s"', "300")},
-        "Speed = 300 m/s",
-    ),
-    "a footprint without its unit": (
-        {"case": CASE.replace('"100 mm"', "100")},
-        "Footprint = ",
-    ),
-    "a rubber in place of a road": (
-        {"road": DMA},
-        "expected",
-    ),
-    "a road in place of a rubber": (
-        {"dma": road_text()},
-        "expected",
-    ),
-    "a footprint in another unit": (
-        {"case": CASE.replace('"100 mm"', '"100 um"')},
-        "is its unit right?",
-    ),
-}
+    "heights in another unit": ({"road": road_text(titles="x [mm]\tz [um]")},
+     "is the unit of heights right?"),
+    "distances in another unit": ({"road": road_text(titles="x [m]\tz [mm]")}, "is the unit of"),
+    "axes exchanged": ({"road": "\n".join(["z [mm]\tx [mm]", *road_text().split("\n")[1:]])},
+     "expected"),
+    "a picture as a road": ({"road": b"\x89PNG\r\n" + bytes(range(256)) * 9},
+     "expected a file with measured values; got a picture (PNG)"),
+    "no temperature anywhere": ({"case": CASE.replace('reference_temperature = "20 C"\n', "")},
+     "states the temperature of its moduli"),
+    "moduli exchanged": ({"dma": EXCHANGED}, "look exchanged"),
+    "tan delta as a loss modulus": ({"dma": dma_text(60.0, "0.2")},
+     "E'' looks like the loss factor (tan delta)"),
+    "a loss modulus in another unit": ({"dma": dma_text(5.0, 1e3)},
+     "E'' looks 1000 times too large"),
+    "a loss factor in % without its unit": ({"dma": dma_text(5.0, "20", "E' [MPa],tan delta")},
+     "E'' looks like one of a loss factor in %"),
+    "an angle in degrees as a loss factor": ({"dma": dma_text(5.0, "11.3", "E' [MPa],tan delta")},
+     "E'' looks like one of a phase angle in degrees"),
+    "a loss modulus above the storage modulus": ({"dma": dma_text(5.0, 20.0)},
+     "storage and loss modulus look exchanged"),
+    "moduli in another unit, too large": ({"dma": dma_text(5e6, 1e6),
+     "case": CASE.replace("[load]", 'bulk_modulus = "1e8 GPa"\n[load]')},
+     "is that of no rubber: is the unit of the moduli right (modulus_unit)?"),
+    "moduli in another unit, beyond the bulk modulus": ({"dma": dma_text(5e6, 1e6)},
+     "is the unit of the moduli another?"),
+    "moduli in another unit, too small": ({"dma": dma_text(5.0, 1.0, "E' [Pa],E'' [Pa]")},
+     "is that of no rubber: is the unit of the moduli right (modulus_unit)?"),
+    "sweeps without their temperatures": ({"dma": "\n".join([dma_text(5.0, 1.0),
+     *dma_text(50.0, 10.0).split("\n")[1:]])},
+     "the same frequencies again with moduli 10 times apart"),
+    "moduli of temperatures that are not named": ({"dma": UNNAMED},
+     "rows of nearly one frequency differ"),
+    "heights in another unit, too large": ({"road": road_text(1e3 * ROUGH.z)},
+     "of the heights stand at steps"),
+    "distances in another unit, too small": ({"road": road_text(titles="x [um]\tz [mm]")},
+     "is the unit of heights or of distances right?"),
+    "a pressure without its unit": ({"case": CASE.replace('"3 bar"', "3")}, "is its unit right?"),
+    "a pressure in another unit": ({"case": CASE.replace('"3 bar"', '"3 GPa"')}, "Pressure = 3"),
+    "a speed in another unit": ({"case": CASE.replace('"0.3 m/s"', "300")}, "Speed = 300 m/s"),
+    "a footprint without its unit": ({"case": CASE.replace('"100 mm"', "100")}, "Footprint = "),
+    "a rubber in place of a road": ({"road": DMA},
+     "road.txt, line 2: expected two columns, distance"),
+    "a road in place of a rubber": ({"dma": road_text()}, "at least 3 columns (frequency,"),
+    "a footprint in another unit": ({"case": CASE.replace('"100 mm"', '"100 um"')},
+     "is its unit right?"),
+}  # fmt: skip
 
 
 def said(folder: Path, changes: dict[str, Any]) -> str:
@@ -300,21 +238,8 @@ SOFT = dma_text(5.0, 1.0, "E' [kPa],E'' [kPa]")
 
 @pytest.mark.parametrize(
     "changes",
-    [
-        {"road": road_text(titles="x [mm]\tz [um]"), "dma": SOFT},
-        {"road": MIRROR, "dma": SOFT},
-        {"road": road_text(1e3 * ROUGH.z)},
-        {
-            "road": road_text(titles="x [um]\tz [mm]"),
-            "case": CASE.replace('smallest_wavelength = "1 mm"', 'cut_off = "instrument"'),
-        },
-        {"dma": dma_text(5.0, 1.0, "E' [Pa],E'' [Pa]")},
-        {
-            "dma": dma_text(5e3, 1e3),
-            "case": CASE.replace("[load]", 'bulk_modulus = "1e5 GPa"\n[load]'),
-        },
-    ],
-    ids=["heights", "mirror", "heights too large", "distances", "too soft", "too stiff"],
+    [{"road": road_text(titles="x [mm]\tz [um]"), "dma": SOFT}, {"road": MIRROR, "dma": SOFT}],
+    ids=["heights", "mirror"],
 )
 def test_an_answer_that_no_road_or_rubber_has_doubts_its_units_first(
     tmp_path: Path, changes: dict[str, Any]

@@ -1,4 +1,7 @@
-"""Bad input: one sentence on stderr, exit code 2, nothing written."""
+"""Bad input: one sentence on stderr that says what is wrong and what to do, exit code 2.
+
+What is wrong with files and with keys of a case is tested with their readers.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import openpyxl
 import pytest
 from typer.testing import Result
 
@@ -17,16 +21,16 @@ from tests.samples import Shell
 
 def refused(result: Result, *words: str) -> None:
     assert result.exit_code == 2, result.output
-    assert len(result.stderr.splitlines()) == 1
-    assert result.stderr.startswith("error: ")
+    (sentence,) = result.stderr.splitlines()
+    assert sentence.startswith("error: ")
     for part in words:
         assert part in result.stderr
     assert "Traceback" not in result.output
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture
 def never_solved(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing in this file may get as far as a solver."""
+    """Let nothing get as far as a solver."""
 
     def solve(*_: object) -> None:
         raise AssertionError("solved with bad input")
@@ -34,23 +38,7 @@ def never_solved(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(HalfPlane, "solve", solve)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ("pressure =", "presure =", "unknown key [load] presure; did you mean pressure?"),
-        ("[load]", "[load", "is not valid TOML"),
-        ('"dma.txt"', '"dna.txt"', "dna.txt"),
-        ('"390 mm"', '"10.1 mm"', "road.txt: crop must leave at least"),
-    ],
-)
-def test_bad_case_is_refused(
-    shell: Shell, changed: Callable[..., Path], old: str, new: str, words: str
-) -> None:
-    case = changed(old, new)
-    refused(shell("run", case), words)
-    assert sorted(p.name for p in case.parent.iterdir()) == ["case.toml", "dma.txt", "road.txt"]
-
-
+@pytest.mark.usefixtures("never_solved")
 @pytest.mark.parametrize(
     ("old", "new", "table", "key"),
     [
@@ -66,11 +54,13 @@ def test_bad_case_is_refused(
 def test_a_refusal_ends_with_the_command_that_lists_the_keys(
     shell: Shell, changed: Callable[..., Path], old: str, new: str, table: str, key: str
 ) -> None:
-    words = ["keys", *filter(None, [table])]
-    refused(shell("run", changed(old, new)), f"ee `{' '.join(['gripscale', *words])}`\n")
+    words, case = ["keys", *filter(None, [table])], changed(old, new)
+    refused(shell("run", case), f"ee `{' '.join(['gripscale', *words])}`\n")
     assert key in shell(*words).stdout.split()
+    assert sorted(p.name for p in case.parent.iterdir()) == ["case.toml", "dma.txt", "road.txt"]
 
 
+@pytest.mark.usefixtures("never_solved")
 @pytest.mark.parametrize(
     ("name", "text"),
     [
@@ -88,10 +78,7 @@ def test_bad_measurement_is_refused(
     assert not (case.parent / "results").exists()
 
 
-def test_missing_case_is_refused(shell: Shell, tmp_path: Path) -> None:
-    refused(shell("run", tmp_path / "nowhere.toml"), "nowhere.toml does not exist")
-
-
+@pytest.mark.usefixtures("never_solved")
 def test_file_in_place_of_the_output_folder(shell: Shell, changed: Callable[..., Path]) -> None:
     case = changed()
     blocked = case.parent / "results"
@@ -118,26 +105,84 @@ def test_output_folder_without_permission_is_found_before_reading(
     refused(shell("run", case), "no permission for")
 
 
+def two_sheets(folder: Path) -> list[object]:
+    book = openpyxl.Workbook()
+    for name in ("20 C", "40 C"):
+        sheet = book.create_sheet(name)
+        for row in (["f (Hz)", "E' (MPa)", "E'' (MPa)"], [1, 2, 0.2], [10, 3, 0.3]):
+            sheet.append(row)
+    book.save(folder / "dma.xlsx")
+    return ["fit-rubber", folder / "dma.xlsx"]
+
+
+MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
+    (lambda at: ["run", at / "case"], "case does not exist"),
+    (lambda at: ["run", at / "dma.txt"], "dma.txt is no case file (TOML); `gripscale"),
+    (lambda at: ["report", at / "case.toml"], "case.toml is a case, not a result: `gripscale run`"),
+    (lambda at: ["report", at / "dma.txt"], "netCDF result: it is of another format"),
+    (two_sheets, "--reference-temperature must be given, such as \"20 C\", for sweeps at 2 te"),
+    (lambda at: ["fit-rubber", at / "none.txt"], "none.txt: cannot be read (no such file)"),
+    (lambda at: ["fit-rubber", at / "dma.txt", "--terms", "0"], "options: terms = 0: expected a w"),
+    (lambda at: ["fit-rubber", at / "dma.txt", "--bulk-modulus", "soft"], "bulk_modulus = 'soft'"),
+    (lambda at: ["fit-rubber", at / "dma.txt", "--bulk-modulus", "1 Pa"], "bulk_modulus"),
+    (lambda at: ["fit-rubber", at / "dma.txt", "--reference-temperature", "20"],
+     "reference_temperature = '20': the unit"),
+    (lambda at: ["fit-rubber", at / "dma.txt", "--columns", "f,E',E''"],
+     "among the header's names (Frequency, E', E'');"),
+    (lambda at: ["fit-surface", at / "road.txt", "--scales", "0"], "options: scales = 0: expected"),
+    (lambda at: ["fit-surface", at / "road.txt", "--crop", "1 mm", "1 ell"],
+     "options: crop[1] = '1 ell': unknown unit"),
+    (lambda at: ["compare-rubbers", "a.txt", "b.txt"], "--case must be given: the surface and"),
+    (lambda at: ["compare-rubbers", at / "case.toml"], "rubbers must be 2 to 6 compounds to"),
+    (lambda at: ["compare-rubbers", at / "case.toml", "styrene_butadiene", "--temperature", "20"],
+     "temperature = '20': the unit is missing; expected one of K, C, F"),
+    (lambda at: ["new", at, "--temperature", "20"], "temperature = '20': the unit is missing; exp"),
+    (lambda at: ["study", at / "case.toml", "--vary", "temperature=0,20"],
+     "must have a unit, such as"),
+    (lambda at: ["study", at / "case.toml", "--vary", "rubber=case,dmo.txt"],
+     "rubber dmo.txt is neit"),
+]  # fmt: skip
+
+
+@pytest.mark.usefixtures("never_solved")
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("command", "words"),
+    MISTAKES,
+    ids=[f"{i}: {words[:30]}" for i, (_, words) in enumerate(MISTAKES)],
+)
+def test_a_mistake_is_one_sentence(
+    shell: Shell, changed: Callable[..., Path], command: Callable[[Path], list[object]], words: str
+) -> None:
+    refused(shell(*command(changed().parent)), words)
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
     [
-        (["--scales", "0"], "options: scales = 0: expected a whole number, at least 1"),
-        (["--crop", "1 mm", "1 ell"], "options: crop[1] = '1 ell': unknown unit"),
+        ('"3 bar"', '"32 psi"', "Results and report are in"),
+        ('"100 mm"', '"1 mm"', "  The footprint, 1 mm, is shorter than the"),
     ],
 )
-def test_bad_surface_options(shell: Shell, inputs: Path, options: list[str], words: str) -> None:
-    refused(shell("fit-surface", inputs / "road.txt", *options), words)
+def test_what_is_no_mistake_runs(
+    shell: Shell, changed: Callable[..., Path], old: str, new: str, words: str
+) -> None:
+    result = shell("run", changed(old, new), columns=400)
+    assert result.exit_code == 0, result.output
+    assert words in result.stdout
 
 
-def test_bad_rubber_options(shell: Shell, inputs: Path) -> None:
-    dma = inputs / "dma.txt"
-    refused(
-        shell("fit-rubber", dma, "--terms", "0"),
-        "options: terms = 0: expected a whole",
-    )
-    refused(shell("fit-rubber", dma, "--bulk-modulus", "soft"), "options: bulk_modulus = 'soft'")
-    refused(shell("fit-rubber", dma, "--bulk-modulus", "1 Pa"), "bulk_modulus")
-    refused(shell("fit-rubber", inputs / "none.txt"), "none.txt")
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--columns", "frequency=1,storage=2,loss=3", "--outlier-threshold", "inf"),
+        ("--header", "1", "--terms", "6"),
+    ],
+)
+def test_options_of_a_file_are_taken(shell: Shell, inputs: Path, options: tuple[str, ...]) -> None:
+    result = shell("fit-rubber", inputs / "dma.txt", *options)
+    assert result.exit_code == 0, result.output
+    assert "Maxwell elements" in result.stdout
 
 
 def test_a_shell_sees_the_sentence_and_the_code(changed: Callable[..., Path]) -> None:

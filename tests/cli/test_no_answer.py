@@ -23,9 +23,7 @@ from tests.samples import (
 pytestmark = pytest.mark.usefixtures("undrawn")
 SURFACE = 'files = ["road.txt"]\nscales = 4\nsmallest_wavelength = "0.8 mm"\nspikes = "iso13473"'
 CASE = case_text(
-    SURFACE,
-    'file = "dma.txt"\nterms = 6',
-    HALF_PLANE + '\n\n[output]\nfolder = "results"',
+    SURFACE, 'file = "dma.txt"\nterms = 6', HALF_PLANE + '\n\n[output]\nfolder = "results"'
 )
 
 

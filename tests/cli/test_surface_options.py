@@ -29,7 +29,9 @@ def test_the_option_that_a_message_names_cures_it(tracks: Path, tmp_path: Path) 
     )
     refused = call(app, ["fit-surface", str(tracks), "--channel", "2"])
     assert "'furlong', which is no known unit of length" in " ".join(refused.output.split())
-    done = call(app, ["fit-surface", str(tracks), "--channel", "right", "--x-unit", "mm"])
+    done = call(
+        app, ["fit-surface", str(tracks), "--channel", "right", "--x-unit", "mm", "--scales", "2"]
+    )
     assert done.exit_code == 0, done.output
     options = ["--channel", "3", "--x-unit", "mm", "--crop", "10 mm", "150 mm"]
     curve = tmp_path / "dma.csv"

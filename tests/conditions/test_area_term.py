@@ -75,20 +75,12 @@ def test_the_friction_of_a_sheared_area():
         ({"kind": "constant", "stress_0": 1e6, "width": 0.1}, "width"),
         ({"kind": "constant", "stress_0": -1.0}, "stress_0"),
         ({"kind": "gaussian", "stress_0": 1e6, "width": 0.0, "speed_0": 1.0}, "width"),
-        (
-            {
-                "kind": "gaussian",
-                "stress_0": 1e6,
-                "width": 0.1,
-                "speed_0": 1.0,
-                "activation_energy": 0.9,
-            },
-            "reference_temperature",
-        ),
+        ({"kind": "gaussian", "stress_0": 1e6, "width": 0.1, "speed_0": 1.0,
+         "activation_energy": 0.9}, "reference_temperature"),
         ({"kind": "table", "speed": [1.0], "stress_at": [1e6]}, "speed"),
         ({"kind": "table", "speed": [1.0, 2.0], "stress_at": [1e6, -1.0]}, "stress_at"),
     ],
-)
+)  # fmt: skip
 def test_a_wrong_law_is_one_sentence(values, word):
     with pytest.raises(gs.InputError, match=word) as caught:
         shear_stress_from_dict(values)

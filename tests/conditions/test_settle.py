@@ -16,10 +16,7 @@ from tests.samples import SHIFTED_SINES as SINES
 from tests.samples import SHIFTED_VALUES as LOAD
 
 BOTH = Conditions(softening=KRAUS, heat=THERMAL)
-SOLVERS = [
-    ("half_plane", {"points": 256}),
-    ("finite_strain", {"columns": 64, "rows": 12}),
-]
+SOLVERS = [("half_plane", {"points": 256}), ("finite_strain", {"columns": 64, "rows": 12})]
 TURNS = 2.0 * np.pi * np.arange(1024) / 1024
 LINE = gs.Profile(
     np.arange(1024) * 1e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS + 1.0)

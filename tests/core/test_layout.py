@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 
 import gripscale
+from tests.samples import ROOT
 
 PACKAGE = Path(gripscale.__file__).parent
 FRONT_ENDS = {"case_file", "cli", "app", "reproduction"}
@@ -138,25 +140,27 @@ def test_charts_and_reports_import_no_question() -> None:
     assert uses == set()
 
 
-NO_NAMES = {
-    *("one", "found", "told", "known", "given", "own"),
-    *("place", "stated", "beside", "shown", "left", "such"),
-}
-"""Pronouns and participles: a name is a noun of the field, or a verb for a function."""
+def refused_names() -> set[str]:
+    """Return the pronouns and participles that CONTRIBUTING lists as never a name."""
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    sentence = re.search(r"These words are never a name[^:]*: (.*?)\.\n", text, re.DOTALL)
+    assert sentence is not None
+    return set(re.findall(r"`(\w+)`", sentence[1]))
 
 
 def test_no_pronoun_or_participle_is_a_name() -> None:
-    named = set()
+    refused, named = refused_names(), set()
+    assert {"one", "found", "told", "such"} <= refused
     for module, tree in modules().items():
         for node in ast.walk(tree):
             name = ""
-            if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
                 name = node.name
             elif isinstance(node, ast.arg):
                 name = node.arg
             elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
                 name = node.id
-            if name.strip("_") in NO_NAMES:
+            if name.strip("_") in refused:
                 named.add(f"{module}: {name}")
     assert named == set()
 

@@ -121,23 +121,18 @@ def third_line(new: str) -> Any:
 REFUSED = {
     "nothing": (lambda _: "", "got 0 in an empty file"),
     "words": (lambda _: "a\nb\n", r"found none from line 1 \('a'\) on"),
-    "two decimal signs": (
-        third_line("2,5"),
-        r"line \d: expected one decimal sign throughout; got '\S+' after '\S+' in line 3",
-    ),
+    "two decimal signs": (third_line("2,5"),
+     r"line \d: expected one decimal sign throughout; got '\S+' after '\S+' in line 3"),
     "thousands ill parted": (third_line("1,23.5"), r"line 3: expected a .*; got '1,23\.5'"),
     "underscores": (third_line("1_000"), "line 3: expected a .*; got '1_000'"),
     "foreign digits": (third_line("١"), "line 3: expected a .*; got '١'"),
     "beyond floating point": (third_line("1e999"), "line 3: expected a .*; got '1e999'"),
-    "a long row": (
-        lambda lines: "\n".join(lines) + "\n1;1;1;1;1",
-        r"line \d+: expected \d columns as in line 2; got 5",
-    ),
-    "a fault in the first row": (
-        lambda lines: "\n".join([lines[0], lines[1].rpartition(";")[0] + ";O.1", *lines[2:]]),
-        r"line 2: expected a number in column \d; got 'O\.1'",
-    ),
-}
+    "a long row": (lambda lines: "\n".join(lines) + "\n1;1;1;1;1",
+     r"line \d+: expected \d columns as in line 2; got 5"),
+    "a fault in the first row": (lambda lines: "\n".join([lines[0],
+     lines[1].rpartition(";")[0] + ";O.1", *lines[2:]]),
+     r"line 2: expected a number in column \d; got 'O\.1'"),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(("cell", "number"), [("1.234.567,5", 1234567.5), ("-1,234.5", -1234.5)])

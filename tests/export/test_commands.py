@@ -87,11 +87,7 @@ def test_a_rubber_at_another_temperature_and_in_other_units(inputs, tmp_path):
     ("source", "options", "said"),
     [
         ("dma.txt", ["--to", "nastran"], "to must be one of abaqus, ansys, febio"),
-        (
-            "dma.txt",
-            ["--to", "febio", "--temperature", "40 C"],
-            "shift is missing",
-        ),
+        ("dma.txt", ["--to", "febio", "--temperature", "40 C"], "shift is missing"),
         ("case.toml", ["--to", "febio", "--temperature", "warm"], "expected a temperature such as"),
         ("dma.txt", ["--to", "ansys", "--name", "a"], "unknown option of ansys name"),
         ("none.json", ["--to", "ansys"], "none.json: cannot be read (no such file)"),

@@ -10,11 +10,7 @@ import scipy.fft
 
 import gripscale as gs
 from gripscale.surface import HeightMap, Profile
-from gripscale.theory import (
-    full_contact_pressure,
-    plane_strain_modulus,
-    solve_half_plane,
-)
+from gripscale.theory import full_contact_pressure, plane_strain_modulus, solve_half_plane
 from tests.closed_forms import contact_fraction
 from tests.samples import ROOT
 

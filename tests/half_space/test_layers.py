@@ -48,12 +48,7 @@ def boundary_values(depth: float, number: float, modulus: complex, bulk: float) 
                 [c, z * c, s, z * s],
                 [q * s, c + q * z * s, q * c, s + q * z * c],
                 [q**2 * c, 2 * q * s + q**2 * z * c, q**2 * s, 2 * q * c + q**2 * z * s],
-                [
-                    q**3 * s,
-                    3 * q**2 * c + q**3 * z * s,
-                    q**3 * c,
-                    3 * q**2 * s + q**3 * z * c,
-                ],
+                [q**3 * s, 3 * q**2 * c + q**3 * z * s, q**3 * c, 3 * q**2 * s + q**3 * z * c],
             ]
         )
 

@@ -220,8 +220,7 @@ def test_two_frictions_apart_and_borders_between_points_are_errors():
 def test_borders_that_a_grid_adds_are_an_error():
     """Four times the borders: 0.5 sqrt(borders)/points stays where the points double."""
     few, many = records(
-        {"border_error": 0.001},
-        {"border_error": 0.001, "points": 128, "contact_fraction": 0.12},
+        {"border_error": 0.001}, {"border_error": 0.001, "points": 128, "contact_fraction": 0.12}
     )
     assert errors([few, many])[0] == pytest.approx(np.hypot((0.4 + 0.75) * 0.02, 0.001))
 

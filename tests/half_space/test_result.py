@@ -11,14 +11,7 @@ from gripscale.half_space import DirectContact
 from gripscale.half_space.regions import periodic_regions
 from gripscale.io import netcdf
 from gripscale.model import TOTALS, Load, Model
-from gripscale.surface import (
-    HeightMap,
-    Measured,
-    Profile,
-    SineStack,
-    Surface,
-    self_affine_profile,
-)
+from gripscale.surface import HeightMap, Measured, Profile, SineStack, Surface, self_affine_profile
 
 from .rough_cases import ZENER, isotropic_map, solve
 

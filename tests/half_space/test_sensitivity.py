@@ -211,10 +211,7 @@ def test_bands_add_up_whatever_their_width(contact):
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
-    [
-        ({"speed": 0.0}, "got speed 0 m/s"),
-        ({"rubber": gs.Rubber(3e6)}, "friction above zero"),
-    ],
+    [({"speed": 0.0}, "got speed 0 m/s"), ({"rubber": gs.Rubber(3e6)}, "friction above zero")],
 )
 def test_refuses_contact_without_friction(arguments, message):
     with pytest.raises(gs.InputError, match=message):

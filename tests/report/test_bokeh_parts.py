@@ -12,15 +12,7 @@ from bokeh.core.serialization import DeserializationError
 
 from gripscale.charts import draw
 from gripscale.charts.bokeh_parts import Part, document, model
-from gripscale.charts.chart import (
-    CrossLine,
-    Outline,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-    ValueMap,
-)
+from gripscale.charts.chart import CrossLine, Outline, Panel, PlotAxis, Series, ShadedBand, ValueMap
 from gripscale.charts.page import draw_linked
 from gripscale.questions.page_of_folder import read_result
 

@@ -6,7 +6,6 @@ by WLF; every number is printed with six digits, so that reading is right to 1e-
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,8 +16,6 @@ import openpyxl
 import pytest
 
 import gripscale as gs
-from gripscale.case_file.kinds import FileKeys
-from gripscale.case_file.laboratory import all_taken
 from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import WLF
 from gripscale.rubber.sweeps import holds_sweeps
@@ -283,14 +280,6 @@ def test_temperature_above_a_master_curve_is_its_reference(tmp_path: Path) -> No
     assert found.reference_temperature == pytest.approx(293.15)
 
 
-def test_two_names_for_a_loss_modulus_that_is_the_storage_modulus(tmp_path: Path) -> None:
-    """The loss factor of the file tells."""
-    path = tmp_path / "curve.txt"
-    path.write_text("f [Hz],E'' [MPa],E' [MPa],tan delta\n1,2,0.2,0.1\n10,3,0.3,0.1\n")
-    with pytest.raises(InputError, match="storage and loss modulus look exchanged, because the"):
-        gs.read_master_curve(path)
-
-
 MARKED = [f"{kelvin - 273.15:g} °C" for kelvin in KELVIN]
 """Temperatures over the blocks of a table."""
 
@@ -484,78 +473,8 @@ def test_frequency_and_angular_frequency_may_stand_in_one_table(tmp_path: Path) 
         gs.read_sweeps(path)
 
 
-def test_a_master_curve_leaves_out_rows_with_missing_values(tmp_path: Path) -> None:
-    path = tmp_path / "curve.csv"
-    path.write_text("f [Hz];E' [MPa];E'' [MPa]\n1;2;0,2\n10;#NV;0,3\n100;4;0,4\n")
-    assert gs.read_master_curve(path).frequency == pytest.approx([1.0, 100.0])
-
-
-@pytest.mark.parametrize("read", [gs.read_master_curve, gs.read_sweeps])
-def test_the_kind_of_modulus_is_asked_for(tmp_path: Path, read: Callable[..., Any]) -> None:
-    path = tmp_path / "dma.csv"
-    text = "T = 20 °C\nf [Hz],Storage modulus [MPa],Loss modulus [MPa]\n1,2,0.2\n10,3,0.3\n"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match=r"modulus must be given \(E for Young's or G for"):
-        read(path)
-    assert read(path, modulus="E").storage == pytest.approx([2e6, 3e6])
-    assert read(path, modulus="G").storage == pytest.approx([6e6, 9e6])
-
-
 def test_compliances_of_creep_are_named(tmp_path: Path) -> None:
     path = tmp_path / "creep.csv"
     path.write_text("T [°C],f [Hz],J [1/MPa],compliance [1/MPa]\n20,1,2,3\n", encoding="utf-8")
     with pytest.raises(InputError, match="of compliances J' and J''"):
         gs.read_sweeps(path)
-
-
-CURVE = np.array([(one.hertz, one.modulus.real, one.modulus.imag) for one in rows(293.15)])
-
-
-def table(sizes: tuple[float, ...], separator: str = ",", form: str = "{:.8g}") -> str:
-    """Return frequency and moduli in units of these sizes, line by line."""
-    return "\n".join(separator.join(map(form.format, row)) for row in CURVE / sizes)
-
-
-MPA = (1.0, 1e6, 1e6)
-WORDS = {
-    "kilograms": "f (Hz),E' (kgf/mm2),E'' (kgf/mm2)\n" + table((1.0, 9806650.0, 9806650.0)),
-    "atmospheres": "f (Hz),E' (atm),E'' (atm)\n" + table((1.0, 101325.0, 101325.0)),
-    "newtons": "f (Hz),E' (N/cm2),E'' (N/cm2)\n" + table((1.0, 1e4, 1e4)),
-    "Portuguese": "Frequência (Hz);Módulo de armazenamento E (MPa);Módulo de perda E (MPa)\n"
-    + table(MPA, ";").replace(".", ","),
-    "Polish": "Częstotliwość (Hz);Moduł zachowawczy E (MPa);Moduł stratności E (MPa)\n"
-    + table(MPA, ";"),
-    "Dutch": "Frequentie (Hz);Opslagmodulus E (MPa);Verliesmodulus E (MPa)\n" + table(MPA, ";"),
-    "Russian": "Частота (Hz);Модуль накопления E (MPa);Модуль потерь E (MPa)\n" + table(MPA, ";"),
-    "primes in words": "Freq (Hz),E prime (MPa),E double prime (MPa)\n" + table(MPA),
-    "primes as letters": "Freq (Hz),Ep (MPa),Epp (MPa)\n" + table(MPA),
-    "units behind numbers": "f,E',E''\n"
-    + "\n".join(f"{f:.8g} Hz,{e / 1e6:.8g} MPa,{loss / 1e6:.8g} MPa" for f, e, loss in CURVE),
-    "a mark and a footer": "\ufefff (Hz)\tE' (MPa)\tE'' (MPa)\n"
-    + table(MPA, "\t")
-    + "\n\nEnd of test\n",
-}
-
-
-@pytest.mark.parametrize("words", WORDS)
-def test_titles_and_units_in_other_words(tmp_path: Path, words: str) -> None:
-    path = tmp_path / "dma.txt"
-    path.write_text(WORDS[words], encoding="utf-8")
-    curve = gs.read_master_curve(path, reference_temperature=293.15, modulus="E")
-    found = np.array([curve.frequency, curve.storage, curve.loss])
-    np.testing.assert_allclose(found, CURVE.T, rtol=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("titles", "words"),
-    [
-        ("t [s],J(t) [1/MPa]", r"a compliance \(t, J\(t\)\): creep is not read"),
-        ("t [s],E(t) [MPa]", r"a relaxation modulus \(t, E\(t\)\): a Prony list and sweeps are"),
-        ("Temp. [°C],tan δ", "the loss factor alone .*: a modulus is needed, too"),
-    ],
-)
-def test_other_measurements_are_named(tmp_path: Path, titles: str, words: str) -> None:
-    path = tmp_path / "dma.csv"
-    path.write_text(titles + "\n" + "\n".join(f"{n},{0.1 * n:.2g}" for n in range(1, 40)))
-    (taken,) = all_taken([tmp_path], FileKeys(), {})
-    assert re.search(words, taken.why)

@@ -78,6 +78,37 @@ CURVES: dict[str, tuple[str, dict[str, object]]] = {
     "Modulus E'": ("Frequency;Modulus E';Modulus E''\nHz;Pa;Pa\n" + two(1).replace(",", ";"), {}),
     "Mettler": ("f\tM'\tM''\n[Hz]\t[MPa]\t[MPa]\n" + two(1e6).replace(",", "\t"), {"modulus": "E"}),
     "real and imaginary": ("f [Hz],Re(E) [MPa],Im(E) [MPa]\n" + two(1e6), {}),
+    "kilograms": ("f (Hz),E' (kgf/mm2),E'' (kgf/mm2)\n" + two(9806650.0), {}),
+    "atmospheres": ("f (Hz),E' (atm),E'' (atm)\n" + two(101325.0), {}),
+    "newtons": ("f (Hz),E' (N/cm2),E'' (N/cm2)\n" + two(1e4), {}),
+    "Portuguese": (
+        "Frequência (Hz);Módulo de armazenamento E (MPa);Módulo de perda E (MPa)\n"
+        + two(1e6).replace(",", ";").replace(".", ","),
+        {},
+    ),
+    "Polish": (
+        "Częstotliwość (Hz),Moduł zachowawczy E (MPa),Moduł stratności E (MPa)\n" + two(1e6),
+        {"modulus": "E"},
+    ),
+    "Dutch": ("Frequentie (Hz),Opslagmodulus E (MPa),Verliesmodulus E (MPa)\n" + two(1e6), {}),
+    "Russian": (
+        "Частота (Hz),Модуль накопления E (MPa),Модуль потерь E (MPa)\n" + two(1e6),
+        {"modulus": "E"},
+    ),
+    "primes in words": ("Freq (Hz),E prime (MPa),E double prime (MPa)\n" + two(1e6), {}),
+    "primes as letters": ("Freq (Hz),Ep (MPa),Epp (MPa)\n" + two(1e6), {"modulus": "E"}),
+    "units behind numbers": (
+        "f,E',E''\n"
+        + "\n".join(
+            f"{f:.8g} Hz,{e / 1e6:.8g} MPa,{loss / 1e6:.8g} MPa"
+            for f, e, loss in zip(HERTZ, STORAGE, LOSS, strict=True)
+        ),
+        {},
+    ),
+    "a mark and a footer": (
+        "\ufefff (Hz)\tE' (MPa)\tE'' (MPa)\n" + two(1e6).replace(",", "\t") + "\n\nEnd of test\n",
+        {},
+    ),
     "Universal Analysis": (
         "OrgMethod\tsweep\nSig1\tTime (min)\nSig2\tFrequency (Hz)\nSig3\tStorage Modulus (MPa)\n"
         "Sig4\tLoss Modulus (MPa)\nStartOfData\n"
@@ -227,6 +258,7 @@ def test_a_column_of_one_temperature_is_that_of_the_curve(tmp_path: Path) -> Non
     ("text", "says"),
     [
         ("Time (s),Creep compliance (1/Pa)\n" + rows(HERTZ, 1 / STORAGE), "creep is not read"),
+        ("t [s],E(t) [MPa]\n" + rows(HERTZ, STORAGE / 1e6), "a relaxation modulus"),
         ("Frequency (Hz),tan delta\n" + rows(HERTZ, LOSS / STORAGE), "the loss factor alone"),
     ],
 )

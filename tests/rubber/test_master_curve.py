@@ -187,26 +187,20 @@ HEADER = "f [Hz],E' [MPa],E'' [MPa]\n"
     [
         ("", "expected rows of frequency, storage and loss; got 0 in an empty file"),
         (HEADER + "1,2,0.2\n", "expected at least 2 rows .* got 1"),
-        (
-            HEADER + "1,2,0.2\n10,abc,0.3\n",
-            "line 3: expected a number in column E'; got 'abc'; an empty cell, NaN, n/a, - or #NV",
-        ),
-        (
-            HEADER + "1,2,0.2\n10,nan,0.3\n",
-            "expected at least 2 rows of frequency, storage and loss; got 1 without missing values",
-        ),
+        (HEADER + "1,2,0.2\n10,abc,0.3\n",
+         "line 3: expected a number in column E'; got 'abc'; an empty cell, NaN, n/a, - or #NV"),
+        (HEADER + "1,2,0.2\n10,nan,0.3\n",
+         "expected at least 2 rows of frequency, storage and loss; got 1 without missing values"),
         (HEADER + "1,2,0.2\n10,3\n", "line 3: expected 3 columns as in line 2; got 2"),
-        (
-            HEADER + "1,2,0.2\n10,-3,0.3\n",
-            "line 3: expected a storage above zero in column E'; got -3",
-        ),
-        (
-            HEADER + "0,2,0.2\n10,3,0.3\n",
-            "line 2: expected a frequency above zero in column f; got 0",
-        ),
+        (HEADER + "1,2,0.2\n10,-3,0.3\n",
+         "line 3: expected a storage above zero in column E'; got -3"),
+        (HEADER + "0,2,0.2\n10,3,0.3\n",
+         "line 2: expected a frequency above zero in column f; got 0"),
         ("1 2\n3 4\n", "line 1: expected at least 3 columns"),
+        ("log f [Hz],E' [MPa],E'' [MPa]\n1,2,0.2\n200,3,0.3\n",
+         r"line 3: expected a frequency between 1e-100 and 1e\+100"),
     ],
-)
+)  # fmt: skip
 def test_bad_files_name_path_line_and_value(tmp_path, text, message):
     path = write(tmp_path, text)
     with pytest.raises(FileError, match=message) as caught:
@@ -219,7 +213,7 @@ def test_missing_and_binary_files(tmp_path):
         read_master_curve(tmp_path / "none.txt")
     binary = tmp_path / "sheet.xls"
     binary.write_bytes(b"\xd0\xcf\x11\xe0\x00\x00")
-    with pytest.raises(FileError, match="expected a text file; got an old Office file"):
+    with pytest.raises(FileError, match=r"got an old Office file \(\.xls\), to be saved as \.xlsx"):
         read_master_curve(binary)
 
 

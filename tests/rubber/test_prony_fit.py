@@ -58,10 +58,7 @@ def test_smoothing_and_choice_of_terms_cost_no_accuracy():
     assert report.rms_loss < 0.01
 
 
-@given(
-    st.lists(st.floats(1e5, 3e6), min_size=9, max_size=9),
-    st.floats(5e5, 5e6),
-)
+@given(st.lists(st.floats(1e5, 3e6), min_size=9, max_size=9), st.floats(5e5, 5e6))
 @settings(max_examples=25, deadline=None, derandomize=True)
 def test_any_broad_spectrum_is_fitted(moduli, equilibrium):
     """Neighbouring moduli may differ 30-fold. The elements of the fit sit up to a third of a

@@ -128,41 +128,14 @@ def test_a_relaxed_rubber_is_softened_by_the_storage_factor():
         (KRAUS.to_dict() | {"storage_ratio": 1.2}, "storage_ratio"),
         (KRAUS.to_dict() | {"deformation": "bending"}, "deformation"),
         (KRAUS.to_dict() | {"measured_at": 0.0}, "measured_at"),
-        (
-            {
-                "kind": "table",
-                "strain": [[0.1, 0.01]],
-                "storage": [[1.0, 1.0]],
-                "loss": [[1.0, 1.0]],
-                "measured_at": 0.05,
-                "deformation": "shear",
-            },
-            "strain must rise",
-        ),
-        (
-            {
-                "kind": "table",
-                "strain": [[0.01, 0.1]],
-                "storage": [[1.0, 1.0]],
-                "loss": [[1.0, 1.0]],
-                "measured_at": 0.5,
-                "deformation": "shear",
-            },
-            "measured_at",
-        ),
-        (
-            {
-                "kind": "table",
-                "strain": [[0.01, 0.1]] * 2,
-                "storage": [[1.0, 1.0]] * 2,
-                "loss": [[1.0, 1.0]] * 2,
-                "measured_at": 0.05,
-                "deformation": "shear",
-            },
-            "temperature",
-        ),
+        ({"kind": "table", "strain": [[0.1, 0.01]], "storage": [[1.0, 1.0]], "loss": [[1.0, 1.0]],
+         "measured_at": 0.05, "deformation": "shear"}, "strain must rise"),
+        ({"kind": "table", "strain": [[0.01, 0.1]], "storage": [[1.0, 1.0]], "loss": [[1.0, 1.0]],
+         "measured_at": 0.5, "deformation": "shear"}, "measured_at"),
+        ({"kind": "table", "strain": [[0.01, 0.1]] * 2, "storage": [[1.0, 1.0]] * 2,
+         "loss": [[1.0, 1.0]] * 2, "measured_at": 0.05, "deformation": "shear"}, "temperature"),
     ],
-)
+)  # fmt: skip
 def test_a_wrong_law_is_one_sentence(values, word):
     with pytest.raises(gs.InputError, match=word) as caught:
         Conditions.from_dict({"softening": values})

@@ -52,16 +52,10 @@ def test_the_secant_modulus_of_shear_is_that_of_the_sweep() -> None:
 @pytest.mark.parametrize(
     ("kind", "parameters", "says"),
     [
-        (
-            "ogden",
-            {},
-            "kind must be one of neo_hookean, mooney_rivlin, yeoh, isihara, kraus; got 'ogden'",
-        ),
-        (
-            "yeoh",
-            {"second": 0.1},
-            "yeoh takes second, third, of which second, third must be given; got second",
-        ),
+        ("ogden", {},
+         "kind must be one of neo_hookean, mooney_rivlin, yeoh, isihara, kraus; got 'ogden'"),
+        ("yeoh", {"second": 0.1},
+         "yeoh takes second, third, of which second, third must be given; got second"),
         ("yeoh", {}, "yeoh takes second, third, of which second, third must be given; got none"),
         ("neo_hookean", {"share": 0.1}, "neo_hookean takes no parameters.* got share"),
         ("mooney_rivlin", {"share": "half"}, "share must be a finite number; got 'half'"),
@@ -69,7 +63,7 @@ def test_the_secant_modulus_of_shear_is_that_of_the_sweep() -> None:
         ("mooney_rivlin", {"share": 1.5}, "share must be at most 1; got 1.5"),
         ("mooney_rivlin", {"share": -0.1}, "share must not be negative; got -0.1"),
     ],
-)
+)  # fmt: skip
 def test_what_is_no_strain_energy_is_named(
     kind: str, parameters: dict[str, float], says: str
 ) -> None:

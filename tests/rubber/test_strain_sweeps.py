@@ -8,12 +8,7 @@ import pytest
 
 from gripscale.core import FileError, InputError
 from gripscale.rubber import StrainSweep, read_strain_sweeps
-from gripscale.rubber.softening import (
-    Kraus,
-    SofteningTable,
-    assumptions,
-    softening_of_sweeps,
-)
+from gripscale.rubber.softening import Kraus, SofteningTable, assumptions, softening_of_sweeps
 from gripscale.rubber.strain_sweeps import holds_strain_sweeps
 
 STRAIN = np.geomspace(1e-4, 0.25, 35)

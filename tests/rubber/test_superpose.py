@@ -29,12 +29,7 @@ POLYMER = EXAMPLES / "data/rubber/multi_temperature_polymer"
 
 
 def measured(
-    celsius,
-    noise: float,
-    seed: int = 0,
-    hertz=HERTZ,
-    modulus=springpot_modulus,
-    lift: float = 0.0,
+    celsius, noise: float, seed: int = 0, hertz=HERTZ, modulus=springpot_modulus, lift: float = 0.0
 ) -> Sweeps:
     """Sweeps with relative scatter; b_T grows by `lift` for every kelvin above room temperature."""
     generator = np.random.default_rng(seed)

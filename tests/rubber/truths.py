@@ -80,8 +80,7 @@ TRUTHS = {
         lambda omega: fractional_zener(omega, 2e6, 1.5e9, 1e-7, 0.6), (1e-2, 1e1, 1e5, 1e9)
     ),
     "Havriliak-Negami": Truth(
-        lambda omega: havriliak_negami(omega, 3e6, 2e9, 1e-3, (0.75, 0.35)),
-        (1e-3, 1e2, 3e4, 1e8),
+        lambda omega: havriliak_negami(omega, 3e6, 2e9, 1e-3, (0.75, 0.35)), (1e-3, 1e2, 3e4, 1e8)
     ),
     "Maxwell": Truth(shipped_tread, (1e-1, 1e2, 1e7, 1e12)),
     "filled": Truth(filled, (1e-3, 1e1, 1e6, 1e10)),

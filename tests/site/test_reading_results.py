@@ -19,8 +19,7 @@ PAGE = "".join(
 )
 
 CASE = case_text(
-    'files = ["road.txt"]\nscales = 2\nsmallest_wavelength = "2 mm"',
-    'file = "dma.txt"\nterms = 4',
+    'files = ["road.txt"]\nscales = 2\nsmallest_wavelength = "2 mm"', 'file = "dma.txt"\nterms = 4'
 )
 
 OF_OTHER_CASES = {"cut_off", "superposition", "superposition_tests", "shift"}

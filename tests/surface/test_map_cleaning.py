@@ -8,12 +8,7 @@ from hypothesis import strategies as st
 import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.surface import HeightMap
-from gripscale.surface.cleaning import (
-    crop_map,
-    mark_spikes,
-    subtract_form,
-    trim_map,
-)
+from gripscale.surface.cleaning import crop_map, mark_spikes, subtract_form, trim_map
 
 from .surface_cases import DATA
 
@@ -172,10 +167,7 @@ def test_a_measured_map_has_its_documented_roughness():
         ({"crop": (0.1, 0.2)}, r"crop along x must be two numbers"),
         ({"crop": 0.1}, "crop must be limits along x and along y, or None; got 0.1"),
         ({"crop": (None, (2e-4, 1e-4))}, "crop along y must have its first number below"),
-        (
-            {"crop": (None, (0.0, 1e-3))},
-            "at least 16 points along y; .* leaves 6 of a map",
-        ),
+        ({"crop": (None, (0.0, 1e-3))}, "at least 16 points along y; .* leaves 6 of a map"),
         ({"valid_range": (1.0, 2.0)}, "all missing"),
         ({"valid_range": (1.0, float("nan"))}, r"valid_range\[1\] must be a finite number"),
         ({"trim": 1.5}, "trim must be at most 1; got 1.5"),

@@ -165,20 +165,9 @@ FLAT = points()
         ("m.txt", HEIGHTS[:, :9], {}, FileError, "line 1: expected three columns, .* got 9"),
         ("m.txt", FLAT[:, :2], {}, FileError, "got 2; a line of two columns .*read_profile"),
         ("m.xyz", FLAT[:20], {}, FileError, "at least 16 points a way; got 1 distances in col.* 2"),
-        (
-            "m.xyz",
-            FLAT**2,
-            {},
-            FileError,
-            "at half the points .* got 20 of 362 in steps of 0.25: ",
-        ),
-        (
-            "m.xyz",
-            np.abs(FLAT) ** 1.5,
-            {},
-            FileError,
-            "in column 1 that increase in equal steps; got 0 then",
-        ),
+        ("m.xyz", FLAT**2, {}, FileError, "at half the points .* got 20 of 362 in steps of 0.25: "),
+        ("m.xyz", np.abs(FLAT) ** 1.5, {}, FileError,
+         "in column 1 that increase in equal steps; got 0 then"),
         ("m.xyz", FLAT[[*range(340), 7]], {}, FileError, "line 341: .* got that of line 8 again"),
         ("m.xyz", FLAT * [1, np.nan, 1], {}, FileError, "line 1: expected a distance in column 2"),
         ("m.xyz", FLAT * [1, 1, np.nan], {}, FileError, "some heights; got 340 points, all missi"),
@@ -191,7 +180,7 @@ FLAT = points()
         ("m.txt", HEIGHTS, {"reader": "magic"}, InputError, "reader must be one of"),
         ("m.al3d", FLAT, {"reader": "instrument"}, FileError, "names no unit of length"),
     ],
-)
+)  # fmt: skip
 def test_what_is_no_map_is_refused(tmp_path, name, rows, given, error, words):
     units = {} if "names no unit" in words or "step" in given else {"x_unit": "mm", "z_unit": "mm"}
     with pytest.raises(error, match=words):

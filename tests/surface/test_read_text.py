@@ -50,14 +50,6 @@ def test_separators_and_line_ends(tmp_path, separator, end):
     assert profile.z == pytest.approx([z * 1e-6 for _, z in ROWS])
 
 
-def test_decimal_commas_bytes_order_mark_and_missing_heights(tmp_path):
-    text = table(separator=";", header="\ufeffx [mm];z [mm]\n").replace(".", ",")
-    text = text.replace("1,5;-0,75", "1,5;NaN")
-    profile = read_profile(written(tmp_path, text))
-    assert profile.z[2] == pytest.approx(0.5e-3)
-    assert np.flatnonzero(np.isnan(profile.z)).tolist() == [3]
-
-
 def test_units_come_from_titles_or_arguments_and_must_agree(tmp_path):
     bare = written(tmp_path, table(header=""))
     assert read_profile(bare, x_unit="cm", z_unit="µm").x[1] == pytest.approx(0.5e-2)
@@ -134,25 +126,19 @@ BAD_FILES = {
     "one column": (b"1\n2\n3\n", "two columns"),
     "three columns": (b"1,2,3\n" * 20, "line 1: expected two columns"),
     "ragged": (table() + "\n10.0,1,5", "line 22: expected 2 columns as in line 2; got 3"),
-    "word": (
-        table() + "\n10.0,high",
-        "line 22: expected a number in column z; got 'high'; an empty cell",
-    ),
+    "word": (table() + "\n10.0,high",
+     "line 22: expected a number in column z; got 'high'; an empty cell"),
     "no distance": (table() + "\nnan,1.0", "line 22: expected a distance"),
     "few points": (table(ROWS[:9]), "at least 16 points; got 9"),
     "backwards": (table([*ROWS[:18], (3.0, 1.0)]), "line 20: .* increase in equal steps"),
-    "twice": (
-        table([*ROWS[:12], ROWS[11], *ROWS[12:]]),
-        r"line 14: expected each distance in column 1 once; got 5.5 \(line 13\) again: take",
-    ),
-    "exchanged": (
-        table([(z, x) for x, z in ROWS]),
-        "columns 1 and 2 look exchanged: .* column 2 goes in equal steps; exchange their titles",
-    ),
+    "twice": (table([*ROWS[:12], ROWS[11], *ROWS[12:]]),
+     r"line 14: expected each distance in column 1 once; got 5.5 \(line 13\) again: take"),
+    "exchanged": (table([(z, x) for x, z in ROWS]),
+     "columns 1 and 2 look exchanged: .* column 2 goes in equal steps; exchange their titles"),
     "mostly left out": (table([*ROWS, (99.0, 1.0)]), "half the points .* got 21 of 199"),
     "all missing": (table([(x, "nan") for x, _ in ROWS]), "all missing|found none"),
     "unknown unit": (table(header="x [mm],z [V]\n"), "'V', which is no known unit"),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", BAD_FILES)

@@ -55,8 +55,7 @@ def test_a_random_profile_does_not_say_how_many_waves():
 
 
 @pytest.mark.parametrize(
-    ("stack", "says"),
-    [(geometric_stack(FIRST, 1e-3, 3.0, 2.0, 4), "got 4, not fitted")],
+    ("stack", "says"), [(geometric_stack(FIRST, 1e-3, 3.0, 2.0, 4), "got 4, not fitted")]
 )
 def test_a_stack_that_was_not_fitted_is_refused(stack, says):
     with pytest.raises(InputError, match=says):

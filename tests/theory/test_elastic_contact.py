@@ -4,11 +4,7 @@ import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.theory import (
-    full_contact_friction,
-    full_contact_pressure,
-    plane_strain_modulus,
-)
+from gripscale.theory import full_contact_friction, full_contact_pressure, plane_strain_modulus
 from tests.closed_forms import (
     contact_fraction,
     contact_half_width,

@@ -269,12 +269,7 @@ def test_as_a_model_of_a_measured_surface():
     data = model.predict(ZENER, surface, load, on_progress=seen.append)
     lines = [cleaned for _, cleaned in surface.measured.profiles]
     found = persson(
-        ZENER,
-        profile_spectrum(lines),
-        pressure=2e5,
-        speed=0.2,
-        smallest_wavelength=1e-3,
-        gamma=0.6,
+        ZENER, profile_spectrum(lines), pressure=2e5, speed=0.2, smallest_wavelength=1e-3, gamma=0.6
     )
     assert seen[0].friction == found.friction
     assert float(data.total_friction) == float(data.total_friction_from_dissipation)

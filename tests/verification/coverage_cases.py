@@ -65,10 +65,7 @@ def _at_rest(slope: float, share: float) -> WaveProblem:
 
 
 def _sliding(
-    solid: gs.Rubber | None,
-    slope: float,
-    share: float,
-    generator: np.random.Generator,
+    solid: gs.Rubber | None, slope: float, share: float, generator: np.random.Generator
 ) -> WaveProblem | None:
     """Return sliding at a share of the small-strain pressure of full contact."""
     passages = float(generator.choice([1.0, 3.0, 10.0, 100.0, np.inf]))

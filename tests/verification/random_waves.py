@@ -164,12 +164,7 @@ def _unfilled(box: Box, generator: np.random.Generator) -> tuple[float, Array, A
     return relaxed, moduli, times
 
 
-SERIES = {
-    "few terms": _few_terms,
-    "power law": _power_law,
-    "tread": _tread,
-    "unfilled": _unfilled,
-}
+SERIES = {"few terms": _few_terms, "power law": _power_law, "tread": _tread, "unfilled": _unfilled}
 
 
 def _with_glass(

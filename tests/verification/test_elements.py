@@ -4,13 +4,7 @@ import numpy as np
 import pytest
 
 from gripscale.wave import Mesh
-from tests.verification.families import (
-    finite_strain,
-    large_strain,
-    root_mean_square,
-    worst,
-    zener,
-)
+from tests.verification.families import finite_strain, large_strain, root_mean_square, worst, zener
 
 ALIKE = Mesh(128, 20), Mesh(64, 10, element_order=2)
 """Meshes of equal unknowns."""

@@ -34,12 +34,7 @@ def slid(columns, rows):
 
 
 @pytest.mark.parametrize(
-    ("columns", "rows"),
-    [
-        (64, 12),
-        pytest.param(96, 16, marks=pytest.mark.verification),
-        (128, 20),
-    ],
+    ("columns", "rows"), [(64, 12), pytest.param(96, 16, marks=pytest.mark.verification), (128, 20)]
 )
 def test_zener_solid_slides_as_the_half_plane_table_says(columns, rows):
     """Asked of the default mesh: friction within 2 %, contact fraction within 0.006.

@@ -114,10 +114,7 @@ def test_sine_waves_have_no_answer_to_rely_on() -> None:
     [
         ({"pressure": "3 bananas"}, "pressure = '3 bananas': "),
         ({"speed": -0.3}, "speed must not be negative"),
-        (
-            {"conditions": gs.conditions.Conditions(temperature=313.15)},
-            "shift",
-        ),
+        ({"conditions": gs.conditions.Conditions(temperature=313.15)}, "shift"),
     ],
 )
 def test_a_bad_input_is_refused_in_one_sentence(wrong: dict[str, Any], sentence: str) -> None:

@@ -22,12 +22,7 @@ from studies.treads import SERIES_S, compound, sweeps
 ROAD = self_affine_profile(0.8, 2e-3, 4e-4, length=0.2, step=1e-4, seed=3)
 TREAD = compound("S100")
 UNSHIFTED = replace(TREAD, shift=None)
-ARGUMENTS: dict[str, Any] = {
-    "pressure": 3e5,
-    "speed": 0.3,
-    "smallest_wavelength": 1e-3,
-    "waves": 4,
-}
+ARGUMENTS: dict[str, Any] = {"pressure": 3e5, "speed": 0.3, "smallest_wavelength": 1e-3, "waves": 4}
 PRESSURE, SPEED = 3e5, 0.3
 COLD = Conditions(heat="none")
 NUMBERS = ("friction", "contact_fraction")

@@ -213,19 +213,14 @@ def test_everything_is_in_the_dataset(tmp_path) -> None:
     ("change", "sentence"),
     [
         ({"law": "table"}, "law must be one of constant, gaussian, le_gal_klueppel; got 'table'"),
-        (
-            {"fixed": {"widt": 1.0}},
-            "unknown parameter widt; did you mean width",
-        ),
+        ({"fixed": {"widt": 1.0}}, "unknown parameter widt; did you mean width"),
         ({"fixed": {"width": -1.0}}, "width must be greater than zero; got -1"),
         ({"law": "constant", "fixed": {"stress_0": 1e6}}, "must leave a parameter"),
         ({"hold_out": "pressure"}, "hold_out must be one of temperature, speed; got 'pressure'"),
-        (
-            {"fixed": {"activation_energy": 0.0, **REFERENCE}},
-            "reference_temperature belongs to an activation_energy",
-        ),
+        ({"fixed": {"activation_energy": 0.0, **REFERENCE}},
+         "reference_temperature belongs to an activation_energy"),
     ],
-)
+)  # fmt: skip
 def test_what_cannot_be_used_is_one_sentence(change: dict, sentence: str) -> None:
     with pytest.raises(InputError, match=sentence):
         fit_area_term(*measurement(), **change)
@@ -234,30 +229,18 @@ def test_what_cannot_be_used_is_one_sentence(change: dict, sentence: str) -> Non
 @pytest.mark.parametrize(
     ("friction", "more", "sentence"),
     [
-        (
-            [0.1, 0.1, 0.3],
-            {},
-            "hysteresis alone exceeds the measured friction at 2 of 3 points, by",
-        ),
+        ([0.1, 0.1, 0.3], {},
+         "hysteresis alone exceeds the measured friction at 2 of 3 points, by"),
         ([0.3, 0.3, 0.3], {"spread": [0.1, np.nan, 0.1]}, "spread must be stated for all"),
-        (
-            [0.3, 0.3, 0.3],
-            {"spread": [0.1, 0.0, 0.1]},
-            "spread must be above zero to weigh a point",
-        ),
-        (
-            [0.3, 0.3, 0.3],
-            {"law": "gaussian"},
-            "fitting stress_0, width, speed_0 needs more than 3 measured points; got 3",
-        ),
+        ([0.3, 0.3, 0.3], {"spread": [0.1, 0.0, 0.1]},
+         "spread must be above zero to weigh a point"),
+        ([0.3, 0.3, 0.3], {"law": "gaussian"},
+         "fitting stress_0, width, speed_0 needs more than 3 measured points; got 3"),
         ([0.3, 0.3, 0.3], {"hold_out": "temperature"}, "needs the temperature of every point"),
-        (
-            [0.3, 0.3, 0.3],
-            {"hold_out": "temperature", "temperature": [293.0] * 3},
-            "hold_out needs at least two groups to leave one of them out; got 1",
-        ),
+        ([0.3, 0.3, 0.3], {"hold_out": "temperature", "temperature": [293.0] * 3},
+         "hold_out needs at least two groups to leave one of them out; got 1"),
     ],
-)
+)  # fmt: skip
 def test_what_does_not_suffice_is_one_sentence(
     friction: list[float], more: dict, sentence: str
 ) -> None:

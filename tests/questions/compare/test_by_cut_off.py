@@ -14,13 +14,7 @@ from gripscale.experiment import Task
 from gripscale.experiment.design import stack
 from gripscale.half_space import BlockOnProfile
 from gripscale.half_space.model import DirectContact
-from gripscale.model import (
-    CUT_OFF_EXPONENTS,
-    WHY_NO_EXPONENT,
-    Load,
-    Model,
-    cut_off_exponents_of,
-)
+from gripscale.model import CUT_OFF_EXPONENTS, WHY_NO_EXPONENT, Load, Model, cut_off_exponents_of
 from gripscale.questions.answer.samples import cut_off_exponents, sample_numbers
 from gripscale.rubber import styrene_butadiene
 from gripscale.surface import (

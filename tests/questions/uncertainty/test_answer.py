@@ -75,9 +75,15 @@ def test_processes_give_the_same_answer(folder: Path, certain: xr.Dataset) -> No
 
 
 @pytest.fixture(scope="module")
+def cut_off(folder: Path) -> xr.Dataset:
+    """Return an uncertainty of the cut-off alone, known to an octave about the case."""
+    return propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10)
+
+
+@pytest.fixture(scope="module")
 def blocks(folder: Path) -> xr.Dataset:
     """Return an uncertainty of the stretch of road alone."""
-    return propagate(read_case(folder / "case.toml"), only("profile"), samples=40)
+    return propagate(read_case(folder / "case.toml"), only("profile"), samples=20)
 
 
 @pytest.mark.parametrize("name", QUANTITIES)
@@ -106,9 +112,11 @@ def drawn_labels(data: xr.Dataset) -> list[str]:
     return labels[: labels.index("grid of the answer")]
 
 
-def test_the_variance_of_the_samples_is_in_the_interval(folder: Path, certain: xr.Dataset) -> None:
-    """A cut-off known to an octave about the case: the mean square of ln y about the case."""
-    data = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=20)
+def test_the_variance_of_the_samples_is_in_the_interval(
+    cut_off: xr.Dataset, certain: xr.Dataset
+) -> None:
+    """The mean square of ln y about the case."""
+    data = cut_off
     friction = data.friction_from_dissipation.values[0]
     case = float(data.friction_from_dissipation_case[0])
     square = float(np.mean(np.log(friction / case) ** 2))
@@ -120,7 +128,7 @@ def test_the_variance_of_the_samples_is_in_the_interval(folder: Path, certain: x
     ), "a smooth effect of one number: the fit explains nearly all of it"
     sentences = " ".join(SampledAnswer(data).lines)
     assert "Answer: hysteresis friction μ = " in sentences
-    assert "interval: with the errors of the inputs, from 20 samples" in sentences
+    assert "interval: with the errors of the inputs, from 10 samples" in sentences
     table, measured = (
         p for p in SampledAnswer(data).parts() if getattr(p, "name", "") in ("parts", "next")
     )
@@ -155,14 +163,13 @@ def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
         assert sigma(data, name, "grid of the answer") > 0.0
 
 
-def test_at_several_loads_each_has_its_answer(folder: Path) -> None:
+def test_at_several_loads_each_has_its_answer(folder: Path, cut_off: xr.Dataset) -> None:
     data = propagate(
         read_case(folder / "case.toml"), only("cut_off"), samples=10, vary={"speed": [0.1, 0.3]}
     )
     assert data.answer_friction.dims == ("speed",)
-    single = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10)
     for name in ("answer_friction", "answer_contact_fraction_half_width"):
-        assert float(data[name].sel(speed=0.3)) == pytest.approx(float(single[name]))
+        assert float(data[name].sel(speed=0.3)) == pytest.approx(float(cut_off[name]))
     table = next(part for part in SampledAnswer(data).parts() if not isinstance(part, str))
     assert table.columns[0].texts() == ["0.1 m/s", "0.3 m/s"]
 
