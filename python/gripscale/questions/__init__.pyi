@@ -38,7 +38,6 @@ from .inputs.charts_of_surface import surface_figure as surface_figure
 from .page_of_folder import write_report as write_report
 from .sensitivity.friction_sensitivity import FrictionSensitivity as FrictionSensitivity
 from .sensitivity.question import Sensitivity as Sensitivity
-from .slip.question import SlipCurve as SlipCurve
 from .uncertainty.profile_blocks import ProfileBlocks as ProfileBlocks
 from .uncertainty.sampled_inputs import Range as Range
 from .uncertainty.sampling import Uncertainty as Uncertainty
