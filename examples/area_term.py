@@ -63,16 +63,14 @@ def main(folder: str = "results/examples") -> None:
     for fitted in result.estimates:
         name, value, true = fitted.name, fitted.value, getattr(TRUE, fitted.name)
         print(f"{name}: {value:.4g}, {fitted.low:.4g} to {fitted.high:.4g}; true {true:.4g}")
-    assert result.fit is not None
-    for left_out in result.fit.held_out:
-        celsius = left_out.value - 273.15
-        print(f"{celsius:.0f} C from the others: rms {left_out.rms_outside:.3f}")
+    for kelvin, rms in zip(
+        result.data.left_out.values, result.data.rms_outside.values, strict=True
+    ):
+        print(f"{kelvin - 273.15:.0f} C from the others: rms {rms:.3f}")
     wrong = gs.calibrate(
         read_case(CASE), model="chain", law="constant", hold_out="temperature", folder=target
     )
-    assert wrong.fit is not None
-    worst = max(group.rms_outside for group in wrong.fit.held_out)
-    print(f"with a constant stress: rms up to {worst:.3f}")
+    print(f"with a constant stress: rms up to {float(wrong.data.rms_outside.max()):.3f}")
     figures = FigureFolder(target)
     for name, figure in result.figures():
         figures.save(figure, name)

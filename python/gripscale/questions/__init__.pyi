@@ -2,14 +2,12 @@ from .answer.answer import Answer as Answer
 from .answer.charts import rough_contact_figure as rough_contact_figure
 from .answer.estimate import Factor as Factor
 from .answer.estimate import LogNormalValue as LogNormalValue
-from .calibration.area_term_fit import AreaTermFit as AreaTermFit
 from .calibration.area_term_fit import Estimate as Estimate
 from .calibration.area_term_fit import fit_area_term as fit_area_term
 from .calibration.measured_comparison import Predicted as Predicted
 from .calibration.measured_comparison import averaged as averaged
 from .calibration.measured_comparison import predictions_at as predictions_at
 from .calibration.measured_comparison import residuals as residuals
-from .calibration.profile_likelihood import HeldOut as HeldOut
 from .calibration.question import Calibration as Calibration
 from .chain.charts import contact_figure as contact_figure
 from .chain.charts_of_blocks import block_figure as block_figure

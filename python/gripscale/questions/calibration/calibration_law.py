@@ -344,9 +344,45 @@ class FittedLaw:
     jacobian: Array  # of the residuals by them, shape (points, free parameters)
 
     @property
+    def law(self) -> InterfacialShearStress:
+        """The law with the best parameters."""
+        return self.problem.law(self.theta)
+
+    @property
     def freedom(self) -> int:
         """Degrees of freedom: points less parameters."""
         return self.problem.points.speed.size - len(self.problem.free)
+
+    @property
+    def spread_known(self) -> bool:
+        """Whether the spread was stated, and not taken from the residuals."""
+        return self.problem.points.spread is not None
+
+    @property
+    def scatter(self) -> float:
+        """Root of the sum of squares over the degrees of freedom.
+
+        In units of the spread where it is stated, else the spread the residuals imply [-].
+        """
+        return math.sqrt(self.sum_of_squares / self.freedom)
+
+    @property
+    def unit(self) -> float:
+        """Sum of squares that one standard error adds."""
+        return 1.0 if self.spread_known else self.scatter**2
+
+    @property
+    def chance(self) -> float:
+        """Probability of a sum of squares so large if law, hysteresis and spreads were right."""
+        return float(scipy.special.chdtrc(self.freedom, self.sum_of_squares))
+
+    @property
+    def quantile(self) -> float:
+        """Half width of an interval at `LIKELIHOOD_LEVEL` over a standard error."""
+        tail = 0.5 * (1.0 + LIKELIHOOD_LEVEL)
+        if self.spread_known:
+            return float(scipy.special.ndtri(tail))
+        return float(scipy.special.stdtrit(self.freedom, tail))
 
     @property
     def covariance(self) -> Array:
@@ -359,7 +395,7 @@ class FittedLaw:
     @property
     def threshold(self) -> float:
         """Excess that ends an interval, with spreads stated or taken from the residuals."""
-        if self.problem.points.spread is not None:
+        if self.spread_known:
             return float(scipy.special.chdtri(1, 1.0 - LIKELIHOOD_LEVEL))
         ratio = float(scipy.special.fdtri(1, self.freedom, LIKELIHOOD_LEVEL))
         return ratio * self.sum_of_squares / float(self.freedom)

@@ -67,6 +67,5 @@ def calibrate_command(
         client=cluster,
         **work.solving(workers),
     )
-    assert result.fit is not None
-    write_text(work.target / "shear_stress.toml", shear_stress_table(result.fit))
+    write_text(work.target / "shear_stress.toml", shear_stress_table(result))
     work.finish(result, "tables, figures and [conditions.shear_stress]", drawings="")
