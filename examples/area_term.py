@@ -17,8 +17,8 @@ import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.charts.draw import FigureFolder
 from gripscale.conditions import GaussianStress
-from gripscale.experiment import MeasuredFriction, Store
-from gripscale.questions import predictions_at
+from gripscale.experiment import Bench, MeasuredFriction, Store, solve_design
+from gripscale.questions import measured_design, predicted_of
 
 CASE = Path(__file__).parent / "measured_friction" / "case.toml"
 TRUE = GaussianStress(
@@ -43,8 +43,8 @@ def measure(folder: str | Path) -> list[str]:
     )
     points = MeasuredFriction(speed, np.zeros(speed.size), temperature=celsius + 273.15)
     case = read_case(CASE)
-    store = Store(Path(folder) / "predictions")
-    found = predictions_at(points, case.chain, case.rubber, case.surface, case.load, store)
+    design = measured_design(points, case.chain, case.rubber, case.surface, case.load)
+    found = predicted_of(solve_design(design, Bench(Store(Path(folder) / "predictions"))))
     exact = found.friction + found.area_term(TRUE, points.speed)
     friction = np.random.default_rng(SEED).normal(exact, SPREAD)
     columns = points.speed, points.temperature - 273.15, friction

@@ -6,7 +6,8 @@ from .calibration.area_term_fit import Estimate as Estimate
 from .calibration.area_term_fit import fit_area_term as fit_area_term
 from .calibration.measured_comparison import Predicted as Predicted
 from .calibration.measured_comparison import averaged as averaged
-from .calibration.measured_comparison import predictions_at as predictions_at
+from .calibration.measured_comparison import measured_design as measured_design
+from .calibration.measured_comparison import predicted_of as predicted_of
 from .calibration.measured_comparison import residuals as residuals
 from .calibration.question import Calibration as Calibration
 from .chain.charts import contact_figure as contact_figure

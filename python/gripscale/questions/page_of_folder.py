@@ -117,14 +117,7 @@ def read_result(path: Path) -> Result:
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
     """
     if not path.is_dir():
-        if not path.exists():
-            raise FileError(f"result {path} does not exist")
-        result: Result | None = result_of(netcdf.load_tree(path))
-        if result is None:
-            raise FileError(
-                f"{path} has no report: it is no result of a {KINDS_OF_REPORTS}; a results folder "
-                "has one"
-            )
+        result: Result = load(path)
         return result
     if (path / ANSWER_FILE).is_file():
         return read_run(path)

@@ -207,10 +207,9 @@ def warning_lines(
     """Yield the ranked findings that stand open as lines; `rest` has them all.
 
     These are the first `_MOST_OPEN` of those that may change a number of the result by more than
-    its half width in `widths`, which are relative. Without `rest` all stand open.
+    its half width in `widths`, which are relative.
     """
     counting = [finding for finding in findings if finding.exceeds(widths)][:_MOST_OPEN]
-    counting = counting if rest else list(findings)
     if counting:
         yield "Warnings, by what they change:"
     yield from (f"  {finding.sentence}" for finding in counting)

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 # Exit codes: an input that cannot be used, a wave without solution, stopped from outside.
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
 READING = "reading and fitting the measurements ..."
+ON_PAGE = "report.html"  # where all findings of a command stand
 PLAIN_WIDTH = 100  # characters per line where there is no terminal to ask
 P = ParamSpec("P")
 
@@ -399,12 +400,11 @@ class CaseCommand:
     def open_results(self, output: Path | None, name: str, opening: str = "") -> None:
         """Make the folder of results, then print what the command begins with, rubber and surface.
 
-        Folder and text are called `name`; the folder is in that of the case by default.
+        The folder is called `name`, in that of the case, by default.
         """
         from gripscale.case_file.folder import claim
         from gripscale.io.folders import require_writable
 
-        self._text = f"{name}.txt"
         self.target = output or self.file.resolve(self.file.case.output.folder) / name
         require_writable(self.target)
         RESULTS_FOLDER.set(self.target)
@@ -424,14 +424,12 @@ class CaseCommand:
         result: Result,
         contents: str,
         *,
-        text: str = "",
         drawings: str = "figures",
         page: Callable[[Path], Path] | None = None,
     ) -> None:
         """End the command with the result of its question: save, print and draw it.
 
-        `contents` is what the folder holds beside the result, `text` the file of what is printed
-        where it has another name, and `drawings` the folder of the figures.
+        `contents` is what the folder holds beside the result, `drawings` the folder of the figures.
         """
         from gripscale.charts.draw import FigureFolder
         from gripscale.io.folders import make_folder
@@ -448,7 +446,6 @@ class CaseCommand:
         self.conclude(
             result,
             list(result.parts()),
-            text=text or self._text,
             closing=f"Result ({result.file}), {contents} are in",
             draw=draw,
             page=page,
@@ -459,33 +456,23 @@ class CaseCommand:
         result: Result,
         parts: Sequence[str | Table],
         *,
-        text: str,
         closing: str,
         draw: Callable[[], object],
-        opening: Sequence[str | Table] = (),
         answer_printed: bool = False,
-        width: int = PLAIN_WIDTH,
         page: Callable[[Path], Path] | None = None,
     ) -> None:
-        """Print and write what the command found, draw figures and page, set the exit code.
+        """Print what the command found, draw figures and page, set the exit code.
 
         The answer, unless it is printed already, the first findings and `parts` are printed, or the
-        answer alone where no more is asked for. The file `text`, with lines of `width`, has the
-        answer, all findings, then `opening`, which the screen shows already, then `parts`.
-        `closing` says what is in the folder.
+        answer alone where no more is asked for. `closing` says what is in the folder.
         """
-        from gripscale.io.folders import write_text
-        from gripscale.io.table import as_text
         from gripscale.questions.result import warning_lines
 
-        target, console, findings = self.target, self.console, result.findings
+        target, console = self.target, self.console
         end_steps()
-        warnings = warning_lines(findings, text, result.half_widths)
+        warnings = warning_lines(result.findings, ON_PAGE, result.half_widths)
         lead = () if answer_printed else (*result.lines, *warnings)
         print_parts(console, ["", *lead, *parts])
-        answer = [*result.lines, *warning_lines(findings, rest="")]
-        above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
-        write_text(target / text, as_text(*above, *parts, width=width))
         show_step(console, "drawing figures and page ...")
         draw()
         try:

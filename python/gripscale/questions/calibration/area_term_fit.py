@@ -116,7 +116,7 @@ def fit_area_term(
         What was measured.
     predicted : Predicted
         The hysteresis and the real contact area at its points, in their order, see
-        `predictions_at`.
+        `measured_design`.
     law : str
         "constant", "gaussian" or "le_gal_klueppel", see `gripscale.conditions`.
     fixed : mapping of str to float, optional

@@ -267,7 +267,7 @@ def at_measured(
     The result is that of `gripscale.questions.residuals`, with the area term of the case's
     conditions; None where no friction was measured or no model predicts. Of several samples of a
     model the means; beside the direct contact the `answer` of the case, which has its factors on
-    friction and area. Raises `InputError` or `FileError` as `predictions_at`.
+    friction and area. Raises `InputError` or `FileError` as `Bench.solve`.
 
     Parameters
     ----------

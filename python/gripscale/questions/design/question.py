@@ -21,20 +21,10 @@ from gripscale.charts.draw import Picture
 from gripscale.core import InputError, checks, doubt, parse_quantity
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask
-from gripscale.io import netcdf
 from gripscale.io.folders import make_folder, write_text
 from gripscale.io.table import Column, Table, change, fixed, percent, significant, write_csv
+from gripscale.questions.design import compound_design
 from gripscale.questions.design.charts import SAME, answering_point, design_figure
-from gripscale.questions.design.compound_design import (
-    DESIGN_FILE,
-    FRUITLESS,
-    left_out,
-    other_compounds,
-    rising_levels,
-    solved_point,
-    todays_answers,
-    todays_compound,
-)
 from gripscale.questions.design.compound_limits import (
     LIMITED_QUANTITIES,
     CompoundLimits,
@@ -73,7 +63,9 @@ class CompoundDesign(Result):
             lines.append(f"  Or the same friction with rolling resistance {change(least - 1.0)}.")
         elif float(data.gain[0]) >= 0.0 and data.sizes["point"] > 1:
             lines.append(f"  Or friction {_trade(data.isel(point=0))}.")
-        if json.loads(attrs.get(FRUITLESS, "[]"))[-1:] > [float(data.rolling_level[-1])]:
+        if json.loads(attrs.get(compound_design.FRUITLESS, "[]"))[-1:] > [
+            float(data.rolling_level[-1])
+        ]:
             last = change(float(data.rolling_ratio[-1]) - 1.0)
             lines.append(f"  More rolling resistance than {last} gives no more friction.")
         worth = zip(chosen.widened.values, np.expm1(chosen.limit_worth.values), strict=True)
@@ -221,7 +213,7 @@ def design(
     roads : mapping, optional
         Surfaces of the goals by the names that the goals use.
     folder : path, optional
-        Keeps the result as `design.nc`.
+        Keeps the answers of today's compound, which are not solved again.
     workers : int, optional
         Threads; one per core by default.
     on_point : callable, optional
@@ -229,25 +221,22 @@ def design(
     on_task : callable, optional
         Called with today's answer at each goal, as for `gripscale.experiment.Bench`.
     """
-    target = None if folder is None else Path(folder)
-    if target is not None:
-        make_folder(target)
     problem = design_problem(case, goals, limits, workers, roads)
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
     named = rubbers or {}
-    now = todays_answers(case, problem, target, on_task)
+    now = compound_design.todays_answers(case, problem, folder, on_task)
     problem.friction.log_friction(problem.unchanged)  # all contacts start from these
     reference = SolvedCompound.of(problem.friction, problem.rubber, problem.rubber)
     compounds = {name: measured_rubber_of(value, case) for name, value in named.items()}
     rubbers_by_name = {name: each.rubber for name, each in compounds.items()}
-    others, notes = other_compounds(problem, reference, rubbers_by_name)
-    base = todays_compound(problem, reference.contacts, now).merge(others)
+    others, notes = compound_design.other_compounds(problem, reference, rubbers_by_name)
+    base = compound_design.todays_compound(problem, reference.contacts, now).merge(others)
     base = base.assign_attrs(
         case.attributes,
         kind=CompoundDesign.kind,
         rubber_parameters=json.dumps(problem.rubber.to_dict()),
         notes="\n".join(notes),
-        left_out=left_out(case),
+        left_out=compound_design.left_out(case),
     )
     loads = [
         replace(case.load, speed=goal.speed, pressure=goal.pressure)
@@ -255,12 +244,11 @@ def design(
     ]
     of_compounds = [doubt(text) for text in reading_notes(named.values())]
     of_compounds += [d.about(name) for name, each in compounds.items() for d in each.doubts]
-    inputs = record.inputs(case, problem.roads.values(), loads, of_compounds)
     points: list[xr.Dataset] = []
     fruitless: set[float] = set()
-    rising = rising_levels(wanted, problem)
+    rising = compound_design.rising_levels(wanted, problem)
     for level in rising:
-        point = solved_point(problem, reference, level, points[-1:])
+        point = compound_design.solved_point(problem, reference, level, points[-1:])
         answers = base.today_answer_friction * (point.friction / base.today_friction)
         text = "friction of the answer with the design"
         point["answer_friction"] = answers.assign_attrs(variable_attributes(text))
@@ -274,10 +262,8 @@ def design(
             fruitless |= {higher for higher in rising if higher > level}
             break
     data = base.merge(xr.concat(points, "point", combine_attrs="override"))
-    data.attrs[FRUITLESS] = json.dumps(sorted(fruitless))
-    if target is not None:
-        netcdf.save(data, target / DESIGN_FILE, {"inputs": inputs})
-    return CompoundDesign(data, inputs)
+    data.attrs[compound_design.FRUITLESS] = json.dumps(sorted(fruitless))
+    return CompoundDesign(data, record.inputs(case, problem.roads.values(), loads, of_compounds))
 
 
 # What a goal may state beside `weight` and `road`.
