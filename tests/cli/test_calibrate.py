@@ -18,14 +18,14 @@ from gripscale.conditions import GaussianStress, shear_stress_from_dict
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.io import netcdf
 from gripscale.questions.calibration.calibration_law import parse_fixed
-from gripscale.questions.calibration.question import Calibration, fitted_figure, profiles_figure
+from gripscale.questions.calibration.question import Calibration, fitted_figure
 from gripscale.questions.vary.inputs import default_model
 from tests.report.reading import Page
 from tests.samples import EXAMPLES, Shell
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 FOLDER = EXAMPLES / "measured_friction"
-FIGURES = {"measured_and_fitted", "profiles"}
+FIGURES = {"measured_and_fitted"}
 
 
 @pytest.fixture(scope="module")
@@ -55,9 +55,8 @@ def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
     for word in ("stress_0", "left out", "90 % by profile likelihood"):
         assert word in said
     data = netcdf.load_dataset(target / "calibration.nc")
-    for figure in (fitted_figure(data), profiles_figure(data)):
-        assert all(axes.lines or axes.collections for axes in figure.axes)
     panels = fitted_figure(data).axes
+    assert all(axes.lines or axes.collections for axes in panels)
     assert [axes.get_title() for axes in panels] == ["5 °C", "20 °C", "40 °C"]
     band = panels[1].collections[0]
     assert band.get_label() == "90 % interval of the fit"

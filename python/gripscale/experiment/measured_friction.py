@@ -265,12 +265,12 @@ MEASURED = {
 }
 
 
-def measured_variables(
-    measured: MeasuredFriction, dim: str = "measurement"
-) -> dict[str, xr.Variable]:
-    """Return the columns of a measurement as variables over a dimension."""
+def measured_variables(measured: MeasuredFriction) -> dict[str, xr.Variable]:
+    """Return the columns of a measurement as variables over `measurement`."""
     columns = {
-        f"measured_{name}": labelled(dim, getattr(measured, name), unit, text, measured.source)
+        f"measured_{name}": labelled(
+            "measurement", getattr(measured, name), unit, text, measured.source
+        )
         for name, (unit, text) in MEASURED.items()
     }
     if measured.assumed:

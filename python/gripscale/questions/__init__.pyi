@@ -10,9 +10,9 @@ from .calibration.measured_comparison import measured_design as measured_design
 from .calibration.measured_comparison import predicted_of as predicted_of
 from .calibration.measured_comparison import residuals as residuals
 from .calibration.question import Calibration as Calibration
+from .chain.charts import block_figure as block_figure
+from .chain.charts import blocks_figure as blocks_figure
 from .chain.charts import contact_figure as contact_figure
-from .chain.charts_of_blocks import block_figure as block_figure
-from .chain.charts_of_blocks import blocks_figure as blocks_figure
 from .compare.comparison import SolvedLadder as SolvedLadder
 from .compare.comparison import at_measured as at_measured
 from .compare.ladder import LADDER as LADDER

@@ -19,9 +19,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import xarray as xr
 
+from gripscale.core import Finding, InputError, Severity
 from gripscale.core.described import Described, with_figure
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity
 from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
 from gripscale.questions.answer.variables import described

@@ -292,16 +292,13 @@ MeasuredPath = Annotated[
     ),
 ]
 SurfaceUnit = Annotated[
-    str | None,
-    option("Where the file of the surface does not state it; of counts such as 0.5 um."),
+    str | None, option("Where the file of the surface does not state it; of counts such as 0.5 um.")
 ]
 SurfaceAxis = Annotated[
-    str | None,
-    option("Which way the heights count: up, the default, or down, of depths."),
+    str | None, option("Which way the heights count: up, the default, or down, of depths.")
 ]
 SurfaceChannel = Annotated[
-    str | None,
-    option("Channel of heights of an instrument, or column of a text; title or number."),
+    str | None, option("Channel of heights of an instrument, or column of a text; title or number.")
 ]
 SurfaceCrop = Annotated[
     tuple[str, str] | None, option('Part of the profiles, such as "120 mm" "1780 mm".')

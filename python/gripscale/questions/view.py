@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 from gripscale.charts import chart, style
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.style import BLUE, INK
-from gripscale.core import units
-from gripscale.core.arrays import Array
+from gripscale.core import Array, units
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, least_to_most, percent, significant
 from gripscale.model import STATUS

@@ -27,12 +27,12 @@ from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.questions import designed_rubber
 from gripscale.questions.design import compound_design
-from gripscale.questions.design.charts import design_figure
 from gripscale.questions.design.compound_limits import CompoundLimits, PointLimit, changed
 from gripscale.questions.design.compound_search import design_problem
 from gripscale.questions.design.goal_friction import CompoundGoal, Gain, gain
 from gripscale.questions.design.question import (
     CompoundDesign,
+    design_figure,
     parse_goal,
     parse_levels,
     parse_limit,

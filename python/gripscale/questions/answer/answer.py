@@ -27,10 +27,11 @@ from gripscale.experiment.task import PREDICTIONS, Store
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact, variables
 from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
+from gripscale.questions.answer.estimate import answer_of_waves
 from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
 from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import is_measured, no_answer
-from gripscale.questions.answer.waves import waves_answer
+from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.cut_off.question import cut_off_sheet
@@ -195,7 +196,9 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     samples = direct_contact.solve_direct_contact(case, bench)
     if samples is None:
         chain = solved_chain(case, bench)
-        result = answer_with_inputs(case, waves_answer(case, chain))
+        result = answer_with_inputs(
+            case, answer_of_waves(sample_numbers(chain, case.task()), case, case.load)
+        )
         result.chain = chain
         return result
     curve = direct_contact.continued_curve(case, case.load, folder)

@@ -15,11 +15,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
+from gripscale import model
+from gripscale.case import Case
+from gripscale.chain.chain import Chain
 from gripscale.conditions.area_term import DRY_TREAD, STRESS_SCATTER
 from gripscale.conditions.conditions import LOG_AREA, LOG_FRICTION, Conditions
 from gripscale.continuation.curve import QUANTILE_90
@@ -29,7 +33,7 @@ from gripscale.half_space import line_to_map
 from gripscale.half_space.line_to_map import finite_over_small
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
-from gripscale.model import LINE_UNDER_LOAD
+from gripscale.model import LINE_UNDER_LOAD, Load
 from gripscale.questions.answer import intervals, variables
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact, errors_left
@@ -175,7 +179,8 @@ def answer_of_samples(
             data,
             term * data["answer_contact_fraction_factor"].prod("factor"),
             errors_of_total,
-            _stress_error(conditions),
+            # that between compounds for the typical stress; a stated one is taken as it is
+            STRESS_SCATTER if conditions and conditions.shear_stress == DRY_TREAD else 0.0,
             fit,
         )
         if getattr(conditions and conditions.shear_stress, "fitted_to", None) is not None:
@@ -325,15 +330,6 @@ def _of_conditions(
     return factors
 
 
-def _stress_error(conditions: Conditions | None) -> float:
-    """Return the standard error of the logarithm of the shear stress of the area term [-].
-
-    That between compounds for the typical stress of a dry road; a stated stress is taken as it is.
-    """
-    typical = conditions is not None and conditions.shear_stress == DRY_TREAD
-    return STRESS_SCATTER if typical else 0.0
-
-
 def _numbers_of(factor: Factor, unknown: xr.DataArray, share: Any = 1.0) -> FactorNumbers:
     numbers = {}
     for name in ESTIMATED:
@@ -342,3 +338,53 @@ def _numbers_of(factor: Factor, unknown: xr.DataArray, share: Any = 1.0) -> Fact
         error = intervals.LogError(sigma, xr.full_like(unknown, factor.freedom))
         numbers[name] = xr.full_like(unknown, number.value) ** share, error
     return numbers
+
+
+# The answer of sine waves stated by hand: their chain, which no measured surface judges.
+
+
+def estimate_of_waves(
+    numbers: xr.Dataset, errors: Mapping[str, intervals.LogError] = MappingProxyType({})
+) -> xr.Dataset:
+    """Return friction and contact fraction of a chain as `answer_of_samples` does, with no factors.
+
+    `numbers` are its `sample_numbers` under one load or several. Without `errors` of what they
+    depend on there is no interval.
+    """
+    unknown = xr.full_like(numbers["friction"], math.nan)
+    errors = dict.fromkeys(ESTIMATED, intervals.LogError(unknown, unknown)) | dict(errors)
+    best = xr.Dataset({"factor_label": ("factor", np.empty(0, dtype=object))})
+    for name in ESTIMATED:
+        best = best.assign(with_interval(name, numbers[name], errors[name]))
+        best[f"answer_{name}_sampling_error"] = best[f"answer_{name}_grid_error"] = unknown
+        for part in ("factor", "factor_uncertainty"):
+            best[f"answer_{name}_{part}"] = unknown.expand_dims(factor=0)
+    best = with_interface(best, numbers["adhesive_friction"], errors)
+    return variables.described(
+        best.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
+    )
+
+
+def answer_of_waves(
+    numbers: xr.Dataset,
+    case: Case,
+    load: Load,
+    errors: Mapping[str, intervals.LogError] = MappingProxyType({}),
+) -> xr.Dataset:
+    """Return the numbers of a chain under a load as an answer; see `estimate_of_waves`."""
+    best = estimate_of_waves(numbers, errors)
+    best["cutoff_wavelength"] = case.surface.cutoff_wavelength
+    totals = {name: float(numbers[name.removeprefix("total_")]) for name in model.TOTALS}
+    answered = model.predicted_answer(
+        best,
+        totals,
+        str(numbers[model.STATUS].item()),
+        Chain.name,
+        load,
+        model.extrapolation_of(numbers),
+        model.cut_off_exponents_of(numbers),
+        status_word=str(numbers[model.STATUS_WORD].item()),
+    )
+    inputs: list[model.Doubtful] = [case.surface, case.measured_rubber]
+    doubts = model.input_doubts(inputs, [load], case.units, case.softening_doubts)
+    return answered.assign_attrs(case.attributes | doubts)

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.conditions.area_term import shear_stress_to_dict
-from gripscale.core import Array, checks, labelled, provenance
+from gripscale.core import checks, labelled, provenance
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.model import STATUS, STATUS_WORD
 from gripscale.questions.calibration import calibration_law as fit
@@ -23,8 +23,6 @@ from gripscale.questions.calibration import profile_likelihood as likelihood
 from gripscale.questions.calibration.measured_comparison import Predicted, in_spread
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
-# How far the profile of an end that is not determined is kept, in the numbers of the search.
-FACTORS_SHOWN = 3.0
 NO_INFLUENCE = 1e-12  # relative size of a singular value below which its direction changes nothing
 UNLIKELY = 0.01  # chance of the sum of squares below which something must be wrong
 _SOURCE = "gripscale calibrate"
@@ -103,8 +101,8 @@ def fit_area_term(
     scatter of the residuals is taken for it.
 
     The result has over `measurement` what was measured, the hysteresis, the area term, their sum
-    and its band; over `parameter` estimate, standard error, interval (NaN where not determined)
-    and profile; over `left_out` the errors of the law fitted to the other points. Its attribute
+    and its band; over `parameter` estimate, standard error and interval (NaN where not
+    determined); over `left_out` the errors of the law fitted to the other points. Its attribute
     `law` holds the law, `notes` what to know before the numbers are used.
 
     Raises `InputError` if a value cannot be used, points are too few for the law, or the hysteresis
@@ -206,48 +204,26 @@ def _at_points(
 
 
 def _of_parameters(optimum: fit.FittedLaw, ends: tuple[tuple[float, float], ...]) -> _Columns:
-    """Return estimates of the free parameters, their intervals, correlation and profiles."""
+    """Return estimates of the free parameters, their intervals and correlation."""
     each, free = "parameter", optimum.problem.free
     covariance = optimum.unit * optimum.covariance
     errors = np.sqrt(np.diag(covariance))
-    rows, profiles = [], []
+    rows = []
     for at, (parameter, interval) in enumerate(zip(free, ends, strict=True)):
         value = parameter.value(float(optimum.theta[at]))
         error = float(errors[at]) * (value if parameter.log else 1.0)
         known = (parameter.value(end) if math.isfinite(end) else math.nan for end in interval)
         rows.append((value, error, *known))
-        profiles.append(_profile(optimum, at, interval))
     columns: _Columns = {
         name: (each, values, text)
         for (name, text), values in zip(_ESTIMATE.items(), zip(*rows, strict=True), strict=True)
     }
     units = [fit.PARAMETERS[parameter.name].unit or "1" for parameter in free]
     correlation = covariance / np.outer(errors, errors)
-    values, excess = zip(*profiles, strict=True)
-    text = "rise of the sum of squares, NaN where another parameter has no room"
     return columns | {
         "unit": (each, np.array(units, dtype=object), "its unit"),
         "correlation": ((each, "other_parameter"), correlation, "of the estimates"),
-        "profile_value": ((each, "step"), values, "value at which the parameter is held"),
-        "profile_excess": ((each, "step"), excess, text),
     }
-
-
-def _profile(
-    optimum: fit.FittedLaw, index: int, interval: tuple[float, float]
-) -> tuple[Array, Array]:
-    """Return values of a free parameter and how much the sum of squares exceeds its least there.
-
-    In units of what one standard error adds: over the interval and a little beyond, and a factor of
-    20 where an end is not determined.
-    """
-    parameter, centre = optimum.problem.free[index], float(optimum.theta[index])
-    ends = []
-    for way, end in zip((-1, 1), interval, strict=True):
-        away = 1.3 * abs(end - centre) if math.isfinite(end) else FACTORS_SHOWN
-        ends.append(float(np.clip(centre + way * away, *parameter.limits)))
-    values, excess = likelihood.LikelihoodProfile(optimum, index).curve(*ends)
-    return np.array([parameter.value(float(value)) for value in values]), excess / optimum.unit
 
 
 def _notes(optimum: fit.FittedLaw, predicted: Predicted) -> Iterator[str]:

@@ -112,10 +112,9 @@ def _all_or_none(name: str, values: Array) -> Array | None:
 
 
 class ParameterWords(NamedTuple):
-    """A parameter of a law: in words, beside an axis, and its kind of quantity, if it has one."""
+    """A parameter of a law: in words, and its kind of quantity, if it has one."""
 
     words: str
-    label: str
     kind: str = ""
 
     @property
@@ -126,16 +125,14 @@ class ParameterWords(NamedTuple):
 
 # The parameters of the laws; the reference temperature is held, never fitted.
 PARAMETERS = {
-    "stress_0": ParameterWords("shear stress τ_0", "stress $\\tau_0$", "pressure"),
-    "width": ParameterWords("width factor c", "width $c$"),
-    "speed_0": ParameterWords("speed v_0 of the largest stress", "speed $v_0$", "speed"),
-    "activation_energy": ParameterWords(
-        "activation energy", "activation energy $\\epsilon$", "bond energy"
-    ),
-    "reference_temperature": ParameterWords("", "", "temperature"),
-    "ratio": ParameterWords("gain of stress at high speed", "ratio"),
-    "critical_speed": ParameterWords("critical speed v_c", "critical speed $v_c$", "speed"),
-    "exponent": ParameterWords("exponent n of the speed", "exponent $n$"),
+    "stress_0": ParameterWords("shear stress τ_0", "pressure"),
+    "width": ParameterWords("width factor c"),
+    "speed_0": ParameterWords("speed v_0 of the largest stress", "speed"),
+    "activation_energy": ParameterWords("activation energy", "bond energy"),
+    "reference_temperature": ParameterWords("", "temperature"),
+    "ratio": ParameterWords("gain of stress at high speed"),
+    "critical_speed": ParameterWords("critical speed v_c", "speed"),
+    "exponent": ParameterWords("exponent n of the speed"),
 }
 _LAW_UNITS = {"pressure": "Pa", "speed": "m/s", "bond energy": "eV", "temperature": "K"}
 # How a number in a unit of the law is written, if not in this unit.

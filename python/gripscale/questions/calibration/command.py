@@ -46,11 +46,7 @@ def calibrate_command(
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
     from gripscale.io.folders import write_text
     from gripscale.questions.calibration.calibration_law import parse_fixed
-    from gripscale.questions.calibration.question import (
-        calibrate,
-        measured_of,
-        shear_stress_table,
-    )
+    from gripscale.questions.calibration.question import calibrate, measured_of, shear_stress_table
 
     values = parse_fixed(fixed or [])
     work = terminal.CaseCommand(case)

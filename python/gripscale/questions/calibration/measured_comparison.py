@@ -237,10 +237,7 @@ def predicted_of(data: xr.Dataset) -> Predicted:
 
 
 def answers_at(
-    measured: MeasuredFriction,
-    case: Case,
-    bench: Bench,
-    warming_stress: Array | None = None,
+    measured: MeasuredFriction, case: Case, bench: Bench, warming_stress: Array | None = None
 ) -> Predicted:
     """Return what the answer of a case with a measured surface states at each measured point.
 

@@ -29,7 +29,6 @@ from gripscale.questions.calibration.measured_comparison import rms
 _REACH = 2.0  # how much further each step of a search for an end goes
 _FINE = 1e-3  # relative accuracy of the distance to an end
 LESS = 1e-6  # relative decrease of the sum of squares beyond which another minimum has been met
-CURVE = 25  # values of a parameter at which its profile is kept
 
 
 class BetterMinimumFound(Exception):
@@ -105,21 +104,6 @@ class LikelihoodProfile:
         end = float(scipy.optimize.brentq(above, near, far, xtol=fine, rtol=1e-9))
         above(end)
         return way * math.inf if self.held_back(end, solved[end][1]) else end
-
-    def curve(self, low: float, high: float) -> tuple[Array, Array]:
-        """Return values from `low` to `high` and E there, each from its neighbour's others.
-
-        NaN where another parameter is held back by its own limit.
-        """
-        values = np.linspace(low, high, CURVE)
-        excess = np.empty(CURVE)
-        middle = int(np.argmin(np.abs(values - self.centre)))
-        for way in (range(middle, CURVE), range(middle - 1, -1, -1)):
-            others = None
-            for at in way:
-                rise, others = self.excess(float(values[at]), others)
-                excess[at] = math.nan if self.held_back(values[at], others) else rise
-        return values, excess
 
 
 def intervals(problem: CalibrationProblem) -> tuple[FittedLaw, tuple[tuple[float, float], ...]]:

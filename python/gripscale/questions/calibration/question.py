@@ -18,14 +18,11 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
-from gripscale.charts.draw import Picture, Sheet
-from gripscale.charts.style import BLUE, FAINT, GREY, ORANGE, WIDE
+from gripscale.charts.chart import Mark, Series, ShadedBand
+from gripscale.charts.draw import Picture
+from gripscale.charts.style import BLUE, ORANGE
 from gripscale.conditions import Conditions
-from gripscale.conditions.area_term import (
-    InterfacialShearStress,
-    shear_stress_from_dict,
-)
+from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
 from gripscale.core import Array, InputError, checks
 from gripscale.core.finding import Finding, sentences, to_json
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, celsius, display_unit_of
@@ -45,12 +42,7 @@ from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.calibration import calibration_law as laws
 from gripscale.questions.calibration.area_term_fit import Estimate, estimates_of, fit_area_term
-from gripscale.questions.calibration.calibration_law import (
-    LIKELIHOOD_LEVEL,
-    PARAMETERS,
-    WRITTEN,
-    written,
-)
+from gripscale.questions.calibration.calibration_law import LIKELIHOOD_LEVEL, PARAMETERS, written
 from gripscale.questions.calibration.measured_comparison import (
     Predicted,
     answers_at,
@@ -68,8 +60,6 @@ from gripscale.rubber.extrapolation import require_measured
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-CEILING = 2.5  # highest excess that is drawn, over the threshold
 
 
 def fitted_figure(data: xr.Dataset) -> Figure:
@@ -89,42 +79,6 @@ def fitted_figure(data: xr.Dataset) -> Figure:
         ]
 
     return measured_sheet(data, fit, head=0.5).on_paper()
-
-
-def profiles_figure(data: xr.Dataset) -> Figure:
-    """Draw by how much the sum of squares rises where each parameter is held elsewhere."""
-    count = data.sizes["parameter"]
-    columns = 2 if count == 4 else min(count, 3)
-    panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
-    height = 0.4 + 2.1 * -(-count // columns)
-    look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05, "layout": {"sharey": True}}
-    return Sheet(panels, columns, min(3.5 * columns, WIDE), height, **look).on_paper()
-
-
-def _profile_panel(data: xr.Dataset) -> Panel:
-    threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
-    unit = str(data.unit.item())
-    display = WRITTEN.get(unit, DisplayUnit("-" if unit == "1" else unit))
-    rows = np.isfinite(data.profile_excess.values)
-    value, excess = display.of(data.profile_value.values[rows]), data.profile_excess.values[rows]
-    low, high, best = (float(display.of(data[name])) for name in ("low", "high", "estimate"))
-    least, most = float(value.min()), float(value.max())
-    ends = [end if np.isfinite(end) else edge for end, edge in ((low, least), (high, most))]
-    name = str(data.parameter.item())
-    missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
-    title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
-    return Panel(
-        PlotAxis(f"{PARAMETERS[name].label} [{display.unit}]", low=least, high=most,
-             log=name != "activation_energy" and most > 5.0 * least),
-        PlotAxis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
-        [
-            CrossLine(ends[0], FAINT, "interval", upright=True, to=float(ends[1])),
-            Series(value, excess, BLUE, "profile"),
-            CrossLine(threshold, ORANGE, f"{100.0 * level:.0f} %", width=1.0),
-            CrossLine(best, GREY, "best", width=1.0, upright=True),
-        ],
-        title=title if missing else "",
-    )  # fmt: skip
 
 
 _MODELS = ("direct", "chain")  # models whose hysteresis an area term can be put beside
@@ -237,12 +191,6 @@ class Calibration(Result):
             "Measured friction with its spread, the hysteresis alone, and the fit with its band, "
             "at each temperature.",
             "A panel for each temperature with points and two curves over the speed.",
-        )
-        yield Picture(
-            "profiles",
-            profiles_figure(self.data),
-            "Rise of the sum of squares if a parameter is held at another value.",
-            "A panel for each parameter with a valley around its best value.",
         )
 
 

@@ -10,13 +10,7 @@ import numpy as np
 from gripscale.charts.draw import panels_on_page
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED
-from gripscale.io.table import (
-    Column,
-    Table,
-    fixed,
-    significant,
-    whole_number,
-)
+from gripscale.io.table import Column, Table, fixed, significant, whole_number
 from gripscale.model import with_adhesive
 from gripscale.questions.answer import variables
 from gripscale.questions.answer.reliance import is_measured

@@ -26,10 +26,9 @@ from gripscale.model import Doubtful
 from gripscale.questions.answer import estimate as estimates
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact
-from gripscale.questions.answer.estimate import Factor
+from gripscale.questions.answer.estimate import Factor, estimate_of_waves
 from gripscale.questions.answer.intervals import half_width
 from gripscale.questions.answer.variables import ANSWER_NUMBERS, LARGE_STRAIN, LARGE_STRAIN_NUMBERS
-from gripscale.questions.answer.waves import estimate_of_waves
 from gripscale.questions.calibration import measured_comparison as friction
 from gripscale.questions.compare.ladder import ComparedModel, ComparisonSetup
 from gripscale.questions.vary.axis import Axis
