@@ -30,18 +30,11 @@ def load(path: str | Path) -> Any:
     path : path
         A file that `Result.save` or a command wrote.
     """
-    result = result_of(netcdf.load_tree(path))
-    if result is None:
-        expected = ", ".join(registry.kinds())
-        raise FileError(f"{path} holds no result of a question ({expected})")
-    return result
-
-
-def result_of(tree: xr.DataTree) -> Any:
-    """Return the result that a file holds; None where it is of no question."""
+    tree = netcdf.load_tree(path)
     kind = registry.result_class(str(tree.attrs.get(KIND, "")))
     if kind is None:
-        return None
+        expected = ", ".join(registry.kinds())
+        raise FileError(f"{path} holds no result of a question ({expected})")
     inputs = tree.children.get(INPUT_GROUP, xr.DataTree()).to_dataset(inherit=False)
     return kind(with_present_names(tree.to_dataset()), inputs)
 

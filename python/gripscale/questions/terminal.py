@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.status import Status
 
-    from gripscale.case import Case, NamedFile
+    from gripscale.case import Case
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
     from gripscale.questions.result import Result
@@ -142,21 +142,6 @@ def end_steps() -> None:
     if status is not None:
         status.stop()
         _STATUS.set(None)
-
-
-def print_result(result: Result, case: Path, files: Sequence[NamedFile]) -> None:
-    """Print a result of a case and its files as `--quiet` or `--json` ask for; else nothing."""
-    from gripscale.questions.result import warning_lines
-    from gripscale.questions.result_json import result_as_json
-
-    manner = MANNER.get()
-    if manner.json:
-        typer.echo(result_as_json(result, str(case), files))
-    elif manner.quiet:
-        console = screen()
-        console.quiet = False
-        lines = warning_lines(result.findings, widths=result.half_widths)
-        print_parts(console, [*result.lines, *lines])
 
 
 def command(body: Callable[P, None]) -> Callable[P, None]:
@@ -478,7 +463,14 @@ class CaseCommand:
             words = f"note: no page; {error}"
         end_steps()
         print_parts(console, ["", f"{closing} {target}", words])
-        print_result(result, self.file.path, self.case.origin.files)
+        if MANNER.get().json:
+            from gripscale.questions.result_json import result_as_json
+
+            typer.echo(result_as_json(result, str(self.file.path), self.case.origin.files))
+        elif MANNER.get().quiet:
+            console.quiet = False
+            warnings = warning_lines(result.findings, widths=result.half_widths)
+            print_parts(console, [*result.lines, *warnings])
         if result.failure:
             print_error(result.failure)
             raise typer.Exit(_NOT_CONVERGED)
