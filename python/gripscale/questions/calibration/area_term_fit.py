@@ -212,8 +212,8 @@ def _of_parameters(optimum: fit.FittedLaw, ends: tuple[tuple[float, float], ...]
     for at, (parameter, interval) in enumerate(zip(free, ends, strict=True)):
         value = parameter.value(float(optimum.theta[at]))
         error = float(errors[at]) * (value if parameter.log else 1.0)
-        known = (parameter.value(end) if math.isfinite(end) else math.nan for end in interval)
-        rows.append((value, error, *known))
+        limits = (parameter.value(end) if math.isfinite(end) else math.nan for end in interval)
+        rows.append((value, error, *limits))
     columns: _Columns = {
         name: (each, values, text)
         for (name, text), values in zip(_ESTIMATE.items(), zip(*rows, strict=True), strict=True)
