@@ -26,10 +26,10 @@ from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import PREDICTIONS, Store
 from gripscale.io.table import Table
 from gripscale.questions.answer import direct_contact, variables
-from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
+from gripscale.questions.answer.charts import named_traces, trace_sheet
 from gripscale.questions.answer.estimate import answer_of_waves
 from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
-from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
+from gripscale.questions.answer.page import answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import is_measured, no_answer
 from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.chain.charts import contact_sheet
@@ -158,9 +158,6 @@ class Answer(NumbersWithIntervals):
     def figures(self) -> Iterator[tuple[str, Sheet]]:
         for name, trace in named_traces(self.data, self.inputs)[:1]:
             yield "direct_contact", trace_sheet(trace, name)
-            if "series_omega" in self.inputs:
-                cards, words = list(answer_cards(self.data)), next(iter(self.basis), "")
-                yield "summary", summary_sheet(trace, self.inputs, cards, words)
         if self.chain is not None:
             title = PredictionView(self.chain).title.lower()
             judge = {}
