@@ -17,6 +17,7 @@ from benchmarks import (
     case,
     conditions,
     gap_flow,
+    large_maps,
     machine,
     questions,
     random_loads,
@@ -45,7 +46,7 @@ SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
     "rival": lambda console, _: rival.run(console),
     "scaling": lambda console, figures: scaling.run(console, figures / "cost.png"),
     "sizes": lambda console, _: sizes.run(console),
-    "large_maps": lambda console, _: rough_contact.run(console, large=True),
+    "large_maps": lambda console, _: large_maps.run(console),
     "sparse_factor": lambda console, _: sparse_factor.run(console),
 }
 ON_REQUEST = {"large_maps", "sizes", "sparse_factor"}

@@ -43,10 +43,7 @@ impl<'a> Cancel<'a> {
 
     /// The same caller without a deadline, for the work that remains after it.
     pub(crate) fn without_deadline(&self) -> Self {
-        Self {
-            stopped: self.stopped.clone(),
-            ..Self::without_limit(self.stop_requested)
-        }
+        Self { stopped: self.stopped.clone(), ..Self::without_limit(self.stop_requested) }
     }
 
     fn without_limit(stop_requested: &'a dyn Fn() -> bool) -> Self {
@@ -64,8 +61,7 @@ impl<'a> Cancel<'a> {
         if now >= self.next_request.get() {
             self.next_request.set(now + INTERVAL);
             // A caller who has asked once is not asked again.
-            self.stopped
-                .set(self.stopped.get() || (self.stop_requested)());
+            self.stopped.set(self.stopped.get() || (self.stop_requested)());
         }
         if self.stopped.get() {
             return Err(Status::Stopped);
@@ -108,9 +104,7 @@ mod tests {
     #[test]
     fn a_time_limit_must_be_positive_and_may_be_lifted() {
         let refusal = Cancel::new(&|| false, Some(0.0)).map(|_| ()).unwrap_err();
-        assert!(refusal
-            .to_string()
-            .starts_with("time_limit must be greater than zero"));
+        assert!(refusal.to_string().starts_with("time_limit must be greater than zero"));
         let mut cancel = Cancel::never();
         cancel.deadline = Some(Instant::now());
         assert_eq!(cancel.check(), Err(Status::TimeLimit));

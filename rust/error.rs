@@ -7,26 +7,15 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum KernelError {
     #[error("{name} must be {expected}; got {value}")]
-    Refused {
-        name: String,
-        expected: String,
-        value: String,
-    },
+    Refused { name: String, expected: String, value: String },
     #[error("{owner} must have the parameter {name:?}")]
-    MissingParameter {
-        owner: &'static str,
-        name: &'static str,
-    },
+    MissingParameter { owner: &'static str, name: &'static str },
     #[error("a stage may slide over at most {longest} wavelengths; got {wavelengths}")]
     TooLong { longest: f64, wavelengths: f64 },
     #[error("moduli and relaxation_times must have the same length; got {moduli} and {times}")]
     LengthMismatch { moduli: usize, times: usize },
     #[error("start must be of the same rubber and profile; its {name} is {start}, not {here}")]
-    OtherStart {
-        name: &'static str,
-        start: String,
-        here: String,
-    },
+    OtherStart { name: &'static str, start: String, here: String },
     #[error("start must be a solution that converged; its status is {0:?}")]
     UnsolvedStart(&'static str),
     #[error("stopped by the caller")]
@@ -75,12 +64,7 @@ pub(crate) fn not_negative(
 
 pub(crate) fn between(name: &str, value: f64, least: f64, most: f64) -> Result<f64, KernelError> {
     let valid = (least..=most).contains(&value);
-    checked(
-        valid,
-        name,
-        value,
-        format_args!("from {least:?} to {most:?}"),
-    )
+    checked(valid, name, value, format_args!("from {least:?} to {most:?}"))
 }
 
 pub(crate) fn whole(

@@ -53,10 +53,9 @@ impl<'a> Executor<'a> {
         let mut results: Vec<Option<T>> = (0..count).map(|_| None).collect();
         let mut workspaces = vec![(); self.threads.count_for(size)];
         let (parts, check) = (results.iter_mut().enumerate(), || self.cancel.check());
-        self.threads
-            .share_until(size, &mut workspaces, parts, check, |(), (i, result)| {
-                *result = Some(work(i));
-            })?;
+        self.threads.share_until(size, &mut workspaces, parts, check, |(), (i, result)| {
+            *result = Some(work(i));
+        })?;
         Ok(results.into_iter().flatten().collect())
     }
 }
@@ -76,11 +75,7 @@ impl Threads {
 
     /// The same with a thread for every `worth` numbers, at least one.
     const fn each_worth(limit: usize, worth: usize) -> Self {
-        Self {
-            limit,
-            worth,
-            helpers: OnceLock::new(),
-        }
+        Self { limit, worth, helpers: OnceLock::new() }
     }
 
     /// Number of threads for work that reads and writes `size` numbers.

@@ -7,7 +7,7 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | `error`, `status`, `settings` | refusals, endings, every constant of the solver |
+//! | `error`, `status`, `settings` | refusals, endings, what a user may set |
 //! | `cancel` | whether to go on: a caller who stops, a time limit |
 //! | `executor` | the one file with rayon: work shared between threads, in parts that do not depend on them |
 //! | `spectral` | the one file with realfft: transforms, convolutions and correlations of lines |
@@ -20,7 +20,7 @@
 //! | `solution` | a solved wave, with reports and counts |
 //! | `solve` | Newton, its linear problem by GMRES or a kept factor, load stepping, meshes, transfer |
 //! | `steady`, `transient` | steady sliding; sliding in time |
-//! | `line_system` | points of a line in contact with a half-space, for the bindings |
+//! | `line_system`, `gap_extension` | points of a line or a map in contact with a half-space, for the bindings |
 //! | `python` | bindings, no numerics |
 //!
 //! `KernelError` means that there is no result: an input was refused, the caller stopped, or the kernel has a
@@ -56,15 +56,10 @@ pub mod transient;
 internal_modules!(contact, fem, linear, material, model, outcome, solve, spectral);
 
 #[cfg_attr(not(feature = "python"), allow(dead_code))]
+mod gap_extension;
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
 mod line_system;
 #[cfg(feature = "python")]
 mod python;
-
-// Tests inside the crate share `tests/case.rs` with those outside, which names the crate.
 #[cfg(test)]
-extern crate self as gripscale_kernel;
-#[cfg(test)]
-#[path = "tests/case.rs"]
-mod case;
-#[cfg(test)]
-mod test_fields;
+mod tests;

@@ -13,6 +13,7 @@ use crate::fem::block::{Block, Memory};
 use crate::fem::mesh::Mesh;
 use crate::material::energy::Energy;
 use crate::material::maxwell::Maxwell;
+use crate::material::sliding_history::SlidingHistory;
 use crate::problem::{Profile, Rubber};
 
 #[derive(Clone)]
@@ -37,11 +38,7 @@ impl Model {
             .filter(|_| time_unit.is_finite())
             .map(|(modulus, time)| (modulus, time / time_unit))
             .unzip();
-        let mut maxwell = Maxwell {
-            equilibrium: rubber.equilibrium_modulus,
-            moduli,
-            times,
-        };
+        let mut maxwell = Maxwell { equilibrium: rubber.equilibrium_modulus, moduli, times };
         let stress_unit = maxwell.magnitude(omega);
         maxwell.equilibrium /= stress_unit;
         maxwell.moduli.iter_mut().for_each(|g| *g /= stress_unit);
@@ -76,12 +73,17 @@ impl Model {
         }
     }
 
+    /// The memory of the networks on `mesh` in steady sliding, after a load time of `passages` of the wave.
+    pub fn sliding_memory(&self, mesh: &Mesh, passages: f64) -> Memory {
+        if self.maxwell.moduli.is_empty() {
+            return Memory::Relaxed;
+        }
+        Memory::Sliding(SlidingHistory::new(mesh.columns, &self.maxwell, passages))
+    }
+
     /// The same rubber on other heights.
     pub fn with_heights(&self, heights: Heights) -> Self {
-        Self {
-            heights,
-            ..self.clone()
-        }
+        Self { heights, ..self.clone() }
     }
 
     /// Contact width in wavelengths under a small `load`, by Hertz.

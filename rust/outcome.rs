@@ -25,15 +25,17 @@ pub struct Outcome {
 
 impl Outcome {
     /// The outcome of a state; fails only if the executor of `pressed` is cancelled.
-    pub(crate) fn of(pressed: &PressedBlock<'_>, state: &State, law: EdgeLaw) -> Result<Self, Status> {
+    pub(crate) fn of(
+        pressed: &PressedBlock<'_>,
+        state: &State,
+        law: EdgeLaw,
+    ) -> Result<Self, Status> {
         let nodes = state.force.len();
         let load: f64 = state.force.iter().sum();
         let rows = pressed.row_states(&state.field)?;
         let profile = pressed.sampled(&state.field);
         let pressure = pressures(pressed.block.mesh.order, &profile.x, &state.force);
-        let drag: f64 = (0..nodes)
-            .map(|a| state.force[a] * profile.slope.row_sum(a))
-            .sum();
+        let drag: f64 = (0..nodes).map(|a| state.force[a] * profile.slope.row_sum(a)).sum();
         let lost = pressed.block.dissipation(&rows, pressed.executor)?;
         let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
         for point in rows.iter().flat_map(|row| row.deformation.iter().flatten()) {
@@ -43,9 +45,7 @@ impl Outcome {
         }
         let gap = pressed.gaps(state, &profile);
         let contacts = contacts(&profile.x, &pressure, &gap, &state.active_set, law);
-        let length = contacts
-            .iter()
-            .fold(0.0, |sum, (from, to)| sum + (to - from));
+        let length = contacts.iter().fold(0.0, |sum, (from, to)| sum + (to - from));
         Ok(Self {
             contact_fraction: length.clamp(0.0, 1.0),
             contacts,

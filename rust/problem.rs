@@ -54,10 +54,7 @@ pub struct Profile {
 impl Profile {
     pub fn new(wavelength: f64, heights: Heights) -> Result<Self, KernelError> {
         let wavelength = positive("wavelength", wavelength)?;
-        Ok(Self {
-            wavelength,
-            heights,
-        })
+        Ok(Self { wavelength, heights })
     }
 
     /// Refuse a mesh that does not resolve the smallest wave of the heights.
@@ -126,10 +123,7 @@ impl Problem {
 fn parts(rubber: &Rubber, profile: &Profile) -> [(&'static str, String); 6] {
     [
         ("strain_energy", format!("{:?}", rubber.energy)),
-        (
-            "equilibrium_modulus",
-            format!("{:?}", rubber.equilibrium_modulus),
-        ),
+        ("equilibrium_modulus", format!("{:?}", rubber.equilibrium_modulus)),
         ("moduli", format!("{:?}", rubber.moduli)),
         ("relaxation_times", format!("{:?}", rubber.relaxation_times)),
         ("bulk_modulus", format!("{:?}", rubber.bulk_modulus)),

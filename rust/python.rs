@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
+use numpy::{
+    PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1,
+    PyUntypedArrayMethods,
+};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
@@ -11,13 +14,14 @@ use pyo3::types::PyMapping;
 use crate::cancel::Cancel;
 use crate::error::{unknown, KernelError};
 use crate::executor::{Executor, Threads};
-use crate::line_system::{LineSystem, Rows};
+use crate::gap_extension::GapExtension;
+use crate::line_system::LineSystem;
 use crate::linear::single_gmres;
 use crate::material::maxwell;
 use crate::problem::{Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
-use crate::spectral::{Complex32, Complex64, SingleLines};
+use crate::spectral::{Complex32, Complex64, Lines};
 use crate::status::Status;
 use crate::steady;
 use crate::transient::{self, Moment, Run, Stage};
@@ -65,20 +69,20 @@ getters! {
     newton_iterations: usize = |s, _| Ok(s.counts.iterations);
     jacobian_products: usize = |s, _| Ok(s.counts.products);
     load_steps: usize = |s, _| Ok(s.counts.load_steps);
-    load_reached: f64 = |s, _| Ok(s.finest.load_reached);
-    approach: f64 = |s, _| Ok(s.finest.approach());
+    load_reached: f64 = |s, _| Ok(s.finest.report.load_reached);
+    approach: f64 = |s, _| Ok(s.finest.state.approach);
     contact_fraction: f64 = |s, _| Ok(s.finest.outcome.contact_fraction);
     contacts: Vec<(f64, f64)> = |s, _| Ok(s.finest.outcome.contacts.clone());
     friction: f64 = |s, _| Ok(s.finest.outcome.friction);
     friction_from_dissipation: f64 = |s, _| Ok(s.finest.outcome.friction_from_dissipation);
     lost_by_row: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.outcome.lost_by_row));
-    row_heights: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, s.finest.row_heights()));
+    row_heights: Vector<'py> = |s, py| Ok(PyArray1::from_slice(py, &s.finest.mesh.row_height));
     contact_fraction_error: f64 = |s, _| Ok(s.finest.contact_fraction_error);
     friction_error: f64 = |s, _| Ok(s.finest.friction_error);
     friction_bound: Option<f64> = |s, _| Ok(s.finest.friction_bound);
     judged_by: Option<usize> = |s, _| Ok(s.finest.coarser_columns());
-    columns: usize = |s, _| Ok(s.finest.columns());
-    rows: usize = |s, _| Ok(s.finest.rows());
+    columns: usize = |s, _| Ok(s.finest.mesh.columns);
+    rows: usize = |s, _| Ok(s.finest.mesh.rows);
     too_narrow: Option<(f64, f64)> = |s, _| Ok(s.too_narrow);
     waves_carried: Option<usize> = |s, _| Ok(s.waves_carried);
     min_stretch: f64 = |s, _| Ok(s.finest.outcome.min_stretch);
@@ -115,10 +119,8 @@ fn mesh<'py>(
     part: fn(&(f64, f64)) -> f64,
 ) -> PyResult<Table<'py>> {
     let layers = solution.node_positions();
-    let layers: Vec<Vec<f64>> = layers
-        .iter()
-        .map(|layer| layer.iter().map(part).collect())
-        .collect();
+    let layers: Vec<Vec<f64>> =
+        layers.iter().map(|layer| layer.iter().map(part).collect()).collect();
     Ok(PyArray2::from_vec2(py, &layers)?)
 }
 
@@ -288,29 +290,23 @@ fn solve_transient<'py>(
     let (rubber, profile, mesh) = problem.checked()?;
     let settings = self::settings(settings)?;
     let start = start.as_ref().map(|solution| &solution.get().0);
-    let stage = |(duration, speed, pressure)| Stage {
-        duration,
-        speed,
-        pressure,
-    };
+    let stage = |(duration, speed, pressure)| Stage { duration, speed, pressure };
     let stages: Vec<Stage> = stages.into_iter().map(stage).collect();
     let solve = |executor: &Executor<'_>| {
-        transient::solve(
-            &rubber, &profile, &mesh, &settings, &stages, start, executor,
-        )
+        transient::solve(&rubber, &profile, &mesh, &settings, &stages, start, executor)
     };
     Ok(PyRun(run_cancellable(py, work, solve)?))
 }
 
 /// Filters and contacts of lines of a number of points, which release the interpreter.
 #[pyclass(frozen, name = "Line")]
-struct PyLine(SingleLines);
+struct PyLine(Lines<f32>);
 
 #[pymethods]
 impl PyLine {
     #[new]
     fn new(points: usize) -> Self {
-        Self(SingleLines::new(points))
+        Self(Lines::new(points))
     }
 
     /// Values with each of their harmonics, 0 to half the points, times its factor.
@@ -325,56 +321,41 @@ impl PyLine {
             return Err(PyValueError::new_err("expected a value for each point"));
         }
         self.check_harmonics(factors)?;
-        py.detach(|| self.0.filter().apply(&mut line, factors));
+        py.detach(|| self.0.clone().convolve(factors, &mut line));
         Ok(PyArray1::from_vec(py, line))
     }
 
     /// Solution of Q K p = r at `places`, its residual and the products it took; |r| = 1.
     ///
-    /// `filters` are K and S of each harmonic, `extension` the starts, columns and values of the
-    /// rows of E; `numbers` the factor of Q, the target of the residual and the most products.
+    /// `filters` are K and S of each harmonic; `numbers` the factor of Q, the target of the residual and
+    /// the most products.
     fn close_gap<'py>(
         &self,
         py: Python<'py>,
         right: PyReadonlyArray1<'py, f32>,
         places: PyReadonlyArray1<'py, i64>,
         filters: [PyReadonlyArray1<'py, Complex32>; 2],
-        extension: (
-            PyReadonlyArray1<'py, i32>,
-            PyReadonlyArray1<'py, i32>,
-            PyReadonlyArray1<'py, f32>,
-        ),
+        extension: PyRef<'py, PyGapExtension>,
         numbers: (f32, f64, usize),
     ) -> PyResult<(Bound<'py, PyArray1<f32>>, f64, usize)> {
         let [compliance, stiffness] = &filters;
         let (factor, target, most) = numbers;
-        let (starts, columns, values) = &extension;
         let system = LineSystem {
             lines: &self.0,
             places: places.as_slice()?,
             compliance: compliance.as_slice()?,
             stiffness: stiffness.as_slice()?,
-            extension: Rows {
-                starts: starts.as_slice()?,
-                columns: columns.as_slice()?,
-                values: values.as_slice()?,
-            },
+            extension: &extension.0,
             factor,
         };
         self.check_harmonics(system.compliance)?;
         self.check_harmonics(system.stiffness)?;
         let right = right.as_slice()?.to_vec();
         if !system.fits(right.len()) {
-            return Err(PyValueError::new_err(
-                "expected points and rows of the line",
-            ));
+            return Err(PyValueError::new_err("expected points and an extension of the line"));
         }
         let found = py.detach(|| system.solution(right, target, most));
-        Ok((
-            PyArray1::from_vec(py, found.x),
-            found.residual,
-            found.products,
-        ))
+        Ok((PyArray1::from_vec(py, found.x), found.residual, found.products))
     }
 }
 
@@ -402,11 +383,7 @@ fn gmres<'py>(
         Ok(image.as_slice()?.to_vec())
     };
     let found = single_gmres::gmres(apply, right.as_slice()?.to_vec(), target, most)?;
-    Ok((
-        PyArray1::from_vec(py, found.x),
-        found.residual,
-        found.products,
-    ))
+    Ok((PyArray1::from_vec(py, found.x), found.residual, found.products))
 }
 
 /// sum E_i i w tau_i / (1 + i w tau_i) at frequencies w, without the interpreter's lock.
@@ -420,6 +397,36 @@ fn relaxing_moduli<'py>(
     let (omega, moduli, times) = (omega.as_slice()?, moduli.as_slice()?, times.as_slice()?);
     let values = py.detach(|| maxwell::relaxing_moduli(omega, moduli, times));
     Ok(PyArray1::from_vec(py, values))
+}
+
+/// Extends gaps of the points in contact, `active`, to open points.
+#[pyclass(frozen, name = "GapExtension")]
+struct PyGapExtension(GapExtension);
+
+#[pymethods]
+impl PyGapExtension {
+    /// On a line, linearly without a `reach`.
+    #[staticmethod]
+    fn of_line(active: PyReadonlyArray1<'_, bool>, reach: Option<f32>) -> PyResult<Self> {
+        Ok(Self(GapExtension::of_line(active.as_slice()?, reach)))
+    }
+
+    /// On a map.
+    #[staticmethod]
+    fn of_map(active: PyReadonlyArray2<'_, bool>, far: f32) -> PyResult<Self> {
+        let columns = active.shape()[1];
+        Ok(Self(GapExtension::of_map(active.as_slice()?, columns, far)))
+    }
+
+    /// Set the open points of `values`, flattened, which are zero there.
+    fn extend(&self, mut values: PyReadwriteArray1<'_, f32>) -> PyResult<()> {
+        let values = values.as_slice_mut()?;
+        if values.len() != self.0.points() {
+            return Err(PyValueError::new_err("expected a value for each point"));
+        }
+        self.0.extend(values);
+        Ok(())
+    }
 }
 
 /// Name, default and one sentence of every setting.
@@ -447,6 +454,6 @@ mod kernel {
     #[pymodule_export]
     use super::{
         default_settings, gmres, relaxing_moduli, solve_steady, solve_transient, statuses,
-        strain_energies, PyLine, PyRun, PySolution,
+        strain_energies, PyGapExtension, PyLine, PyRun, PySolution,
     };
 }

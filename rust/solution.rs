@@ -39,9 +39,7 @@ impl Solution {
         let heights = mesh.layer_heights().into_iter().enumerate();
         heights
             .map(|(layer, z)| {
-                (0..=mesh.layer_nodes())
-                    .map(|node| position(layer, z, node))
-                    .collect()
+                (0..=mesh.layer_nodes()).map(|node| position(layer, z, node)).collect()
             })
             .collect()
     }
@@ -50,14 +48,12 @@ impl Solution {
 /// The solution on one mesh of a sequence.
 #[derive(Debug, Clone)]
 pub struct MeshSolution {
-    pub(crate) mesh: Mesh,
-    pub(crate) state: State,
+    pub mesh: Mesh,
+    pub state: State,
     pub report: Report,
-    /// Pressure that was reached over the pressure of the problem.
-    pub load_reached: f64,
     pub outcome: Outcome,
     /// The coarser mesh from which the errors are estimated, with its solution.
-    pub(crate) coarser: Option<(Mesh, State)>,
+    pub coarser: Option<(Mesh, State)>,
     /// Estimated discretisation errors, NaN without a coarser mesh.
     pub contact_fraction_error: f64,
     pub friction_error: f64,
@@ -70,49 +66,16 @@ impl MeshSolution {
         self.report.status == Status::Converged
     }
 
-    pub fn columns(&self) -> usize {
-        self.mesh.columns
-    }
-
-    pub fn rows(&self) -> usize {
-        self.mesh.rows
-    }
-
-    /// Height of every element row in wavelengths, contact surface first.
-    pub fn row_heights(&self) -> &[f64] {
-        &self.mesh.row_height
-    }
-
     /// Columns of the coarser mesh from which the errors are estimated.
     pub fn coarser_columns(&self) -> Option<usize> {
         self.coarser.as_ref().map(|(mesh, _)| mesh.columns)
-    }
-
-    /// Approach of profile and block in wavelengths.
-    pub fn approach(&self) -> f64 {
-        self.state.approach
-    }
-
-    /// Mesh and state, and those of the coarser mesh, for `benchmarks/sparse_kernel`.
-    #[cfg(feature = "internals")]
-    pub fn into_parts(self) -> (Mesh, State, Option<(Mesh, State)>) {
-        (self.mesh, self.state, self.coarser)
-    }
-
-    /// This solution, as the result of a solve whose time ran out on a finer mesh.
-    pub(crate) fn out_of_time(&self) -> Self {
-        let mut solution = self.clone();
-        solution.report.status = Status::TimeLimit;
-        solution
     }
 
     /// The state on exactly this `mesh`, if it was solved.
     pub(crate) fn state_on(&self, mesh: &Mesh) -> Option<&State> {
         let coarser = self.coarser.iter().map(|(mesh, state)| (mesh, state));
         let mut solved = std::iter::once((&self.mesh, &self.state)).chain(coarser);
-        solved
-            .find(|(other, _)| other.same(mesh))
-            .map(|(_, state)| state)
+        solved.find(|(other, _)| other.same(mesh)).map(|(_, state)| state)
     }
 }
 
@@ -125,17 +88,14 @@ pub struct Report {
     pub products: usize,
     /// The larger of residual force over the load and gap over half the range of heights.
     pub residual: f64,
+    /// Share of the load that was reached.
+    pub load_reached: f64,
 }
 
 impl Report {
     /// The report of a solve without iterations.
     pub(crate) fn unsolved(status: Status) -> Self {
-        Self {
-            status,
-            iterations: 0,
-            products: 0,
-            residual: f64::NAN,
-        }
+        Self { status, iterations: 0, products: 0, residual: f64::NAN, load_reached: 0.0 }
     }
 
     /// The status as an error, unless it is `Converged`.
@@ -157,7 +117,9 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Add a load step.
     pub(crate) fn add(&mut self, report: &Report) {
+        self.load_steps += 1;
         self.iterations += report.iterations;
         self.products += report.products;
     }

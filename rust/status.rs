@@ -87,33 +87,3 @@ impl Status {
         matches!(self, Self::Stopped | Self::TimeLimit)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_status_has_a_word_a_sentence_and_advice() {
-        for (i, status) in Status::ALL.iter().enumerate() {
-            let word = status.word();
-            assert!(Status::ALL[..i].iter().all(|other| other.word() != word));
-            assert!(status.sentence().ends_with('.'), "{word}");
-            let expects_advice = *status != Status::Converged;
-            assert_eq!(status.advice().ends_with('.'), expects_advice, "{word}");
-        }
-        assert!(!Status::ALL.contains(&Status::Stopped));
-    }
-
-    #[test]
-    fn every_sentence_is_short_and_begins_with_its_subject() {
-        for text in Status::ALL.iter().flat_map(|s| [s.sentence(), s.advice()]) {
-            for sentence in text.split(". ") {
-                assert!(sentence.split_whitespace().count() <= 22, "{sentence}");
-                let bare = ["Converged,", "Solved,"]
-                    .iter()
-                    .any(|word| sentence.starts_with(word));
-                assert!(!bare, "{sentence}");
-            }
-        }
-    }
-}

@@ -14,10 +14,9 @@ use crate::error::{positive, KernelError};
 use crate::executor::Executor;
 use crate::fem::block::Memory;
 use crate::fem::mesh::Mesh;
-use crate::material::sliding_history::SlidingHistory;
 use crate::model::Model;
 use crate::outcome::Outcome;
-use crate::problem::Problem;
+use crate::problem::{Load, Problem};
 use crate::settings::Settings;
 use crate::solution::{Counts, MeshSolution, Report, Solution};
 use crate::solve::error_estimator::ErrorEstimator;
@@ -27,6 +26,9 @@ use crate::solve::newton;
 use crate::solve::profile_continuation::ProfileContinuation;
 use crate::solve::transfer::transfer;
 use crate::status::Status;
+
+/// Mean shear of the block beyond which it is the reason why a load path ends.
+const LARGE_MEAN_SHEAR: f64 = 2.0;
 
 /// Solve `problem`.
 ///
@@ -43,8 +45,9 @@ pub fn solve(
 ) -> Result<Solution, KernelError> {
     positive("tolerance", tolerance.unwrap_or(1.0))?;
     problem.profile.check_resolved(&problem.mesh)?;
-    let passage = problem.profile.wavelength / problem.load.speed;
-    let mut model = Model::new(&problem.rubber, &problem.profile, passage, TAU);
+    let Load { pressure, speed, load_time } = problem.load;
+    let wavelength = problem.profile.wavelength;
+    let mut model = Model::new(&problem.rubber, &problem.profile, wavelength / speed, TAU);
     if model.heights.waves() > 1 && settings.profile_patches > 0 {
         model.sampling = Sampling::Patches;
     }
@@ -55,11 +58,13 @@ pub fn solve(
         start,
         executor,
         tolerance,
+        load: pressure / model.stress_unit,
+        passages: load_time * speed / wavelength,
         counts: Counts::default(),
         waves_carried: 0,
     };
     let first = start.map(|solution| &solution.finest);
-    let slides = problem.load.speed > 0.0;
+    let slides = speed > 0.0;
     let estimator = ErrorEstimator::new(&model.heights, slides, tolerance, settings);
     let sequence = MeshSequence::new(&problem.mesh, first, &model.heights, &estimator);
     let too_narrow = wave.too_narrow();
@@ -88,32 +93,19 @@ struct Wave<'a> {
     start: Option<&'a Solution>,
     executor: &'a Executor<'a>,
     tolerance: Option<f64>,
+    /// Mean pressure in stress units, times one wavelength.
+    load: f64,
+    /// Load time in passages of the wave.
+    passages: f64,
     counts: Counts,
     /// Number of waves of a rough profile that carried the load.
     waves_carried: usize,
 }
 
-/// How an attempt on a mesh ended.
-struct Ending {
-    state: State,
-    report: Report,
-    load_reached: f64,
-}
-
-impl Ending {
-    /// The block at rest, because nothing was solved.
-    fn unsolved(mesh: &Mesh, status: Status) -> Self {
-        Self {
-            state: State::at_rest(mesh),
-            report: Report::unsolved(status),
-            load_reached: 0.0,
-        }
-    }
-}
-
 /// A way to a solution on one mesh, given the solution on a coarser mesh; None if it does not apply or
 /// fails, so that the next attempt is made.
-type Attempt<'w> = fn(&mut Wave<'w>, &PressedBlock<'_>, Option<&MeshSolution>) -> Option<Ending>;
+type Attempt<'w> =
+    fn(&mut Wave<'w>, &PressedBlock<'_>, Option<&MeshSolution>) -> Option<(State, Report)>;
 
 impl<'w> Wave<'w> {
     /// The attempts in their order, each more expensive than the one before.
@@ -129,17 +121,20 @@ impl<'w> Wave<'w> {
         mesh: Mesh,
         coarse: Option<&MeshSolution>,
     ) -> Result<MeshSolution, KernelError> {
-        let memory = self.memory(&mesh);
+        let memory = self.model.sliding_memory(&mesh, self.passages);
         let pressed = self.model.pressed(&mesh, &memory, self.executor);
-        let ending = Self::ATTEMPTS
+        let (state, report) = Self::ATTEMPTS
             .into_iter()
             .take(self.attempts_worth_making(&mesh, coarse))
             .find_map(|attempt| attempt(self, &pressed, coarse))
-            .unwrap_or_else(|| Ending::unsolved(&mesh, Status::IterationLimit));
-        match (ending.report.status, coarse) {
+            .unwrap_or_else(|| unsolved(&mesh, Status::IterationLimit));
+        match (report.status, coarse) {
             (Status::Stopped, _) => Err(KernelError::Stopped),
-            (Status::TimeLimit, Some(coarse)) => Ok(coarse.out_of_time()),
-            _ => self.evaluate(mesh, &memory, ending),
+            (status @ Status::TimeLimit, Some(coarse)) => {
+                let report = Report { status, ..coarse.report };
+                Ok(MeshSolution { report, ..coarse.clone() })
+            }
+            _ => self.evaluate(mesh, &memory, state, report),
         }
     }
 
@@ -167,18 +162,13 @@ impl<'w> Wave<'w> {
         &mut self,
         pressed: &PressedBlock<'_>,
         coarse: Option<&MeshSolution>,
-    ) -> Option<Ending> {
+    ) -> Option<(State, Report)> {
         let mut state = self.nearest_solution(pressed, coarse)?;
-        let report = newton::solve(pressed, &mut state, self.load(), self.settings);
+        let report = newton::solve(pressed, &mut state, self.load, self.settings);
         self.counts.add(&report);
-        self.counts.load_steps += 1;
         match report.status {
-            Status::Converged => Some(Ending {
-                state,
-                report,
-                load_reached: 1.0,
-            }),
-            status if status.interrupts() => Some(Ending::unsolved(pressed.mesh(), status)),
+            Status::Converged => Some((state, report)),
+            status if status.interrupts() => Some(unsolved(pressed.mesh(), status)),
             _ => None,
         }
     }
@@ -188,28 +178,22 @@ impl<'w> Wave<'w> {
         &mut self,
         pressed: &PressedBlock<'_>,
         _coarse: Option<&MeshSolution>,
-    ) -> Option<Ending> {
-        let (model, passages) = (self.model, self.passages());
-        let memory = |mesh: &Mesh| memory(model, passages, mesh);
+    ) -> Option<(State, Report)> {
         let continuation = ProfileContinuation {
-            model,
+            model: self.model,
             size: &self.problem.mesh,
-            load: self.load(),
+            load: self.load,
+            passages: self.passages,
             settings: self.settings,
             executor: self.executor,
-            memory: &memory,
         };
         let mesh = pressed.mesh();
         let solved = continuation.solve(mesh.columns, &mut self.counts)?;
         Some(match solved {
-            Ok((state, report)) => Ending {
-                state,
-                report,
-                load_reached: 1.0,
-            },
-            Err(unsolved) => {
-                self.waves_carried = self.waves_carried.max(unsolved.waves);
-                Ending::unsolved(mesh, unsolved.status)
+            Ok(converged) => converged,
+            Err(reason) => {
+                self.waves_carried = self.waves_carried.max(reason.waves);
+                unsolved(mesh, reason.status)
             }
         })
     }
@@ -219,15 +203,10 @@ impl<'w> Wave<'w> {
         &mut self,
         pressed: &PressedBlock<'_>,
         _coarse: Option<&MeshSolution>,
-    ) -> Option<Ending> {
-        let (load, counts) = (self.load(), &mut self.counts);
+    ) -> Option<(State, Report)> {
         let mut state = State::at_rest(pressed.mesh());
-        let (report, load_reached) = raise(pressed, &mut state, load, self.settings, counts);
-        Some(Ending {
-            state,
-            report,
-            load_reached,
-        })
+        let report = raise(pressed, &mut state, self.load, self.settings, &mut self.counts);
+        Some((state, report))
     }
 
     /// `finest` itself, or, if its mesh did not carry the load, the solution on a mesh twice as fine:
@@ -270,7 +249,7 @@ impl<'w> Wave<'w> {
             None => settings.rescue_columns,
         };
         let nodes = size.order * size.columns.max(columns);
-        let contact = self.model.expected_contact(self.load());
+        let contact = self.model.expected_contact(self.load);
         let resolved = 0.5 / nodes as f64;
         (contact < resolved).then_some((contact, resolved))
     }
@@ -278,39 +257,34 @@ impl<'w> Wave<'w> {
     /// The result for a problem that no mesh can solve: the block at rest.
     fn unsolvable(&self, status: Status) -> Result<MeshSolution, KernelError> {
         let mesh = Mesh::new(&self.problem.mesh);
-        let memory = self.memory(&mesh);
-        let ending = Ending::unsolved(&mesh, status);
-        self.evaluate(mesh, &memory, ending)
+        let memory = self.model.sliding_memory(&mesh, self.passages);
+        let (state, report) = unsolved(&mesh, status);
+        self.evaluate(mesh, &memory, state, report)
     }
 
-    /// Contact and friction of an ending. `MeanShear` replaces the status of a load path that ended under
+    /// Contact and friction of a `state`, which may be unfinished. `MeanShear` replaces the status of a load path that ended under
     /// a large mean shear of the block.
     fn evaluate(
         &self,
         mesh: Mesh,
         memory: &Memory,
-        ending: Ending,
+        state: State,
+        mut report: Report,
     ) -> Result<MeshSolution, KernelError> {
-        let Ending {
-            state,
-            mut report,
-            load_reached,
-        } = ending;
         let executor = self.executor.without_deadline();
         let pressed = self.model.pressed(&mesh, memory, &executor);
         let outcome = Outcome::of(&pressed, &state, self.model.edge_law(&mesh, 1.0))
             .map_err(|_| KernelError::Stopped)?;
         let unfinished = ![Status::Converged, Status::TimeLimit].contains(&report.status);
-        let traction = outcome.friction * load_reached * self.load();
-        let modulus = self.model.maxwell.relaxation_modulus(self.passages());
-        if unfinished && (traction / modulus).abs() > self.settings.large_mean_shear {
+        let traction = outcome.friction * report.load_reached * self.load;
+        let modulus = self.model.maxwell.relaxation_modulus(self.passages);
+        if unfinished && (traction / modulus).abs() > LARGE_MEAN_SHEAR {
             report.status = Status::MeanShear;
         }
         Ok(MeshSolution {
             mesh,
             state,
             report,
-            load_reached,
             outcome,
             coarser: None,
             contact_fraction_error: f64::NAN,
@@ -334,7 +308,7 @@ impl<'w> Wave<'w> {
         let stress_ratio = start.stress_unit / self.model.stress_unit;
         let from_start = start.finest.state_on(mesh);
         let from_start = from_start.map(|state| state.in_stress_unit(stress_ratio));
-        let residual = |state: &State| newton::residual_norm(pressed, state, self.load());
+        let residual = |state: &State| newton::residual_norm(pressed, state, self.load);
         match (from_coarse, from_start) {
             (Some(coarse), Some(start)) if residual(&start) < residual(&coarse) => Some(start),
             (Some(coarse), _) => Some(coarse),
@@ -345,27 +319,9 @@ impl<'w> Wave<'w> {
             }
         }
     }
-
-    /// Mean pressure in stress units, times one wavelength.
-    fn load(&self) -> f64 {
-        self.problem.load.pressure / self.model.stress_unit
-    }
-
-    /// Load time in passages of the wave.
-    fn passages(&self) -> f64 {
-        let load = &self.problem.load;
-        load.load_time * load.speed / self.problem.profile.wavelength
-    }
-
-    fn memory(&self, mesh: &Mesh) -> Memory {
-        memory(self.model, self.passages(), mesh)
-    }
 }
 
-/// The memory of the networks on `mesh`, after a load time of `passages` of the wave.
-fn memory(model: &Model, passages: f64, mesh: &Mesh) -> Memory {
-    if model.maxwell.moduli.is_empty() {
-        return Memory::Relaxed;
-    }
-    Memory::Sliding(SlidingHistory::new(mesh.columns, &model.maxwell, passages))
+/// The block at rest, because nothing was solved.
+fn unsolved(mesh: &Mesh, status: Status) -> (State, Report) {
+    (State::at_rest(mesh), Report::unsolved(status))
 }

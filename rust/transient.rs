@@ -24,6 +24,11 @@ use crate::solve::newton;
 use crate::solve::transfer::transfer;
 use crate::status::Status;
 
+/// Longest sliding distance of one stage [wavelengths].
+const LONGEST_STAGE: f64 = 10_000.0;
+/// Parts into which a change of load is cut if a time step fails.
+const LOAD_PARTS: usize = 8;
+
 /// A stretch of time with constant speed [m/s] and pressure [Pa].
 #[derive(Debug, Clone, Copy)]
 pub struct Stage {
@@ -69,21 +74,15 @@ pub fn solve(
 ) -> Result<Run, KernelError> {
     profile.check_resolved(mesh)?;
     for stage in stages {
-        check_stage(stage, profile, settings)?;
+        check_stage(stage, profile)?;
     }
     if let Some(start) = start {
         check_start(start, rubber, profile)?;
     }
     // Stresses are in units of the modulus at the speed of the start, or of the fastest stage.
-    let fastest = stages
-        .iter()
-        .fold(0.0_f64, |v, stage| v.max(stage.speed.abs()));
+    let fastest = stages.iter().fold(0.0_f64, |v, stage| v.max(stage.speed.abs()));
     let start_speed = start.map_or(0.0, |start| start.problem.load.speed);
-    let speed = if start_speed > 0.0 {
-        start_speed
-    } else {
-        fastest
-    };
+    let speed = if start_speed > 0.0 { start_speed } else { fastest };
     let model = Model::new(rubber, profile, 1.0, TAU * speed / profile.wavelength);
     let mesh = Mesh::new(mesh);
     let mut integration =
@@ -93,26 +92,18 @@ pub fn solve(
         Err(Status::Stopped) => return Err(KernelError::Stopped),
         Err(status) => status,
     };
-    Ok(Run {
-        moments: integration.moments,
-        status,
-        counts: integration.counts,
-    })
+    Ok(Run { moments: integration.moments, status, counts: integration.counts })
 }
 
-fn check_stage(stage: &Stage, profile: &Profile, settings: &Settings) -> Result<(), KernelError> {
+fn check_stage(stage: &Stage, profile: &Profile) -> Result<(), KernelError> {
     positive("duration", stage.duration)?;
     positive("pressure", stage.pressure)?;
     finite("speed", stage.speed)?;
     let wavelengths = stage.duration * (stage.speed / profile.wavelength).abs();
-    let longest = settings.longest_stage;
-    if wavelengths <= longest {
+    if wavelengths <= LONGEST_STAGE {
         return Ok(());
     }
-    Err(KernelError::TooLong {
-        longest,
-        wavelengths,
-    })
+    Err(KernelError::TooLong { longest: LONGEST_STAGE, wavelengths })
 }
 
 fn check_start(start: &Solution, rubber: &Rubber, profile: &Profile) -> Result<(), KernelError> {
@@ -121,7 +112,7 @@ fn check_start(start: &Solution, rubber: &Rubber, profile: &Profile) -> Result<(
         | Status::ToleranceNotMet
         | Status::FrictionsDisagree
         | Status::ContactTooNarrow
-            if start.finest.load_reached == 1.0 =>
+            if start.finest.report.load_reached == 1.0 =>
         {
             start.problem.check_same(rubber, profile)
         }
@@ -185,9 +176,7 @@ impl<'a> Integration<'a> {
                 self.record(stage)?;
                 pressed = true;
             }
-            self.kept_factor
-                .iter_mut()
-                .for_each(KeptFactor::forget_last_step);
+            self.kept_factor.iter_mut().for_each(KeptFactor::forget_last_step);
             for dt in self.steps(stage) {
                 self.step(stage, dt)?;
                 self.record(stage)?;
@@ -202,7 +191,7 @@ impl<'a> Integration<'a> {
         let pressed = self.model.pressed(self.mesh, &memory, self.executor);
         let load = pressure / self.model.stress_unit;
         let counts = &mut self.counts;
-        let (report, _) = raise(&pressed, &mut self.state, load, self.settings, counts);
+        let report = raise(&pressed, &mut self.state, load, self.settings, counts);
         report.converged()?;
         let y = remembered(&pressed, &self.state);
         self.networks.advance(y, &self.model.maxwell, 0.0);
@@ -248,7 +237,6 @@ impl<'a> Integration<'a> {
         let (settings, counts) = (self.settings, &mut self.counts);
         let from: f64 = self.state.force.iter().sum();
         let mut trial = self.state.clone();
-        counts.load_steps += 1;
         if let Some(kept_factor) = &mut self.kept_factor {
             let report = kept_factor.solve(pressed, &mut trial, load, settings);
             counts.add(&report);
@@ -262,8 +250,8 @@ impl<'a> Integration<'a> {
         counts.add(&report);
         if report.status != Status::Converged {
             trial = self.state.clone();
-            for part in 1..=settings.load_parts {
-                let between = from + (load - from) * part as f64 / settings.load_parts as f64;
+            for part in 1..=LOAD_PARTS {
+                let between = from + (load - from) * part as f64 / LOAD_PARTS as f64;
                 report = newton::solve(pressed, &mut trial, between, settings);
                 counts.add(&report);
                 if report.status != Status::Converged {
@@ -273,19 +261,15 @@ impl<'a> Integration<'a> {
         }
         if report.status != Status::Converged {
             trial = State::at_rest(self.mesh);
-            report = raise(pressed, &mut trial, load, settings, counts).0;
+            report = raise(pressed, &mut trial, load, settings, counts);
         }
         self.state = trial;
         report
     }
 
     fn record(&mut self, stage: &Stage) -> Result<(), Status> {
-        let pressed = self
-            .model
-            .pressed(self.mesh, &Memory::Relaxed, self.executor);
-        let law = self
-            .model
-            .edge_law(self.mesh, stage.speed / self.wavelength);
+        let pressed = self.model.pressed(self.mesh, &Memory::Relaxed, self.executor);
+        let law = self.model.edge_law(self.mesh, stage.speed / self.wavelength);
         let outcome = Outcome::of(&pressed, &self.state, law)?;
         self.moments.push(Moment {
             time: self.time,
@@ -322,7 +306,5 @@ fn networks(
 /// Y at all Gauss points in `state`, which the temporary networks remember.
 fn remembered(pressed: &PressedBlock<'_>, state: &State) -> Points {
     let block = &pressed.block;
-    (0..block.mesh.rows)
-        .map(|row| block.row_state(row, &state.field.u).remembered())
-        .collect()
+    (0..block.mesh.rows).map(|row| block.row_state(row, &state.field.u).remembered()).collect()
 }

@@ -14,7 +14,6 @@ import numpy as np
 
 import gripscale as gs
 from gripscale.half_space import surface_of_sines
-from gripscale.theory import solve_half_plane
 from studies.finite_strain_pairs import FiniteStrainPairs, solve_both_ways
 from studies.shipped import tread
 
@@ -68,7 +67,7 @@ def main() -> None:
             gs.solve_chain(
                 rubber, stack, pressure=PRESSURE, speed=SPEED, footprint=FOOTPRINT, solver=solver
             )
-            for solver in (gs.solve_scale, solve_half_plane)
+            for solver in ("finite_strain", "half_plane")
         ]
         numbers = ", ".join(map(str, row.numbers))
         kept = f"{len(pairs.converged)} of {len(pairs.pairs)}"

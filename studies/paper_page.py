@@ -49,7 +49,7 @@ def _summary(statements: Sequence[Statement]) -> Iterator[str]:
     yield f"{number_holding(statements)}:\n"
     table = verdict_table(statements)
     yield f"| {' | '.join(column.name for column in table.columns)} |\n|---|---|---|---|---|"
-    for figure, said, *counts in table.rows():
+    for figure, said, *counts in zip(*(column.values for column in table.columns), strict=True):
         yield f"| Figure {figure} | {said} | {' | '.join(str(n or '') for n in counts)} |"
     yield ""
 

@@ -21,6 +21,7 @@ use gripscale_kernel::fem::pattern::Pattern;
 use gripscale_kernel::model::Model;
 use gripscale_kernel::problem::{Energy, Heights, Load, MeshSize, Problem, Profile, Rubber};
 use gripscale_kernel::settings::Settings;
+use gripscale_kernel::solution::MeshSolution;
 use gripscale_kernel::solve::newton;
 use gripscale_kernel::solve::transfer::transfer;
 use gripscale_kernel::status::Status;
@@ -96,7 +97,12 @@ impl Solved {
         let (problem, settings) = (problem(case, slides, mesh), Settings::default());
         let solution = steady::solve(&problem, &settings, None, None, &serial()).ok()?;
         let converged = solution.finest.report.status == Status::Converged;
-        let (mesh, state, coarser) = solution.finest.into_parts();
+        let MeshSolution {
+            mesh,
+            state,
+            coarser,
+            ..
+        } = solution.finest;
         let (coarse, coarse_state) = coarser?;
         let wanted = Mesh::new(&problem.mesh);
         let solved = converged && mesh.same(&wanted);

@@ -1,26 +1,16 @@
 """A tread as a brush: the braking force of bristles that stick and slide in a contact patch.
 
-A bristle enters a patch of length L with the wheel, at v (1 - s), while the road passes at v. Its
-tip sticks and is sheared; once the stress reaches the friction it slides to the end of the patch.
-With y = x/L from the entry, stiffness k and sigma = s/(1 - s),
+With y = x/L from the entry of a patch of length L, stiffness k, slip s, sigma = s/(1 - s) and the
+speed v of the road (docs/tyre.md),
 
     p(y)      = 6 p_0 y (1 - y)                          pressure, mean p_0
-    tau(y)    = k sigma L y                              sticking
-    tau(y)    = mu(v_s, p, T) p(y)                       sliding
+    tau(y)    = k sigma L y  sticking,    mu(v_s, p, T) p(y)  sliding
     v_s(y)    = s v - (1 - s) v (6 p_0 / (k L)) mu (1 - 2 y)
+    T(t)      = 1/(e sqrt(pi)) int_0^t mu p v_s / sqrt(t - t') dt'    warming, effusivity e
 
-the last from the shear d(mu p/k)/dx that a sliding bristle gains or gives back, without the change
-of mu along the patch. Sources: S. K. Clark (ed.), Mechanics of Pneumatic Tires (1981), ch. 6;
-H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed. (2012), sec. 3.2, doi:10.1016/C2010-0-68548-8.
-For a constant mu the force over the load is
-
-    mu (1 - (1 - sigma/sigma*)^3)  up to  sigma* = 6 mu p_0 / (k L),    mu beyond.
-
-A sliding bristle takes up the heat mu p v_s, the road none. On a half-space of effusivity e, with
-t the time since the bristle began to slide (H. S. Carslaw & J. C. Jaeger, Conduction of Heat in
-Solids, 2nd ed. (1959), sec. 2.9),
-
-    T(t) = 1/(e sqrt(pi)) int_0^t q(t') / sqrt(t - t') dt'.
+Sources: S. K. Clark (ed.), Mechanics of Pneumatic Tires (1981), ch. 6; H. B. Pacejka, Tire and
+Vehicle Dynamics, 3rd ed. (2012), sec. 3.2, doi:10.1016/C2010-0-68548-8; H. S. Carslaw & J. C.
+Jaeger, Conduction of Heat in Solids, 2nd ed. (1959), sec. 2.9.
 """
 
 from __future__ import annotations

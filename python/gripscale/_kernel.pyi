@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "GapExtension",
     "Line",
     "Run",
     "Solution",
@@ -18,6 +19,14 @@ __all__ = [
 ]
 
 @final
+class GapExtension:
+    @staticmethod
+    def of_line(active: NDArray[np.bool_], reach: float | None) -> GapExtension: ...
+    @staticmethod
+    def of_map(active: NDArray[np.bool_], far: float) -> GapExtension: ...
+    def extend(self, values: NDArray[np.float32]) -> None: ...
+
+@final
 class Line:
     def __new__(cls, points: int) -> Line: ...
     def filtered(
@@ -28,7 +37,7 @@ class Line:
         right: NDArray[np.float32],
         places: NDArray[np.int64],
         filters: list[NDArray[np.complex64]],
-        extension: tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float32]],
+        extension: GapExtension,
         numbers: tuple[float, float, int],
     ) -> tuple[NDArray[np.float32], float, int]: ...
 

@@ -41,22 +41,15 @@ from gripscale.experiment.task import Task, canonical_json
 from gripscale.model import FOOTPRINT, Load, LoadTime, Model, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber
-from gripscale.surface import (
-    HeightMap,
-    Measured,
-    Profile,
-    SineStack,
-    Spectrum,
-    Surface,
-    clean,
-    fit_self_affine,
-    fit_sines,
-    height_difference,
-)
+from gripscale.surface.cleaning import clean
 from gripscale.surface.cut_off import CutOffRule, find_cut_off
-from gripscale.surface.long_waves import longest_held
-from gripscale.surface.random_phases import PHASES_OF
-from gripscale.surface.surface import SURFACE_KIND, SURFACE_KINDS, SurfaceKind
+from gripscale.surface.height_difference import fit_self_affine, height_difference
+from gripscale.surface.low_pass import longest_held
+from gripscale.surface.profile import HeightMap, Profile
+from gripscale.surface.random_phases import PHASES_OF, Spectrum
+from gripscale.surface.sine_fit import fit_sines
+from gripscale.surface.sines import SineStack
+from gripscale.surface.surface import SURFACE_KIND, SURFACE_KINDS, Measured, Surface, SurfaceKind
 from gripscale.testers import TESTER, TESTERS, tester_findings
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 
@@ -316,12 +309,8 @@ class Case(Described):
                 raise InputError(f"longest_wavelength needs profiles; got {surface.source}")
             longest = si_value("longest_wavelength", changes["longest_wavelength"], "m")
             lines = [raw for raw, _ in (*measured.profiles, *measured.across)]
-            measured = Measured.of(lines)
-            if self.cleaning:
-                options = self.cleaning | {"longest_wavelength": longest}
-                measured = Measured.of_raw(lines, options)
-            elif longest is not None:
-                measured = measured.without_long_waves(longest)
+            options = self.cleaning and self.cleaning | {"longest_wavelength": None}
+            measured = _measured(lines, options, longest)
             held = changes.get("footprint", self.load.footprint)
             surface = described_surface(
                 measured,
@@ -589,6 +578,14 @@ def described_surface(
     return replace(fitted, spectrum=spectrum)
 
 
+def _measured(
+    lines: Sequence[Profile], cleaning: Mapping[str, Any], longest: float | None
+) -> Measured:
+    """Return profiles, cleaned if `cleaning` is not empty, up to the longest wavelength, if any."""
+    measured = Measured.of_raw(lines, cleaning) if cleaning else Measured.of(lines)
+    return measured if longest is None else measured.without_long_waves(longest)
+
+
 def _surface(
     surface: SurfaceLike,
     end: float | None,
@@ -620,9 +617,7 @@ def _surface(
                 replace(line, name=f"{line.name or 'profile'} {number}")
                 for number, line in enumerate(lines, start=1)
             ]
-        measured = Measured.of_raw(lines, cleaning) if cleaning else Measured.of(lines)
-        if longest is not None:
-            measured = measured.without_long_waves(longest)
+        measured = _measured(lines, cleaning, longest)
         sources = [line.source for line in lines]
     rule: CutOffRule | None = "instrument" if end is None else None
     fit = {"scales": waves, "smallest_wavelength": end}

@@ -64,12 +64,7 @@ impl<'a> ActiveSetSystem<'a> {
             None => factored(compliance, &active_nodes),
             Some(inverse) => preconditioned(inverse, active_set, &active_nodes),
         };
-        Ok(Self {
-            compliance,
-            nodes: active_set.len(),
-            active_nodes,
-            method,
-        })
+        Ok(Self { compliance, nodes: active_set.len(), active_nodes, method })
     }
 
     /// Forces at all nodes with the sum `load`, and the approach, that close the gaps `free_gap` of the
@@ -108,8 +103,7 @@ impl<'a> ActiveSetSystem<'a> {
             out.copy_from_slice(&self.opening(&force, approach));
         };
         let solution = gmres(apply, &residual, target, GMRES_LIMITS, executor)?;
-        let (force_change, approach_change) =
-            self.precondition(preconditioner, &solution.y, 0.0);
+        let (force_change, approach_change) = self.precondition(preconditioner, &solution.y, 0.0);
         add(&mut force, 1.0, &force_change);
         approach += approach_change;
         Ok((norm(&solution.residual) <= target).then_some((force, approach)))
@@ -150,10 +144,7 @@ impl<'a> ActiveSetSystem<'a> {
 fn factored<'a>(compliance: &dyn Compliance, active_nodes: &[usize]) -> Method<'a> {
     let n = active_nodes.len();
     // A border of the size of the compliance, so that pivoting compares rows of one size.
-    let border = compliance
-        .entry(active_nodes[0], active_nodes[0])
-        .abs()
-        .max(1e-300);
+    let border = compliance.entry(active_nodes[0], active_nodes[0]).abs().max(1e-300);
     let entry = |i: usize, j: usize| {
         if i < n && j < n {
             compliance.entry(active_nodes[i], active_nodes[j])
@@ -186,10 +177,7 @@ fn preconditioned<'a>(
 ) -> Method<'a> {
     let ones: Vec<f64> = active_set.iter().map(|&active| f64::from(active)).collect();
     let force_by_approach = restrict(&inverse(&ones), active_nodes);
-    Method::Iterative(Preconditioner {
-        inverse,
-        force_by_approach,
-    })
+    Method::Iterative(Preconditioner { inverse, force_by_approach })
 }
 
 /// The values at the active nodes.

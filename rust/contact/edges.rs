@@ -12,10 +12,7 @@ pub struct EdgeLaw {
 impl EdgeLaw {
     /// From storage and loss modulus: a power law of exponent a has loss angle a pi / 2.
     pub fn new(storage: f64, loss: f64, forward: bool) -> Self {
-        Self {
-            power: loss.atan2(storage) / std::f64::consts::FRAC_PI_2,
-            forward,
-        }
+        Self { power: loss.atan2(storage) / std::f64::consts::FRAC_PI_2, forward }
     }
 
     /// Exponents of pressure inside and gap outside at the edge on the side `outward` of x, and the
@@ -57,15 +54,10 @@ pub fn contacts(
             let at = |i: isize| {
                 let index = a as isize + i;
                 let node = index.rem_euclid(n as isize);
-                (
-                    x[node as usize] + index.div_euclid(n as isize) as f64,
-                    node as usize,
-                )
+                (x[node as usize] + index.div_euclid(n as isize) as f64, node as usize)
             };
             let open = |from: isize, outward: isize| {
-                (0..n as isize)
-                    .take_while(|i| !active_set[at(from + i * outward).1])
-                    .count()
+                (0..n as isize).take_while(|i| !active_set[at(from + i * outward).1]).count()
             };
             let last = length as isize - 1;
             let end = |last: isize, outward: isize| Edge {

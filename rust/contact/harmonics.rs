@@ -25,8 +25,11 @@ const POINTS_PER_WAVE: usize = 32;
 pub struct Harmonics {
     /// Real and imaginary part of c_1, c_2 ...
     coefficients: Vec<(f64, f64)>,
-    range: (f64, f64),
-    full_contact_pressure: f64,
+    /// Smallest and largest height.
+    pub range: (f64, f64),
+    /// Mean pressure that balances the largest pull closing the gap of a half-plane of nu = 1/2 and
+    /// unit shear modulus: wave n of height h_n(x) takes the pressure 4 pi n h_n(x).
+    pub full_contact_pressure: f64,
 }
 
 impl Harmonics {
@@ -55,15 +58,11 @@ impl Harmonics {
     }
 
     fn of(coefficients: Vec<(f64, f64)>) -> Self {
-        let mut harmonics = Self {
-            coefficients,
-            range: (0.0, 0.0),
-            full_contact_pressure: 0.0,
-        };
+        let mut harmonics = Self { coefficients, range: (0.0, 0.0), full_contact_pressure: 0.0 };
         harmonics.range = harmonics.extremes();
-        harmonics.full_contact_pressure = harmonics.fine_points().fold(0.0, |most, x| {
-            most.max(-4.0 * PI * harmonics.sum(x, |n| n).0)
-        });
+        harmonics.full_contact_pressure = harmonics
+            .fine_points()
+            .fold(0.0, |most, x| most.max(-4.0 * PI * harmonics.sum(x, |n| n).0));
         harmonics
     }
 
@@ -72,8 +71,8 @@ impl Harmonics {
     /// Its kernel is positive, so that no crest rises that the heights do not have: without it the waves
     /// ring beside a step of the heights, by 9 % of the step, at every number of waves elsewhere (Gibbs).
     pub fn smoothed(&self, kept: usize) -> Self {
-        let kept = kept.clamp(1, self.len());
-        if kept == self.len() {
+        let kept = kept.clamp(1, self.waves());
+        if kept == self.waves() {
             return self.clone();
         }
         let filtered = |(i, &(re, im)): (usize, &(f64, f64))| {
@@ -88,12 +87,9 @@ impl Harmonics {
         let wave = |of: &Self, n: usize| of.coefficients.get(n).copied().unwrap_or_default();
         let between = |n: usize| {
             let (from, to) = (wave(self, n), wave(other, n));
-            (
-                from.0 + share * (to.0 - from.0),
-                from.1 + share * (to.1 - from.1),
-            )
+            (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
         };
-        Self::of((0..self.len().max(other.len())).map(between).collect())
+        Self::of((0..self.waves().max(other.waves())).map(between).collect())
     }
 
     /// The same heights in units of `length`.
@@ -107,12 +103,8 @@ impl Harmonics {
     }
 
     /// Number of the last harmonic: the smallest wave is the period over it.
-    pub fn len(&self) -> usize {
+    pub fn waves(&self) -> usize {
         self.coefficients.len()
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.coefficients.is_empty()
     }
 
     pub fn height(&self, x: f64) -> f64 {
@@ -127,25 +119,11 @@ impl Harmonics {
         -TAU * TAU * self.sum(x, |n| n * n).0
     }
 
-    pub fn range(&self) -> (f64, f64) {
-        self.range
-    }
-
     /// Root of two times the rms slope: of N waves the root of the sum of their squares.
     pub fn steepness(&self) -> f64 {
         let slope = |(i, &(re, im)): (usize, &(f64, f64))| TAU * (i + 1) as f64 * re.hypot(im);
-        let squares = self
-            .coefficients
-            .iter()
-            .enumerate()
-            .map(|wave| slope(wave).powi(2));
+        let squares = self.coefficients.iter().enumerate().map(|wave| slope(wave).powi(2));
         squares.sum::<f64>().sqrt()
-    }
-
-    /// Mean pressure that balances the largest pull closing the gap of a half-plane of nu = 1/2 and
-    /// unit shear modulus: wave n of height h_n(x) takes the pressure 4 pi n h_n(x).
-    pub fn full_contact_pressure(&self) -> f64 {
-        self.full_contact_pressure
     }
 
     /// Size of the curvature where the heights are highest.
@@ -167,7 +145,7 @@ impl Harmonics {
     }
 
     fn fine_points(&self) -> impl Iterator<Item = f64> {
-        let points = POINTS_PER_WAVE * self.len();
+        let points = POINTS_PER_WAVE * self.waves();
         (0..points).map(move |i| i as f64 / points as f64)
     }
 
@@ -185,7 +163,7 @@ impl Harmonics {
             }
         }
         let at_extreme = |x: f64| {
-            let step = 1.0 / (POINTS_PER_WAVE * self.len()) as f64;
+            let step = 1.0 / (POINTS_PER_WAVE * self.waves()) as f64;
             let toward = |y: f64, _| {
                 let next = y - self.slope(y) / self.curvature(y);
                 next.clamp(x - step, x + step)
@@ -201,7 +179,7 @@ impl Harmonics {
 impl fmt::Debug for Harmonics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (lowest, highest) = self.range;
-        let (count, height, slope) = (self.len(), self.height(0.0), self.slope(0.0));
+        let (count, height, slope) = (self.waves(), self.height(0.0), self.slope(0.0));
         write!(
             f,
             "sampled heights of {count} harmonics from {lowest:?} to {highest:?}, at x = 0 {height:?} with slope {slope:?}"

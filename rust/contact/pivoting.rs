@@ -15,6 +15,9 @@ use crate::linear::add;
 use crate::settings::Settings;
 use crate::status::Status;
 
+/// Changes of single nodes of the active set.
+const ROUNDS: usize = 2000;
+
 /// Bounds are moved further than needed by up to this share, different for each node, to avoid ties.
 const SPREAD: f64 = 0.1;
 /// Fractional parts of the multiples of the golden ratio are well separated.
@@ -29,12 +32,13 @@ pub fn solve<'a>(
 ) -> Result<(Contact, ActiveSetSystem<'a>), Status> {
     let mut path = Path::new(problem, start, settings, executor)?;
     let (mut t, mut falling) = (1.0, true);
-    for _ in 0..settings.single_node_rounds {
+    for _ in 0..ROUNDS {
         let (system, [fixed, slope]) = path.lines(executor)?;
         if let Some(node) = path.changed {
             // The force or gap that the node has gained is zero here and must grow.
             falling = slope.distance[node] < 0.0;
         }
+        // Follow the path to its next kink, or to t = 0.
         let kink = next_kink(&fixed.distance, &slope.distance, t, falling);
         let step = kink.map_or(f64::INFINITY, |(_, step)| step);
         if falling && step >= t {
@@ -45,6 +49,7 @@ pub fn solve<'a>(
             };
             return Ok((contact, system));
         }
+        // One node enters or leaves the set there.
         let (node, _) = kink.ok_or(Status::NoActiveSet)?;
         t += if falling { -step } else { step };
         path.active_set[node] = !path.active_set[node];
@@ -91,11 +96,7 @@ impl<'a, 's> Path<'a, 's> {
         let (_, [fixed, _]) = path.lines(executor)?;
         for (i, distance) in fixed.distance.iter().enumerate() {
             let spread = 1.0 + SPREAD * (GOLDEN * (i + 1) as f64).fract();
-            let shift = if start[i] {
-                &mut path.force_shift
-            } else {
-                &mut path.gap_shift
-            };
+            let shift = if start[i] { &mut path.force_shift } else { &mut path.gap_shift };
             shift[i] = spread * (-distance).max(0.0);
         }
         Ok(path)
@@ -140,11 +141,7 @@ impl<'a, 's> Path<'a, 's> {
                 false => gap[i] + t * self.gap_shift[i],
             })
             .collect();
-        Ok(Line {
-            force,
-            approach,
-            distance,
-        })
+        Ok(Line { force, approach, distance })
     }
 }
 

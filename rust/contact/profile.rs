@@ -32,9 +32,7 @@ impl Heights {
     /// The same heights in units of `length`.
     pub fn over(&self, length: f64) -> Self {
         match self {
-            Self::Sine { amplitude } => Self::Sine {
-                amplitude: amplitude / length,
-            },
+            Self::Sine { amplitude } => Self::Sine { amplitude: amplitude / length },
             Self::Sampled(harmonics) => Self::Sampled(harmonics.over(length)),
         }
     }
@@ -64,7 +62,7 @@ impl Heights {
     pub fn range(&self) -> (f64, f64) {
         match self {
             Self::Sine { amplitude } => (-amplitude, *amplitude),
-            Self::Sampled(harmonics) => harmonics.range(),
+            Self::Sampled(harmonics) => harmonics.range,
         }
     }
 
@@ -96,7 +94,7 @@ impl Heights {
     pub fn full_contact_pressure(&self) -> f64 {
         match self {
             Self::Sine { amplitude } => 4.0 * PI * amplitude,
-            Self::Sampled(harmonics) => harmonics.full_contact_pressure(),
+            Self::Sampled(harmonics) => harmonics.full_contact_pressure,
         }
     }
 
@@ -123,7 +121,7 @@ impl Heights {
     pub fn waves(&self) -> usize {
         match self {
             Self::Sine { .. } => 1,
-            Self::Sampled(harmonics) => harmonics.len(),
+            Self::Sampled(harmonics) => harmonics.waves(),
         }
     }
 
@@ -131,7 +129,7 @@ impl Heights {
     pub fn fewest_nodes(&self) -> usize {
         match self {
             Self::Sine { .. } => 0,
-            Self::Sampled(harmonics) => NODES_PER_WAVE * harmonics.len(),
+            Self::Sampled(harmonics) => NODES_PER_WAVE * harmonics.waves(),
         }
     }
 }

@@ -141,12 +141,8 @@ impl SampledProfile {
     /// The profile under nodes at the abscissae `x`.
     pub fn new(heights: &Heights, sampling: Sampling, mesh: &Mesh, x: Vec<f64>) -> Self {
         let order = mesh.order;
-        let mut sampled = Self {
-            sampling,
-            height: vec![0.0; x.len()],
-            slope: Band::new(order, x.len()),
-            x,
-        };
+        let mut sampled =
+            Self { sampling, height: vec![0.0; x.len()], slope: Band::new(order, x.len()), x };
         for (node, point, at) in sampled.points(order) {
             let (height, slope) = (heights.height(at), heights.slope(at));
             for (i, weight) in point.weight[..=order].iter().enumerate() {

@@ -62,16 +62,14 @@ impl<'a> SurfaceCompliance<'a> {
 
     /// Displacements of the surface layer by nodal forces on it.
     pub fn displacements(&self, forces: &[f64]) -> Vec<f64> {
-        self.average
-            .surface_displacements(forces, &mut self.lines.clone())
+        convolve(&self.average.surface, forces, &mut self.lines.clone())
     }
 
     /// What displacements of the surface layer add to the gaps.
     pub fn opening(&self, u: &[f64]) -> Vec<f64> {
         let shift = self.mesh.mean_shift(u);
         let along = |a: usize| u[self.mesh.position(a, 0)] - shift;
-        let opening =
-            |a: usize| u[self.mesh.position(a, 1)] - self.slope.product(along, a);
+        let opening = |a: usize| u[self.mesh.position(a, 1)] - self.slope.product(along, a);
         (0..self.mesh.layer_nodes()).map(opening).collect()
     }
 
@@ -164,8 +162,6 @@ impl Compliance for SurfaceCompliance<'_> {
 
     fn approximate_inverse(&self, active_nodes: &[usize]) -> Option<ApproximateInverse<'_>> {
         let harmonics = self.inverse_harmonics(active_nodes)?;
-        Some(Box::new(move |opening| {
-            self.nearly_opening(&harmonics, opening)
-        }))
+        Some(Box::new(move |opening| self.nearly_opening(&harmonics, opening)))
     }
 }

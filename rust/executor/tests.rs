@@ -11,18 +11,15 @@ use crate::cancel::Cancel;
 use crate::error::KernelError;
 use crate::solution::Solution;
 
-use crate::case::Case;
+use crate::tests::fixture::Case;
 
 /// Any number is worth a thread.
 const EAGER: usize = 1;
 
 fn wave(order: usize, speed: f64) -> Case {
-    let mut case = Case::elastic(0.15, 0.6);
+    let case = Case::elastic(0.15, 0.6).sliding(speed, &[(2.0, 0.05), (6.0, 0.4)]);
     // Several bands of harmonics, several pieces of a vector, and a last band of one row.
-    (case.columns, case.rows, case.order) = (256 / order, 22 / order + 1, order);
-    (case.moduli, case.relaxation_times) = (vec![2.0, 6.0], vec![0.05, 0.4]);
-    (case.speed, case.load_time) = (speed, 3.0);
-    case
+    Case { load_time: 3.0, ..case.on_mesh(256 / order, 22 / order + 1, order) }
 }
 
 /// Every bit of the results of a wave and of its state.
@@ -55,10 +52,7 @@ fn no_bit_depends_on_the_number_of_threads() {
             let threads = Threads::each_worth(count, EAGER);
             let executor = Executor::new(&threads, Cancel::never());
             let together = bits(&case.solve_with(None, &executor).unwrap());
-            assert!(
-                alone == together,
-                "order {order}, speed {speed}: {count} threads"
-            );
+            assert!(alone == together, "order {order}, speed {speed}: {count} threads");
         }
     }
 }
@@ -72,9 +66,7 @@ fn every_part_is_done_once_and_by_all_threads() {
     let who = Mutex::new(BTreeSet::new());
     threads.share(60, &mut workspaces, done.iter_mut(), |workspace, part| {
         thread::sleep(Duration::from_millis(2));
-        who.lock()
-            .unwrap()
-            .insert(format!("{:?}", thread::current().id()));
+        who.lock().unwrap().insert(format!("{:?}", thread::current().id()));
         *part += 1;
         *workspace += 1;
     });
@@ -121,8 +113,7 @@ fn a_caller_that_stops_is_heard_by_its_own_thread_alone() {
         asked.get() == 2
     };
     let threads = Threads::each_worth(2, EAGER);
-    let mut case = wave(1, 1.0);
-    case.columns = 1024;
+    let case = Case { columns: 1024, ..wave(1, 1.0) };
     let cancel = Cancel::new(&stopped, None).unwrap();
     let ended = case.solve_with(None, &Executor::new(&threads, cancel));
     assert!(matches!(ended, Err(KernelError::Stopped)));

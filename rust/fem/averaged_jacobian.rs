@@ -6,6 +6,8 @@
 //! costs two transforms a layer and O(rows) a harmonic. Harmonics are independent of one another and are
 //! solved in blocks of neighbours.
 
+use std::f64::consts::TAU;
+
 use super::harmonic_block::{product, Coefficients, HarmonicBlock, HarmonicWorkspace};
 use super::harmonic_row::HarmonicRow;
 use super::jacobian::Jacobian;
@@ -41,14 +43,13 @@ pub struct SolutionWorkspace<'t> {
 impl<'a> AveragedJacobian<'a> {
     pub fn new(jacobian: &Jacobian<'a>, executor: &Executor<'_>) -> Result<Self, Status> {
         let mesh = jacobian.mesh;
-        let lines = Lines::new(mesh.columns);
-        let harmonics = lines.harmonics();
+        let harmonics = mesh.columns / 2 + 1;
         let averaged =
             |row: usize| HarmonicRow::new(mesh, row, jacobian.averages(row), jacobian.bulk_modulus);
         let averaged = executor.map(jacobian.size(), mesh.rows, averaged)?;
         let factors = |k: usize| {
             let weight = jacobian.memory.as_ref().map(|weights| weights[k]);
-            (lines.phase_step(k), weight)
+            (Complex64::cis(TAU * k as f64 / mesh.columns as f64), weight)
         };
         let count = harmonics.div_ceil(BLOCK_HARMONICS);
         let eliminate = |block: usize| {
@@ -67,12 +68,7 @@ impl<'a> AveragedJacobian<'a> {
             put(&mut surface, harmonics, &response, (block.from, block.count));
             blocks.push(block);
         }
-        Ok(Self {
-            mesh,
-            harmonics,
-            blocks,
-            surface,
-        })
+        Ok(Self { mesh, harmonics, blocks, surface })
     }
 
     pub fn workspace<'t>(&self, threads: &'t Threads) -> SolutionWorkspace<'t> {
@@ -110,34 +106,23 @@ impl<'a> AveragedJacobian<'a> {
         let (columns, count) = (self.mesh.columns, self.harmonics);
         let spectra = work.spectra.chunks_exact_mut(count);
         let lines = right.chunks_exact(columns).zip(spectra);
-        work.threads
-            .share(self.size(), &mut work.lines, lines, |lines, (line, to)| {
-                lines.forward(line, to);
-            });
+        work.threads.share(self.size(), &mut work.lines, lines, |lines, (line, to)| {
+            lines.forward(line, to);
+        });
         let (spectra, blocks) = (&work.spectra, self.blocks.iter().zip(&mut work.blocks));
-        work.threads
-            .share(self.size(), &mut work.sums, blocks, |sum, (block, work)| {
-                let (layers, pressures) = spectra.split_at(work.layers.len() / block.count * count);
-                let range = (block.from, block.count);
-                take(&mut work.layers, layers, count, range);
-                take(&mut work.pressures, pressures, count, range);
-                block.reduce(self.mesh, work, sum);
-            });
+        work.threads.share(self.size(), &mut work.sums, blocks, |sum, (block, work)| {
+            let (layers, pressures) = spectra.split_at(work.layers.len() / block.count * count);
+            let range = (block.from, block.count);
+            take(&mut work.layers, layers, count, range);
+            take(&mut work.pressures, pressures, count, range);
+            block.reduce(self.mesh, work, sum);
+        });
         let lowest = self.lowest();
         for (block, from) in self.blocks.iter().zip(&work.blocks) {
             let reduced = &from.layers[..lowest * block.count];
             put(&mut work.spectra, count, reduced, (block.from, block.count));
         }
-        multiply(
-            &self.surface,
-            &work.spectra[..lowest * count],
-            &mut work.lines[0],
-        )
-    }
-
-    /// Displacements of the surface layer by forces on it.
-    pub fn surface_displacements(&self, forces: &[f64], lines: &mut Lines) -> Vec<f64> {
-        convolve(&self.surface, forces, lines)
+        multiply(&self.surface, &work.spectra[..lowest * count], &mut work.lines[0])
     }
 
     /// Complete the solution that `reduce` began, from the displacements of the surface.
@@ -148,25 +133,23 @@ impl<'a> AveragedJacobian<'a> {
             work.lines[0].forward(line, spectrum);
         }
         let (spectra, blocks) = (&work.spectra, self.blocks.iter().zip(&mut work.blocks));
-        work.threads
-            .share(self.size(), &mut work.sums, blocks, |_, (block, work)| {
-                let lowest = &mut work.layers[..self.lowest() * block.count];
-                take(lowest, spectra, count, (block.from, block.count));
-                block.expand(self.mesh, work);
-            });
+        work.threads.share(self.size(), &mut work.sums, blocks, |_, (block, work)| {
+            let lowest = &mut work.layers[..self.lowest() * block.count];
+            take(lowest, spectra, count, (block.from, block.count));
+            block.expand(self.mesh, work);
+        });
         let (blocks, lines) = (&work.blocks, out.chunks_exact_mut(columns).enumerate());
         let layers = (self.mesh.layers() - 1) * self.lowest();
-        work.threads
-            .share(self.size(), &mut work.lines, lines, |lines, (at, line)| {
-                let pieces = self.blocks.iter().zip(blocks).map(|(block, work)| {
-                    let from = match at.checked_sub(layers) {
-                        None => work.layers[at * block.count..].as_ref(),
-                        Some(at) => &work.pressures[at * block.count..],
-                    };
-                    &from[..block.count]
-                });
-                lines.inverse_of_pieces(pieces, line);
+        work.threads.share(self.size(), &mut work.lines, lines, |lines, (at, line)| {
+            let pieces = self.blocks.iter().zip(blocks).map(|(block, work)| {
+                let from = match at.checked_sub(layers) {
+                    None => work.layers[at * block.count..].as_ref(),
+                    Some(at) => &work.pressures[at * block.count..],
+                };
+                &from[..block.count]
             });
+            lines.inverse_of_pieces(pieces, line);
+        });
     }
 }
 
@@ -175,10 +158,7 @@ impl<'a> AveragedJacobian<'a> {
 pub fn convolve(blocks: &[Complex64], values: &[f64], lines: &mut Lines) -> Vec<f64> {
     let (columns, count) = (lines.length(), lines.harmonics());
     let mut spectra = vec![Complex64::default(); values.len() / columns * count];
-    for (line, spectrum) in values
-        .chunks_exact(columns)
-        .zip(spectra.chunks_exact_mut(count))
-    {
+    for (line, spectrum) in values.chunks_exact(columns).zip(spectra.chunks_exact_mut(count)) {
         lines.forward(line, spectrum);
     }
     multiply(blocks, &spectra, lines)
@@ -190,10 +170,7 @@ fn multiply(blocks: &[Complex64], spectra: &[Complex64], lines: &mut Lines) -> V
     let mut products = vec![Complex64::default(); spectra.len()];
     product(&mut products, blocks, spectra, 1.0, count);
     let mut values = vec![0.0; spectra.len() / count * columns];
-    for (spectrum, line) in products
-        .chunks_exact(count)
-        .zip(values.chunks_exact_mut(columns))
-    {
+    for (spectrum, line) in products.chunks_exact(count).zip(values.chunks_exact_mut(columns)) {
         lines.inverse(spectrum, line);
     }
     values
@@ -206,10 +183,7 @@ fn take(
     harmonics: usize,
     (from, count): (usize, usize),
 ) {
-    for (to, line) in to
-        .chunks_exact_mut(count)
-        .zip(lines.chunks_exact(harmonics))
-    {
+    for (to, line) in to.chunks_exact_mut(count).zip(lines.chunks_exact(harmonics)) {
         to.copy_from_slice(&line[from..from + count]);
     }
 }
@@ -221,10 +195,7 @@ fn put(
     part: &[Complex64],
     (from, count): (usize, usize),
 ) {
-    for (line, part) in lines
-        .chunks_exact_mut(harmonics)
-        .zip(part.chunks_exact(count))
-    {
+    for (line, part) in lines.chunks_exact_mut(harmonics).zip(part.chunks_exact(count)) {
         line[from..from + count].copy_from_slice(part);
     }
 }

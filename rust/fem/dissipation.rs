@@ -32,10 +32,7 @@ impl Block<'_> {
         let since = self.strain_since(rows, executor)?;
         let curve = history.dissipation.curve(&since.whole);
         let lost = |part: &Vec<f64>| history.dissipation.lost_on(&curve, part);
-        Ok(Loss {
-            whole: lost(&since.whole),
-            rows: since.rows.iter().map(lost).collect(),
-        })
+        Ok(Loss { whole: lost(&since.whole), rows: since.rows.iter().map(lost).collect() })
     }
 
     /// The sums of y(x - m) : c(x) - y(x) : c(x) with y = Y - I and c = Cbar - I, which keep the digits of
@@ -54,13 +51,9 @@ impl Block<'_> {
         };
         let mut parts = executor.map(100 * self.mesh.points(), rows.len(), of_row)?;
         for part in &mut parts {
-            whole
-                .iter_mut()
-                .zip(part.iter())
-                .for_each(|(sum, product)| *sum += product);
+            whole.iter_mut().zip(part.iter()).for_each(|(sum, product)| *sum += product);
             let undelayed = part[0];
-            part.iter_mut()
-                .for_each(|product| *product -= undelayed);
+            part.iter_mut().for_each(|product| *product -= undelayed);
         }
         let undelayed = whole[0];
         for (m, product) in whole.iter_mut().enumerate() {

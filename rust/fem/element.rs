@@ -70,26 +70,12 @@ impl Element {
             for &(xi, weight_x) in &rule {
                 gradient.push(gradients(order, xi, eta, width, height));
                 weight.push(weight_x * weight_z * width * height / 4.0);
-                mode.push(if order == 1 {
-                    vec![1.0]
-                } else {
-                    vec![1.0, xi, eta]
-                });
+                mode.push(if order == 1 { vec![1.0] } else { vec![1.0, xi, eta] });
             }
         }
         let area = width * height;
-        let mode_mass = if order == 1 {
-            vec![area]
-        } else {
-            vec![area, area / 3.0, area / 3.0]
-        };
-        Self {
-            order,
-            gradient,
-            weight,
-            mode,
-            mode_mass,
-        }
+        let mode_mass = if order == 1 { vec![area] } else { vec![area, area / 3.0, area / 3.0] };
+        Self { order, gradient, weight, mode, mode_mass }
     }
 
     pub fn nodes(&self) -> usize {
@@ -103,10 +89,7 @@ fn gradients(order: usize, xi: f64, eta: f64, width: f64, height: f64) -> Vec<[f
     let mut out = Vec::with_capacity(nx.len() * nz.len());
     for layer in 0..=order {
         for column in 0..=order {
-            out.push([
-                dx[column] * nz[layer] * 2.0 / width,
-                nx[column] * dz[layer] * 2.0 / height,
-            ]);
+            out.push([dx[column] * nz[layer] * 2.0 / width, nx[column] * dz[layer] * 2.0 / height]);
         }
     }
     out

@@ -11,9 +11,7 @@ impl RowState {
     /// Y at the points of the row, which the temporary networks remember, `[line][column * points + point]`.
     pub fn remembered(&self) -> Vec<Vec<Symmetric>> {
         let lines = self.deformation.iter();
-        lines
-            .map(|line| line.iter().map(remembered).collect())
-            .collect()
+        lines.map(|line| line.iter().map(remembered).collect()).collect()
     }
 }
 
@@ -43,9 +41,8 @@ impl Block<'_> {
 
     pub fn row_state(&self, row: usize, u: &[f64]) -> RowState {
         let gradients = self.gradients(row, u, 1.0).into_iter();
-        let deformation: Vec<Vec<Deformation>> = gradients
-            .map(|line| line.iter().map(Deformation::from).collect())
-            .collect();
+        let deformation: Vec<Vec<Deformation>> =
+            gradients.map(|line| line.iter().map(Deformation::from).collect()).collect();
         let h = (0..deformation.len())
             .map(|line| self.network_stress(row, line, &deformation[line]))
             .collect();
@@ -54,10 +51,8 @@ impl Block<'_> {
 
     /// H along one line: permanent network and memory.
     fn network_stress(&self, row: usize, line: usize, along: &[Deformation]) -> Vec<Symmetric> {
-        let mut h: Vec<Symmetric> = along
-            .iter()
-            .map(|f| self.energy.network(f).map(|b| self.equilibrium * b))
-            .collect();
+        let mut h: Vec<Symmetric> =
+            along.iter().map(|f| self.energy.network(f).map(|b| self.equilibrium * b)).collect();
         match self.memory {
             Memory::Relaxed => {}
             Memory::Sliding(history) => {

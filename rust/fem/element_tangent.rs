@@ -17,10 +17,7 @@ pub struct ElementTangent {
 impl ElementTangent {
     pub fn new(block: &Block<'_>) -> Self {
         let size = 2 * block.mesh.elements[0].nodes();
-        Self {
-            stiffness: vec![0.0; size * size],
-            volume: vec![0.0; size * block.mesh.modes()],
-        }
+        Self { stiffness: vec![0.0; size * size], volume: vec![0.0; size * block.mesh.modes()] }
     }
 
     /// Assemble the element in `row` and `column` in the state of `field`, its pressures condensed.

@@ -174,9 +174,7 @@ impl Row {
         }
         for j in 0..low {
             let coupled = |i: usize| -> Complex64 {
-                (0..up)
-                    .map(|l| inverse[l * up + i] * entry(low + l, j))
-                    .sum()
+                (0..up).map(|l| inverse[l * up + i] * entry(low + l, j)).sum()
             };
             let column: Vec<Complex64> = (0..up).map(coupled).collect();
             for (i, value) in column.iter().enumerate() {

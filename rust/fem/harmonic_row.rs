@@ -50,7 +50,8 @@ impl HarmonicRow {
             for (m, mode) in element.mode[at].iter().enumerate() {
                 for (pressing, slopes) in out.pressing.iter_mut().zip(&slopes) {
                     for (i, slope) in slopes.iter().enumerate() {
-                        let volume: f64 = slope.iter().zip(average.volume).map(|(s, v)| s * v).sum();
+                        let volume: f64 =
+                            slope.iter().zip(average.volume).map(|(s, v)| s * v).sum();
                         pressing[m * size + i] += mode * volume;
                     }
                 }

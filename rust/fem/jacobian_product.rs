@@ -105,9 +105,7 @@ impl Jacobian<'_> {
                 self.put_volumes(row, pressure, volumes, work);
             }
         };
-        workspace
-            .threads
-            .share(self.size(), &mut workspace.rows, bands, band_product);
+        workspace.threads.share(self.size(), &mut workspace.rows, bands, band_product);
         let next_bands = forces.chunks_mut(per_band).skip(1);
         for (to, above) in next_bands.zip(workspace.above.chunks_exact(layer)) {
             for (to, force) in to.iter_mut().zip(above) {

@@ -41,11 +41,7 @@ impl MeshSize {
         }
         let share = (columns as f64 / self.columns as f64).powf(row_exponent);
         let rows = (share * self.rows as f64).round() as usize;
-        Self {
-            columns,
-            rows: rows.clamp(LEAST_ROWS, MOST_ROWS),
-            ..*self
-        }
+        Self { columns, rows: rows.clamp(LEAST_ROWS, MOST_ROWS), ..*self }
     }
 }
 
@@ -62,25 +58,12 @@ pub struct Mesh {
 
 impl Mesh {
     pub fn new(size: &MeshSize) -> Self {
-        let &MeshSize {
-            columns,
-            rows,
-            depth,
-            order,
-        } = size;
+        let &MeshSize { columns, rows, depth, order } = size;
         let width = 1.0 / columns as f64;
         let row_height = graded(width.min(depth / rows as f64), rows, depth);
-        let elements = row_height
-            .iter()
-            .map(|&height| Element::new(order, width, height))
-            .collect();
-        Self {
-            order,
-            columns,
-            rows,
-            row_height,
-            elements,
-        }
+        let elements =
+            row_height.iter().map(|&height| Element::new(order, width, height)).collect();
+        Self { order, columns, rows, row_height, elements }
     }
 
     /// Whether the unknowns of the other mesh have the same positions.
@@ -168,10 +151,8 @@ impl Mesh {
         let scaled = x.rem_euclid(1.0) * self.columns as f64;
         let column = (scaled.floor() as usize).min(self.columns - 1);
         let nx = lagrange(self.order, 2.0 * (scaled - column as f64) - 1.0);
-        let nz = lagrange(
-            self.order,
-            (2.0 * (z - base) / self.row_height[row] - 1.0).clamp(-1.0, 1.0),
-        );
+        let nz =
+            lagrange(self.order, (2.0 * (z - base) / self.row_height[row] - 1.0).clamp(-1.0, 1.0));
         let mut value = [0.0; 2];
         for (layer, &shape_z) in nz.iter().enumerate() {
             for (sub, &shape_x) in nx.iter().enumerate() {

@@ -80,7 +80,10 @@ impl Pattern {
     }
 
     /// Numbers of an element's unknowns.
-    fn numbers<'a>(number: &'a [usize], positions: &'a [usize]) -> impl Iterator<Item = usize> + 'a {
+    fn numbers<'a>(
+        number: &'a [usize],
+        positions: &'a [usize],
+    ) -> impl Iterator<Item = usize> + 'a {
         positions.iter().map(|&position| number[position])
     }
 
@@ -126,9 +129,7 @@ fn element_positions(block: &Block<'_>) -> Vec<usize> {
         let from = block.row_offset(row);
         for column in 0..mesh.columns {
             let unknowns = block.local_unknowns(column);
-            let of_element = unknowns[..block.mesh.elements[row].nodes()]
-                .iter()
-                .flatten();
+            let of_element = unknowns[..block.mesh.elements[row].nodes()].iter().flatten();
             positions.extend(of_element.map(|at| from + at));
         }
     }

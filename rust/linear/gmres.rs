@@ -4,6 +4,8 @@
 //! (1986) 856; Saad, "Iterative Methods for Sparse Linear Systems", 2nd ed. (2003), section 9.3.2).
 //! With the preconditioner on the right the residual that is minimised is the true one.
 
+use super::hessenberg::Hessenberg;
+use super::vectors::{add, dot, norm};
 use crate::executor::{Executor, Threads};
 use crate::status::Status;
 
@@ -34,19 +36,20 @@ pub fn gmres(
     let (mut iterations, mut size) = (0, norm(&residual));
     while size > target && iterations < limit {
         let count = basis.min(limit - iterations);
+        // Extend the space until it holds a solution, or is full.
         let mut space = KrylovSpace::new(residual, size, executor.threads);
-        while space.residual() > target && space.size() < count {
+        while space.hessenberg.residual() > target && space.hessenberg.size() < count {
             executor.check_cancelled()?;
             let mut next = vec![0.0; right.len()];
-            apply(space.last(), &mut next);
+            apply(&space.basis[space.hessenberg.size()], &mut next);
             iterations += 1;
             if !space.add(next) {
                 break;
             }
         }
-        let change;
-        (change, residual) = space.solution();
-        add(&mut y, 1.0, &change);
+        // Add its best solution.
+        add(&mut y, 1.0, &space.combined(&space.hessenberg.weights()));
+        residual = space.combined(&space.hessenberg.residual_coordinates());
         let before = std::mem::replace(&mut size, norm(&residual));
         if size >= before {
             break;
@@ -55,73 +58,33 @@ pub fn gmres(
     if !size.is_finite() {
         return Err(Status::NotFinite);
     }
-    Ok(GmresSolution {
-        y,
-        residual,
-        iterations,
-    })
+    Ok(GmresSolution { y, residual, iterations })
 }
 
-/// An orthonormal basis of a Krylov space with its Hessenberg matrix, rotated to be triangular.
+/// An orthonormal basis of a Krylov space.
 struct KrylovSpace<'t> {
     threads: &'t Threads,
     basis: Vec<Vec<f64>>,
-    /// Columns of the triangular factor.
-    columns: Vec<Vec<f64>>,
-    /// Cosine and sine of every rotation.
-    rotations: Vec<(f64, f64)>,
-    /// The right-hand side, rotated; its last entry is the residual.
-    rotated: Vec<f64>,
+    hessenberg: Hessenberg,
 }
 
 impl<'t> KrylovSpace<'t> {
     fn new(mut first: Vec<f64>, norm: f64, threads: &'t Threads) -> Self {
         first.iter_mut().for_each(|value| *value /= norm);
-        Self {
-            threads,
-            basis: vec![first],
-            columns: Vec::new(),
-            rotations: Vec::new(),
-            rotated: vec![norm],
-        }
-    }
-
-    fn size(&self) -> usize {
-        self.columns.len()
-    }
-
-    fn last(&self) -> &[f64] {
-        &self.basis[self.size()]
-    }
-
-    fn residual(&self) -> f64 {
-        self.rotated[self.size()].abs()
+        Self { threads, basis: vec![first], hessenberg: Hessenberg::new(norm) }
     }
 
     /// Add the image of the last direction; false if it lies in the space already.
     fn add(&mut self, mut image: Vec<f64>) -> bool {
-        let mut column: Vec<f64> = vec![0.0; self.size() + 2];
+        let mut column = vec![0.0; self.basis.len() + 1];
         let before = self.add_and_dot(&mut image, None, None).sqrt();
         let mut rest = self.orthogonalise(&mut image, &mut column);
         // If little is left of the image, so are its digits: repeat (Giraud, Langou & Rozloznik, 2005).
         if rest < 0.1 * before {
             rest = self.orthogonalise(&mut image, &mut column);
         }
-        let last = self.size();
-        column[last + 1] = rest;
-        for (i, (cosine, sine)) in self.rotations.iter().enumerate() {
-            let (a, b) = (column[i], column[i + 1]);
-            column[i] = cosine * a + sine * b;
-            column[i + 1] = cosine * b - sine * a;
-        }
-        let radius = column[last].hypot(rest);
-        let (cosine, sine) = (column[last] / radius, rest / radius);
-        column[last] = radius;
-        column.pop();
-        self.rotations.push((cosine, sine));
-        self.columns.push(column);
-        self.rotated.push(-sine * self.rotated[last]);
-        self.rotated[last] *= cosine;
+        column[self.basis.len()] = rest;
+        self.hessenberg.add(column);
         if rest > 1e-14 * before {
             image.iter_mut().for_each(|value| *value /= rest);
             self.basis.push(image);
@@ -154,78 +117,27 @@ impl<'t> KrylovSpace<'t> {
         let size = 4 * to.len();
         let pieces = sums.iter_mut().zip(to.chunks_mut(PIECE)).enumerate();
         let mut workspaces = vec![(); self.threads.count_for(size)];
-        self.threads
-            .share(size, &mut workspaces, pieces, |(), (piece, (sum, to))| {
-                let within = piece * PIECE..piece * PIECE + to.len();
-                if let Some((factor, x)) = added {
-                    add(to, factor, &x[within.clone()]);
-                }
-                *sum = with.map_or_else(|| dot(to, to), |with| dot(to, &with[within]));
-            });
+        self.threads.share(size, &mut workspaces, pieces, |(), (piece, (sum, to))| {
+            let within = piece * PIECE..piece * PIECE + to.len();
+            if let Some((factor, x)) = added {
+                add(to, factor, &x[within.clone()]);
+            }
+            *sum = with.map_or_else(|| dot(to, to), |with| dot(to, &with[within]));
+        });
         sums.iter().sum()
     }
 
-    /// `to` += the sum of the directions of the basis times `weights`.
-    fn combine(&self, to: &mut [f64], weights: &[f64]) {
-        let size = to.len() * weights.len();
+    /// The sum of the directions times `weights`.
+    fn combined(&self, weights: &[f64]) -> Vec<f64> {
+        let mut sum = vec![0.0; self.basis[0].len()];
+        let size = sum.len() * weights.len();
         let mut workspaces = vec![(); self.threads.count_for(size)];
-        let pieces = to.chunks_mut(PIECE).enumerate();
-        self.threads
-            .share(size, &mut workspaces, pieces, |(), (piece, to)| {
-                for (weight, direction) in weights.iter().zip(&self.basis) {
-                    add(to, *weight, &direction[piece * PIECE..][..to.len()]);
-                }
-            });
-    }
-
-    /// The vector of smallest residual, and that residual.
-    fn solution(&self) -> (Vec<f64>, Vec<f64>) {
-        let size = self.size();
-        let mut weights = self.rotated[..size].to_vec();
-        for i in (0..size).rev() {
-            let solved: f64 = (i + 1..size).map(|j| self.columns[j][i] * weights[j]).sum();
-            weights[i] = (weights[i] - solved) / self.columns[i][i];
-        }
-        let mut x = vec![0.0; self.basis[0].len()];
-        self.combine(&mut x, &weights);
-        // The residual is the rotated last unit vector, in the basis.
-        let mut coordinates = vec![0.0; size + 1];
-        coordinates[size] = self.rotated[size];
-        for (i, (cosine, sine)) in self.rotations.iter().enumerate().rev() {
-            let (a, b) = (coordinates[i], coordinates[i + 1]);
-            coordinates[i] = cosine * a - sine * b;
-            coordinates[i + 1] = sine * a + cosine * b;
-        }
-        let mut residual = vec![0.0; x.len()];
-        self.combine(&mut residual, &coordinates);
-        (x, residual)
-    }
-}
-
-pub fn norm(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    pulp::Arch::new().dispatch(|| {
-        let mut sums = [0.0; 16];
-        let (whole_a, whole_b) = (a.chunks_exact(16), b.chunks_exact(16));
-        let rest = whole_a.remainder().iter().zip(whole_b.remainder());
-        let rest: f64 = rest.map(|(x, y)| x * y).sum();
-        for (x, y) in whole_a.zip(whole_b) {
-            for i in 0..16 {
-                sums[i] += x[i] * y[i];
+        let pieces = sum.chunks_mut(PIECE).enumerate();
+        self.threads.share(size, &mut workspaces, pieces, |(), (piece, to)| {
+            for (weight, direction) in weights.iter().zip(&self.basis) {
+                add(to, *weight, &direction[piece * PIECE..][..to.len()]);
             }
-        }
-        sums.iter().sum::<f64>() + rest
-    })
-}
-
-/// to += factor x.
-pub fn add(to: &mut [f64], factor: f64, x: &[f64]) {
-    pulp::Arch::new().dispatch(|| {
-        for (to, x) in to.iter_mut().zip(x) {
-            *to += factor * x;
-        }
-    });
+        });
+        sum
+    }
 }

@@ -3,12 +3,15 @@
 
 mod dense;
 mod gmres;
+mod hessenberg;
 #[cfg_attr(not(feature = "python"), allow(dead_code))]
 pub mod single_gmres;
 mod sparse;
 #[cfg(test)]
 mod tests;
+mod vectors;
 
 pub use dense::{invert, Factor, Matrix};
-pub use gmres::{add, gmres, norm};
+pub use gmres::gmres;
 pub use sparse::{Ldl, LdlFactor};
+pub use vectors::{add, norm};

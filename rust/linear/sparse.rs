@@ -32,10 +32,7 @@ impl Ldl {
         let order = SymmetricOrdering::Custom(PermRef::new_checked(&identity, &identity, size));
         let symbolic =
             cholesky::factorize_symbolic_cholesky(lower.as_ref(), Side::Lower, order, params);
-        Some(Self {
-            symbolic: symbolic.ok()?,
-            lower,
-        })
+        Some(Self { symbolic: symbolic.ok()?, lower })
     }
 
     /// Factor the matrix with these `values`; None if a pivot vanishes.

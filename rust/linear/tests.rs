@@ -1,10 +1,9 @@
 //! Linear algebra: dense matrices, small complex blocks, and GMRES.
 
-use crate::linear::{gmres, invert, Factor, Matrix};
+use crate::linear::{add, gmres, invert, norm, single_gmres, Factor, Matrix};
 use crate::spectral::Complex64;
 
-use crate::case::noise;
-use crate::test_fields::serial;
+use crate::tests::fixture::{noise, serial};
 
 #[test]
 fn a_dense_matrix_is_solved() {
@@ -34,9 +33,8 @@ fn a_block_times_its_inverse_is_one() {
         assert!(invert(&mut inverse, size));
         for i in 0..size {
             for j in 0..size {
-                let sum: Complex64 = (0..size)
-                    .map(|k| block[k * size + i] * inverse[j * size + k])
-                    .sum();
+                let sum: Complex64 =
+                    (0..size).map(|k| block[k * size + i] * inverse[j * size + k]).sum();
                 let expected = if i == j { 1.0 } else { 0.0 };
                 assert!((sum - expected).norm() < 1e-12, "{size}: {sum}");
             }
@@ -71,4 +69,23 @@ fn gmres_leaves_the_residual_it_says() {
         assert!(solution.iterations <= most && (square.sqrt() <= 1.01 * target || most == 5));
         assert!(basis < size || solution.iterations <= size);
     }
+}
+
+#[test]
+fn single_precision_solves_a_system_that_is_not_symmetric() {
+    let matrix = |x: &[f32]| -> Vec<f32> {
+        let n = x.len();
+        (0..n).map(|i| 3.0 * x[i] + x[(i + 1) % n] - 0.5 * x[(i + 5) % n]).collect()
+    };
+    let raw: Vec<f32> = (0..40).map(|i| (0.9 * i as f32).sin() + 0.1 * i as f32).collect();
+    let right: Vec<f32> = raw.iter().map(|value| value / norm(&raw) as f32).collect();
+    let apply = |x: &[f32]| Ok::<_, ()>(matrix(x));
+    let solved = single_gmres::gmres(apply, right.clone(), 1e-5, 60).unwrap();
+    let mut rest = right.clone();
+    add(&mut rest, -1.0, &matrix(&solved.x));
+    assert!(solved.residual <= 1e-5 && solved.products < 40);
+    assert!((norm(&rest) / solved.residual - 1.0).abs() < 0.2, "{}", norm(&rest));
+    let few = single_gmres::gmres(apply, right.clone(), 1e-5, 3).unwrap();
+    assert!(few.products == 3 && few.residual > 1e-5);
+    assert!(single_gmres::gmres(|_| Err(()), right, 1e-5, 3).is_err());
 }

@@ -23,11 +23,7 @@ pub struct CarriedHistory {
 impl CarriedHistory {
     /// All networks fully relaxed in the deformation of `y`: at rest, or in static contact.
     pub fn relaxed(y: Points, columns: usize, maxwell: &Maxwell) -> Self {
-        Self {
-            states: vec![y.clone(); maxwell.moduli.len()],
-            y,
-            columns,
-        }
+        Self { states: vec![y.clone(); maxwell.moduli.len()], y, columns }
     }
 
     /// The networks of a steady state whose mean has been loaded for `load_time`; times of `maxwell`
@@ -38,11 +34,7 @@ impl CarriedHistory {
             let kept = (-load_time / time).exp();
             per_line(&y, |line| steady_line(line, &weights, kept))
         };
-        Self {
-            states: maxwell.times.iter().map(|&time| state(time)).collect(),
-            y,
-            columns,
-        }
+        Self { states: maxwell.times.iter().map(|&time| state(time)).collect(), y, columns }
     }
 
     /// Move all states with the rubber by one column, downstream if `forward`.
@@ -98,10 +90,7 @@ fn flat_mut(points: &mut Points) -> impl Iterator<Item = &mut Symmetric> {
 }
 
 fn per_line(points: &Points, line: impl Fn(&Vec<Symmetric>) -> Vec<Symmetric>) -> Points {
-    points
-        .iter()
-        .map(|row| row.iter().map(&line).collect())
-        .collect()
+    points.iter().map(|row| row.iter().map(&line).collect()).collect()
 }
 
 /// A of one network along a line in steady state, its mean relaxed for the load time only.
@@ -114,9 +103,7 @@ fn steady_line(y: &[Symmetric], weights: &[f64], kept: f64) -> Vec<Symmetric> {
             let value = |column: usize| y[column % columns * points + point][k];
             let mean = (0..columns).map(value).sum::<f64>() / columns as f64;
             for column in 0..columns {
-                let sum: f64 = (0..columns)
-                    .map(|m| weights[m] * value(column + columns - m))
-                    .sum();
+                let sum: f64 = (0..columns).map(|m| weights[m] * value(column + columns - m)).sum();
                 out[column * points + point][k] = sum - kept * (mean - UNIT[k]);
             }
         }

@@ -20,11 +20,7 @@ pub struct Deformation {
 impl From<&Gradient> for Deformation {
     fn from(f: &Gradient) -> Self {
         let j = jacobian(f);
-        Self {
-            f: *f,
-            j,
-            scale: j.powf(-2.0 / 3.0),
-        }
+        Self { f: *f, j, scale: j.powf(-2.0 / 3.0) }
     }
 }
 
@@ -46,12 +42,7 @@ pub fn cofactor(f: &Gradient) -> Gradient {
 
 /// C = F^T F, with C33 = 1.
 pub fn right_cauchy_green(f: &Gradient) -> Symmetric {
-    [
-        f[0] * f[0] + f[2] * f[2],
-        f[1] * f[1] + f[3] * f[3],
-        f[0] * f[1] + f[2] * f[3],
-        1.0,
-    ]
+    [f[0] * f[0] + f[2] * f[2], f[1] * f[1] + f[3] * f[3], f[0] * f[1] + f[2] * f[3], 1.0]
 }
 
 /// H : C of two symmetric tensors.

@@ -24,13 +24,7 @@ impl Maxwell {
     /// Relaxation modulus G(t); t may be infinite.
     pub fn relaxation_modulus(&self, time: f64) -> f64 {
         let decayed = |(g, tau): (&f64, &f64)| g * (-time / tau).exp();
-        self.equilibrium
-            + self
-                .moduli
-                .iter()
-                .zip(&self.times)
-                .map(decayed)
-                .sum::<f64>()
+        self.equilibrium + self.moduli.iter().zip(&self.times).map(decayed).sum::<f64>()
     }
 
     /// Complex modulus G*(omega) = G_inf + sum G_i (i w tau) / (1 + i w tau), as (real, imaginary).

@@ -33,11 +33,7 @@ pub fn tangent(deformation: impl Into<Deformation>, h: &Symmetric, pressure: f64
             let (row_a, col_a, row_b, col_b) = (a / 2, a % 2, b / 2, b % 2);
             // dg_iJ/dF_kL = -g_kJ g_iL
             let slope_g = -g[2 * row_b + col_a] * g[2 * row_a + col_b];
-            let slope_fh = if row_a == row_b {
-                component(h, col_b, col_a)
-            } else {
-                0.0
-            };
+            let slope_fh = if row_a == row_b { component(h, col_b, col_a) } else { 0.0 };
             d[a][b] = -2.0 / 3.0 * g[b] * isochoric
                 + scale * (slope_fh - 2.0 / 3.0 * fh[b] * g[a] - trace * slope_g);
         }

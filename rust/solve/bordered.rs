@@ -141,11 +141,7 @@ impl Bordered {
                 self.pattern.add(number, &element.stiffness, &mut values);
             }
         }
-        Ok(Assembled {
-            values,
-            surface,
-            volumes,
-        })
+        Ok(Assembled { values, surface, volumes })
     }
 
     fn borders(&self, mesh: &Mesh, tangent: &Tangent, curvature: &[f64]) -> [Response; 2] {
@@ -191,11 +187,7 @@ impl Bordered {
         Increment {
             u,
             pressure: solution.pressure,
-            contact: Contact {
-                force,
-                approach: state.approach + solution.approach,
-                active_set,
-            },
+            contact: Contact { force, approach: state.approach + solution.approach, active_set },
             products: 0,
         }
     }
@@ -229,13 +221,7 @@ impl Bordered {
             let volume: f64 = changes.map(|(&position, change)| change * u[position]).sum();
             pressure[mode.pressure] = mode.stiffness * (volume + residual.volumes[mode.volume]);
         });
-        LinearSolution {
-            u,
-            pressure,
-            force,
-            approach,
-            shift,
-        }
+        LinearSolution { u, pressure, force, approach, shift }
     }
 
     /// Response to `forces`, with each node of the active set `lift` above the profile under its u_x.
@@ -274,9 +260,7 @@ impl Bordered {
 
     /// Add `factor` times the forces of the elements at the surface.
     fn add_surface(&self, mesh: &Mesh, tangent: &Tangent, u: &[f64], factor: f64, to: &mut [f64]) {
-        let elements = tangent
-            .surface
-            .chunks_exact(tangent.surface.len() / mesh.columns);
+        let elements = tangent.surface.chunks_exact(tangent.surface.len() / mesh.columns);
         for (element, stiffness) in elements.enumerate() {
             let positions = self.pattern.positions(element);
             for (line, &position) in stiffness.chunks_exact(positions.len()).zip(positions) {
@@ -313,10 +297,7 @@ fn border_amounts(
 ) -> (f64, f64) {
     let sum = |response: &Response| response.force.iter().sum::<f64>();
     let [by_approach, by_shift] = borders;
-    let (a, b) = (
-        mesh.mean_shift(&by_approach.u),
-        mesh.mean_shift(&by_shift.u) - 1.0,
-    );
+    let (a, b) = (mesh.mean_shift(&by_approach.u), mesh.mean_shift(&by_shift.u) - 1.0);
     let (c, d) = (sum(by_approach), sum(by_shift));
     let (e, f) = (-mesh.mean_shift(&response.u), missing - sum(response));
     let determinant = a * d - b * c;

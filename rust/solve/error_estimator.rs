@@ -19,6 +19,25 @@ use crate::settings::Settings;
 use crate::solution::MeshSolution;
 use crate::status::Status;
 
+/// Uncertainty of both edges of a contact together, in node spacings: of one of many nodes; the nodes in a
+/// contact or gap for which it doubles; its largest value.
+const EDGE_ERROR: f64 = 0.15;
+const EDGE_NODES: f64 = 16.0;
+const MOST_EDGE_ERROR: f64 = 0.4;
+/// Estimated error of the contact fraction over its change between meshes.
+const SAFETY: f64 = 1.5;
+/// Relative error of the pressure of full contact over (k h)^2.
+const CLOSING_ERROR: f64 = 1.5;
+/// Least relative error of friction over (k h)^2, and times the square of the nodes in a contact.
+const FRICTION_ORDER_ERROR: f64 = 0.6;
+const FRICTION_NODE_ERROR: f64 = 1.5;
+/// Node spacings by which a contact pinned by nodes may be shifted.
+const PINNING: f64 = 0.05;
+/// Friction over the slope k A below which errors are relative to this share of k A.
+const SMALL_FRICTION: f64 = 0.04;
+/// Fewest nodes of the contacts that carry half of the load in a trusted solution.
+const FEWEST_CONTACT_NODES: usize = 4;
+
 /// Error estimates of the solutions on one profile.
 #[derive(Debug, Clone, Copy)]
 pub struct ErrorEstimator {
@@ -60,8 +79,9 @@ impl ErrorEstimator {
     /// The friction to which differences are relative: at least a share of k A, below which friction is not
     /// resolved.
     fn friction_scale(&self, solution: &MeshSolution) -> f64 {
-        let (traction, lost) = (solution.outcome.friction, solution.outcome.friction_from_dissipation);
-        let least = self.settings.small_friction * self.steepness;
+        let (traction, lost) =
+            (solution.outcome.friction, solution.outcome.friction_from_dissipation);
+        let least = SMALL_FRICTION * self.steepness;
         traction.abs().max(lost.abs()).max(least)
     }
 
@@ -74,7 +94,7 @@ impl ErrorEstimator {
     /// `Converged`, or why a solution that converged cannot be trusted.
     pub fn verdict(&self, solution: &MeshSolution) -> Status {
         let patches = patches(&solution.state.active_set, &solution.state.force);
-        let few = |patch: &&Patch| patch.closed < self.settings.fewest_contact_nodes;
+        let few = |patch: &&Patch| patch.closed < FEWEST_CONTACT_NODES;
         let load = |patch: &Patch| patch.load;
         let narrow: f64 = patches.iter().filter(few).map(load).sum();
         if narrow > 0.5 * patches.iter().map(load).sum::<f64>() {
@@ -101,12 +121,9 @@ impl ErrorEstimator {
         let patches = patches(&fine.state.active_set, &fine.state.force);
         let (new, old) = (&fine.outcome, &coarse.outcome);
         let change = (new.contact_fraction - old.contact_fraction).abs();
-        let fraction = self.settings.error_safety * change.max(self.edge_error(fine, &patches));
+        let fraction = SAFETY * change.max(self.edge_error(fine, &patches));
         let friction = (new.friction - old.friction).abs().max(mismatch(fine));
-        (
-            fraction.max(self.closing_error(fine)),
-            friction.max(self.chance_error(fine, &patches)),
-        )
+        (fraction.max(self.closing_error(fine)), friction.max(self.chance_error(fine, &patches)))
     }
 
     /// Columns of the coarsest mesh that is known to meet the tolerance, if errors fall to a quarter at most
@@ -123,7 +140,11 @@ impl ErrorEstimator {
     }
 
     /// A solution with its errors, if there is a coarser one to estimate them from.
-    pub fn with_errors(&self, mut fine: MeshSolution, coarse: Option<&MeshSolution>) -> MeshSolution {
+    pub fn with_errors(
+        &self,
+        mut fine: MeshSolution,
+        coarse: Option<&MeshSolution>,
+    ) -> MeshSolution {
         fine.friction_bound = self.friction_bound(&fine);
         if let (true, Some(coarse)) = (fine.converged(), coarse) {
             fine.coarser = Some((coarse.mesh.clone(), coarse.state.clone()));
@@ -145,10 +166,9 @@ impl ErrorEstimator {
 
     /// Uncertainty of the edges of all contacts, those of one independent of the others.
     fn edge_error(&self, solution: &MeshSolution, patches: &[Patch]) -> f64 {
-        let (edge, few) = (self.settings.edge_error, self.settings.edge_nodes);
         let uncertainty = |patch: &Patch| {
             let nodes = patch.closed.min(patch.open) as f64;
-            (edge * (1.0 + few / nodes)).min(self.settings.most_edge_error)
+            (EDGE_ERROR * (1.0 + EDGE_NODES / nodes)).min(MOST_EDGE_ERROR)
         };
         let squares = patches.iter().map(|patch| uncertainty(patch).powi(2));
         solution.mesh.node_spacing() * squares.sum::<f64>().sqrt()
@@ -172,7 +192,7 @@ impl ErrorEstimator {
         } else {
             (FRAC_PI_2 * fraction).sin().powi(2)
         };
-        let error = self.second_order(solution, self.settings.closing_error);
+        let error = self.second_order(solution, CLOSING_ERROR);
         let (lower, upper) = (full(share * (1.0 - error)), full(share * (1.0 + error)));
         (fraction - lower).max(upper - fraction)
     }
@@ -182,12 +202,11 @@ impl ErrorEstimator {
         if !self.slides {
             return 0.0;
         }
-        let settings = &self.settings;
-        let mut relative = self.second_order(solution, settings.friction_order_error);
+        let mut relative = self.second_order(solution, FRICTION_ORDER_ERROR);
         let mut shift = 0.0;
         if !patches.is_empty() {
-            relative += settings.friction_node_error / mean_nodes(patches).powi(2);
-            shift = settings.pinning * solution.mesh.node_spacing() * self.steepness;
+            relative += FRICTION_NODE_ERROR / mean_nodes(patches).powi(2);
+            shift = PINNING * solution.mesh.node_spacing() * self.steepness;
         }
         relative * solution.outcome.friction.abs() + shift
     }
@@ -233,10 +252,7 @@ mod tests {
         let active_set = [true, false, false, true, false, true, true];
         let force = [1.0, 0.0, 0.0, 2.0, 0.0, 3.0, 4.0];
         let patch = |closed, open, load| Patch { closed, open, load };
-        assert_eq!(
-            patches(&active_set, &force),
-            [patch(1, 1, 2.0), patch(3, 2, 8.0)]
-        );
+        assert_eq!(patches(&active_set, &force), [patch(1, 1, 2.0), patch(3, 2, 8.0)]);
         assert!(patches(&[true; 4], &[1.0; 4]).is_empty());
         assert!(patches(&[false; 4], &[0.0; 4]).is_empty());
     }

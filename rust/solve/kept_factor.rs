@@ -31,11 +31,7 @@ impl KeptFactor {
     pub fn new(pressed: &PressedBlock<'_>, settings: &Settings) -> Option<Self> {
         let pays = pressed.mesh().layer_nodes() <= settings.kept_factor_nodes;
         let bordered = pays.then(|| Bordered::new(&pressed.block)).flatten()?;
-        Some(Self {
-            bordered,
-            tangent: None,
-            last_start: None,
-        })
+        Some(Self { bordered, tangent: None, last_start: None })
     }
 
     /// Forget the last time step, because the next one does not continue its motion.
@@ -71,10 +67,16 @@ impl KeptFactor {
             });
             if !serves {
                 *tangent = None;
-                *tangent = Some(bordered.factor(pressed, iterate.state, iterate.rows, iterate.residual)?);
+                *tangent = Some(bordered.factor(
+                    pressed,
+                    iterate.state,
+                    iterate.rows,
+                    iterate.residual,
+                )?);
             }
             let tangent = tangent.as_ref().ok_or(Status::NotFinite)?;
-            let increment = bordered.increment(pressed, tangent, iterate.state, iterate.residual, load);
+            let increment =
+                bordered.increment(pressed, tangent, iterate.state, iterate.residual, load);
             if increment.contact.active_set != iterate.state.active_set {
                 before = f64::INFINITY;
             }

@@ -24,6 +24,9 @@ use crate::linear::{gmres, norm};
 use crate::settings::Settings;
 use crate::status::Status;
 
+/// Directions kept by GMRES, and the largest number of products.
+const GMRES_LIMITS: (usize, usize) = (100, 200);
+
 /// GMRES ends at this share of the residual, or at this absolute size.
 #[derive(Debug, Clone, Copy)]
 pub struct Accuracy {
@@ -41,12 +44,7 @@ pub fn increment(
     accuracy: Accuracy,
     settings: &Settings,
 ) -> Result<Increment, Status> {
-    let Iterate {
-        state,
-        rows,
-        residual,
-        ..
-    } = iterate;
+    let Iterate { state, rows, residual, .. } = iterate;
     let executor = pressed.executor;
     let jacobian = Jacobian::new(&pressed.block, &state.field, rows, executor)?;
     let average = AveragedJacobian::new(&jacobian, executor)?;
@@ -120,7 +118,7 @@ impl Step<'_> {
         self.apply_contact(&mut approximation, contact, surface, &mut work);
         let largest = norm(&self.right).max(norm(&approximation.residual));
         let target = (accuracy.share * largest).max(accuracy.least);
-        let products = self.solve_on_active_set(&mut approximation, &system, target, &mut work, settings)?;
+        let products = self.solve_on_active_set(&mut approximation, &system, target, &mut work)?;
         let displacements = self.jacobian.displacements();
         let mut u = approximation.y[..displacements].to_vec();
         u.resize(self.state.field.u.len(), 0.0);
@@ -201,9 +199,7 @@ impl Step<'_> {
         out: &mut [f64],
         work: &mut StepWorkspace<'_>,
     ) {
-        let by_forces = self
-            .compliance
-            .displacements(&self.compliance.nodal_forces(forces));
+        let by_forces = self.compliance.displacements(&self.compliance.nodal_forces(forces));
         for (u, by_forces) in surface.iter_mut().zip(by_forces) {
             *u += by_forces;
         }
@@ -230,7 +226,6 @@ impl Step<'_> {
         system: &ActiveSetSystem<'_>,
         target: f64,
         work: &mut StepWorkspace<'_>,
-        settings: &Settings,
     ) -> Result<usize, Status> {
         let mut failure = Ok(());
         let apply = |v: &[f64], out: &mut [f64]| {
@@ -241,8 +236,7 @@ impl Step<'_> {
             }
             work.solution = solution;
         };
-        let limits = (settings.krylov_basis, settings.krylov_iterations);
-        let solution = gmres(apply, &approximation.residual, target, limits, self.executor)?;
+        let solution = gmres(apply, &approximation.residual, target, GMRES_LIMITS, self.executor)?;
         failure?;
         let mut correction = std::mem::take(&mut work.solution);
         let (force, approach) = self.precondition(&solution.y, system, &mut correction, work)?;

@@ -10,6 +10,9 @@ use crate::fem::mesh::{Mesh, MeshSize};
 use crate::solution::MeshSolution;
 use crate::status::Status;
 
+/// Fewest nodes along the wave on the coarsest mesh of a sequence.
+pub const COARSEST_NODES: usize = 32;
+
 /// Nodes of the coarsest mesh from which the error of a finer one can be estimated.
 const FEWEST_NODES: usize = 8;
 
@@ -48,10 +51,10 @@ impl MeshSequence {
             enough
         };
         // Without a coarser mesh there is no error estimate, so one may be as coarse as necessary.
-        if !halve(settings.coarsest_nodes) {
+        if !halve(COARSEST_NODES) {
             halve(FEWEST_NODES);
         }
-        while halve(settings.coarsest_nodes) {}
+        while halve(COARSEST_NODES) {}
         let follows = |columns: usize| finest.order * columns >= heights.fewest_nodes() / 2;
         let below = finest.columns.div_ceil(2);
         let below = (smooth > 0 && columns.len() == 1 && follows(below)).then_some(below);
@@ -89,11 +92,13 @@ impl MeshSequence {
     ) -> Result<MeshSolution, KernelError> {
         let mut last: Option<MeshSolution> = None;
         for (i, size) in self.sizes.iter().enumerate() {
+            // Solve, from the solution on the mesh before.
             let coarse = last.as_ref().filter(|last| last.converged());
             let fine = on_mesh(Mesh::new(size), coarse)?;
             if fine.report.status == Status::TimeLimit {
                 return Ok(fine);
             }
+            // Estimate the errors, if necessary from a coarser mesh solved for that alone.
             let below = match (&self.below, coarse) {
                 (Some(size), None) if i == 0 && fine.converged() => {
                     Some(on_mesh(Mesh::new(size), Some(&fine))?).filter(MeshSolution::converged)

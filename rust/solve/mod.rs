@@ -10,6 +10,6 @@ pub mod newton;
 pub mod newton_step;
 pub mod profile_continuation;
 pub mod residual;
-pub mod transfer;
 #[cfg(test)]
 mod tests;
+pub mod transfer;

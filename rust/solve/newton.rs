@@ -14,6 +14,7 @@
 use super::krylov::{self, Accuracy};
 use super::newton_step::{Increment, Iterate};
 use super::residual::Residual;
+use crate::contact::linear_complementarity::ACTIVE_SET_TOLERANCE;
 use crate::contact::{PressedBlock, State};
 use crate::fem::block::RowState;
 use crate::linear::add;
@@ -21,6 +22,15 @@ use crate::material::kinematics::Deformation;
 use crate::settings::Settings;
 use crate::solution::Report;
 use crate::status::Status;
+
+/// Smallest share of the residual forces to which the linearised problem is solved.
+const LEAST_SHARE: f64 = 1e-5;
+/// The share over the square of the last ratio of residuals.
+const GAMMA: f64 = 0.9;
+/// Residual below which the signs of forces and gaps decide the next active set.
+const SIGNS_BELOW: f64 = 0.005;
+/// Lengths tried for one Newton step, each half of the one before.
+const STEP_LENGTHS: usize = 8;
 
 /// The linearised problem is not solved below this share of the residual tolerance.
 const LEAST_SHARE_OF_TOLERANCE: f64 = 0.1;
@@ -45,11 +55,8 @@ pub fn solve(
         before = iterate.residual_norm;
         let least = LEAST_SHARE_OF_TOLERANCE * settings.residual_tolerance * load.min(1.0);
         let accuracy = Accuracy { share, least };
-        let active_set = if iterate.residual_norm > settings.signs_below {
-            None
-        } else {
-            active_set_by_signs(iterate, settings)
-        };
+        let active_set =
+            if iterate.residual_norm > SIGNS_BELOW { None } else { active_set_by_signs(iterate) };
         krylov::increment(pressed, iterate, active_set.as_deref(), load, accuracy, settings)
     })
 }
@@ -63,14 +70,12 @@ pub(super) fn iterate(
     long_step: LongStep,
     mut next: impl FnMut(Iterate<'_>) -> Result<Increment, Status>,
 ) -> Report {
-    let mut report = Report {
-        residual: f64::INFINITY,
-        ..Report::unsolved(Status::Converged)
-    };
+    let mut report = Report { residual: f64::INFINITY, ..Report::unsolved(Status::Converged) };
     let mut run = || -> Result<(), Status> {
         let mut rows = pressed.row_states(&state.field)?;
         let (mut best, mut best_at) = (f64::INFINITY, 0);
         loop {
+            // Judge the state by its residual.
             let residual = Residual::new(pressed, state, &rows)?;
             let residual_norm = residual.norm(pressed, state, load);
             report.residual = residual_norm;
@@ -87,19 +92,17 @@ pub(super) fn iterate(
             if stalled || report.iterations >= settings.max_iterations {
                 return Err(Status::IterationLimit);
             }
+            // Solve the linearised problem and step.
             report.iterations += 1;
-            let increment = next(Iterate {
-                state,
-                rows: &rows,
-                residual: &residual,
-                residual_norm,
-            })?;
+            let increment =
+                next(Iterate { state, rows: &rows, residual: &residual, residual_norm })?;
             report.products += increment.products;
             step(pressed, increment, state, &mut rows, settings, long_step)?;
         }
     };
-    if let Err(status) = run() {
-        report.status = status;
+    match run() {
+        Ok(()) => report.load_reached = 1.0,
+        Err(status) => report.status = status,
     }
     report
 }
@@ -107,27 +110,21 @@ pub(super) fn iterate(
 /// The share to which the residual forces are reduced, from the last share and the last `ratio` of
 /// residuals.
 fn forcing_share(last: f64, ratio: f64, settings: &Settings) -> f64 {
-    let gamma = settings.krylov_safety;
-    let cautious = gamma * last * last;
-    let next = gamma * ratio * ratio;
-    let next = if cautious > 0.1 {
-        next.max(cautious)
-    } else {
-        next
-    };
-    next.clamp(settings.krylov_least_share, settings.krylov_share)
+    let cautious = GAMMA * last * last;
+    let next = GAMMA * ratio * ratio;
+    let next = if cautious > 0.1 { next.max(cautious) } else { next };
+    next.clamp(LEAST_SHARE, settings.krylov_share)
 }
 
 /// The active set by the signs of forces and gaps; None if it would be empty.
-fn active_set_by_signs(iterate: Iterate<'_>, settings: &Settings) -> Option<Vec<bool>> {
+fn active_set_by_signs(iterate: Iterate<'_>) -> Option<Vec<bool>> {
     let (state, gap) = (iterate.state, &iterate.residual.gap);
-    let tolerance = settings.active_set_tolerance;
     let count = state.active_set.iter().filter(|&&active| active).count();
     let force_scale = state.force.iter().sum::<f64>() / count as f64;
     let gap_scale = gap.iter().fold(0.0_f64, |most, gap| most.max(gap.abs()));
     let in_contact = |a: usize| match state.active_set[a] {
-        true => state.force[a] >= -tolerance * force_scale,
-        false => gap[a] < -tolerance * gap_scale,
+        true => state.force[a] >= -ACTIVE_SET_TOLERANCE * force_scale,
+        false => gap[a] < -ACTIVE_SET_TOLERANCE * gap_scale,
     };
     let active_set: Vec<bool> = (0..gap.len()).map(in_contact).collect();
     active_set.contains(&true).then_some(active_set)
@@ -143,12 +140,7 @@ fn step(
     settings: &Settings,
     long_step: LongStep,
 ) -> Result<(), Status> {
-    let Increment {
-        u,
-        pressure,
-        contact,
-        ..
-    } = increment;
+    let Increment { u, pressure, contact, .. } = increment;
     if u.iter().any(|value| !value.is_finite()) {
         return Err(Status::NotFinite);
     }
@@ -156,7 +148,7 @@ fn step(
         LongStep::Shorten => (settings.largest_step / largest_gradient(pressed, &u)?).min(1.0),
         LongStep::GiveUp => 1.0,
     };
-    for _ in 0..settings.step_halvings {
+    for _ in 0..STEP_LENGTHS {
         let mut trial = state.field.clone();
         add(&mut trial.u, share, &u);
         let trial_rows = pressed.row_states(&trial)?;
@@ -185,10 +177,7 @@ pub fn residual_norm(pressed: &PressedBlock<'_>, state: &State, load: f64) -> f6
     let rows = pressed.row_states(&state.field);
     let residual = rows.and_then(|rows| Residual::new(pressed, state, &rows));
     let norm = residual.map(|residual| residual.norm(pressed, state, load));
-    norm.map_or(
-        f64::INFINITY,
-        |r| if r.is_nan() { f64::INFINITY } else { r },
-    )
+    norm.map_or(f64::INFINITY, |r| if r.is_nan() { f64::INFINITY } else { r })
 }
 
 fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> Result<f64, Status> {
@@ -197,9 +186,7 @@ fn largest_gradient(pressed: &PressedBlock<'_>, du: &[f64]) -> Result<f64, Statu
         let gradients = block.gradients(row, du, 0.0).into_iter().flatten();
         gradients.flatten().fold(1e-300, larger)
     };
-    let of_rows = pressed
-        .executor
-        .map(12 * mesh.points(), mesh.rows, of_row)?;
+    let of_rows = pressed.executor.map(12 * mesh.points(), mesh.rows, of_row)?;
     Ok(of_rows.into_iter().fold(1e-300, larger))
 }
 
@@ -215,9 +202,7 @@ fn largest_change(from: &[RowState], to: &[RowState]) -> f64 {
 }
 
 fn smallest_jacobian(rows: &[RowState]) -> f64 {
-    points(rows)
-        .map(|point| point.j)
-        .fold(f64::INFINITY, f64::min)
+    points(rows).map(|point| point.j).fold(f64::INFINITY, f64::min)
 }
 
 fn points(rows: &[RowState]) -> impl Iterator<Item = &Deformation> {

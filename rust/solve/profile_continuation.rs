@@ -7,28 +7,35 @@
 //! Newton's method needs some ten steps; if it fails, the new waves are added in smaller parts, which grow
 //! again after an easy step: on a sharp crest one part of the way is much harder than the rest.
 
-use super::load_stepping::raise;
+use super::load_stepping::{raise, EASY_ITERATIONS};
+use super::mesh_sequence::COARSEST_NODES;
 use super::newton;
 use super::transfer::transfer;
 use crate::contact::profile::Heights;
 use crate::contact::State;
 use crate::executor::Executor;
-use crate::fem::block::Memory;
 use crate::fem::mesh::{Mesh, MeshSize};
 use crate::model::Model;
 use crate::settings::Settings;
 use crate::solution::{Counts, Report};
 use crate::status::Status;
 
+/// Newton iterations without a smaller residual after which waves are added in smaller parts.
+const PATIENCE: usize = 4;
+/// Largest share of the residual forces to which the linearised problem is solved while waves are added.
+const KRYLOV_SHARE: f64 = 0.03;
+/// Largest change of the displacement gradient in one Newton iteration while waves are added.
+const LARGEST_STEP: f64 = 1.0;
+
 /// The problem, independent of the mesh.
 pub struct ProfileContinuation<'a> {
     pub model: &'a Model,
     pub size: &'a MeshSize,
     pub load: f64,
+    /// Load time in passages of the wave.
+    pub passages: f64,
     pub settings: &'a Settings,
     pub executor: &'a Executor<'a>,
-    /// The memory of the networks on a mesh.
-    pub memory: &'a dyn Fn(&Mesh) -> Memory,
 }
 
 /// Why a rough profile was not solved on a mesh.
@@ -81,15 +88,12 @@ impl ProfileContinuation<'_> {
         let (order, all) = (self.size.order, self.model.heights.waves());
         let resolved =
             |columns: usize| (order * columns / self.settings.nodes_per_wave).clamp(1, all);
-        let mut targets = vec![Target {
-            columns,
-            waves: all,
-        }];
+        let mut targets = vec![Target { columns, waves: all }];
         let mut columns = columns;
         while targets[0].waves > 1 {
             columns = columns.div_ceil(2);
             let smooth = targets.len() == 1 && resolved(columns) == all;
-            if smooth || order * columns < self.settings.coarsest_nodes {
+            if smooth || order * columns < COARSEST_NODES {
                 break;
             }
             let waves = resolved(columns);
@@ -108,9 +112,8 @@ impl ProfileContinuation<'_> {
         for (i, &target) in targets.iter().enumerate() {
             let waves = last.waves;
             let unsolved = |status| Unsolved { status, waves };
-            last = self
-                .add_waves(last, target, i + 1 == targets.len(), counts)
-                .map_err(unsolved)?;
+            last =
+                self.add_waves(last, target, i + 1 == targets.len(), counts).map_err(unsolved)?;
         }
         Ok((last.state, last.report))
     }
@@ -122,19 +125,13 @@ impl ProfileContinuation<'_> {
     /// The longest waves, by load stepping.
     fn begin(&self, target: Target, counts: &mut Counts) -> Result<Stage, Status> {
         let mesh = self.mesh(target.columns);
-        let memory = (self.memory)(&mesh);
+        let memory = self.model.sliding_memory(&mesh, self.passages);
         let model = self.model.with_heights(self.model.heights.smoothed(target.waves));
         let pressed = model.pressed(&mesh, &memory, self.executor);
         let mut state = State::at_rest(&mesh);
-        let (report, _) = raise(&pressed, &mut state, self.load, self.settings, counts);
+        let report = raise(&pressed, &mut state, self.load, self.settings, counts);
         report.converged()?;
-        Ok(Stage {
-            mesh,
-            heights: model.heights,
-            state,
-            report,
-            waves: target.waves,
-        })
+        Ok(Stage { mesh, heights: model.heights, state, report, waves: target.waves })
     }
 
     /// Add the waves of `target` on its mesh, in as many parts as necessary: all of them on the `final_mesh`,
@@ -147,30 +144,27 @@ impl ProfileContinuation<'_> {
         counts: &mut Counts,
     ) -> Result<Stage, Status> {
         let mesh = self.mesh(target.columns);
-        let memory = (self.memory)(&mesh);
+        let memory = self.model.sliding_memory(&mesh, self.passages);
         let settings = Settings {
-            patience: self.settings.roughening_patience,
+            patience: PATIENCE,
             max_iterations: self.settings.roughening_iterations,
-            krylov_share: self.settings.roughening_share,
-            largest_step: self.settings.roughening_step,
+            krylov_share: KRYLOV_SHARE,
+            largest_step: LARGEST_STEP,
             ..*self.settings
         };
         let rougher = self.model.heights.smoothed(target.waves);
         let mut state = transfer(&last.mesh, &last.state, &mesh, 1.0);
         let (mut reached, mut added, mut part) = (None, 0.0, 1.0_f64);
-        let least = if final_mesh {
-            self.settings.smallest_roughening
-        } else {
-            0.5
-        };
+        let least = if final_mesh { self.settings.smallest_roughening } else { 0.5 };
         while part >= least {
+            // Try the profile with a part of the new waves.
             let share = (added + part).min(1.0);
             let model = self.model.with_heights(last.heights.toward(&rougher, share));
             let pressed = model.pressed(&mesh, &memory, self.executor);
             let mut trial = state.clone();
             let report = newton::solve(&pressed, &mut trial, self.load, &settings);
             counts.add(&report);
-            counts.load_steps += 1;
+            // Go on from it with a larger part, or from the last one with a smaller part.
             match report.status {
                 Status::Converged if share == 1.0 => {
                     return Ok(Stage {
@@ -182,7 +176,7 @@ impl ProfileContinuation<'_> {
                     })
                 }
                 Status::Converged => {
-                    if report.iterations <= settings.easy_iterations {
+                    if report.iterations <= EASY_ITERATIONS {
                         part *= 2.0;
                     }
                     (state, added) = (trial, share);
@@ -195,13 +189,7 @@ impl ProfileContinuation<'_> {
         match reached {
             _ if final_mesh => Err(Status::ProfileTooRough),
             None => Ok(last),
-            Some((heights, report)) => Ok(Stage {
-                mesh,
-                heights,
-                state,
-                report,
-                ..last
-            }),
+            Some((heights, report)) => Ok(Stage { mesh, heights, state, report, ..last }),
         }
     }
 }

@@ -30,9 +30,7 @@ impl Residual {
             let forces = block.row_forces(row, field, &rows[row]);
             (forces, block.row_volumes(row, field, &rows[row]))
         };
-        let of_rows = pressed
-            .executor
-            .map(16 * mesh.points(), mesh.rows, of_row)?;
+        let of_rows = pressed.executor.map(16 * mesh.points(), mesh.rows, of_row)?;
         for (row, (row_forces, row_volumes)) in of_rows.into_iter().enumerate() {
             let offset = row * mesh.order * mesh.layer_size();
             for (total, force) in forces[offset..].iter_mut().zip(row_forces) {
@@ -46,12 +44,7 @@ impl Residual {
             forces[mesh.position(a, 0)] += along;
             forces[mesh.position(a, 1)] -= force;
         }
-        Ok(Self {
-            forces,
-            volumes,
-            gap: pressed.gaps(state, &profile),
-            profile,
-        })
+        Ok(Self { forces, volumes, gap: pressed.gaps(state, &profile), profile })
     }
 
     /// The largest of: residual forces, missing load and tensile contact forces over the load; residual

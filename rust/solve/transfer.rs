@@ -8,12 +8,7 @@ use crate::fem::mesh::Mesh;
 pub fn transfer(from: &Mesh, state: &State, to: &Mesh, stress_ratio: f64) -> State {
     let mut out = State::at_rest(to);
     let nodes = to.layer_nodes();
-    for (layer, z) in to
-        .layer_heights()
-        .into_iter()
-        .enumerate()
-        .take(to.layers() - 1)
-    {
+    for (layer, z) in to.layer_heights().into_iter().enumerate().take(to.layers() - 1) {
         for node in 0..nodes {
             let u = from.interpolate(&state.field.u, node as f64 * to.node_spacing(), z);
             let at = layer * to.layer_size();
@@ -33,13 +28,7 @@ pub fn transfer(from: &Mesh, state: &State, to: &Mesh, stress_ratio: f64) -> Sta
 }
 
 /// Each element takes the mean pressure of the nearest element.
-fn transfer_pressure(
-    from: &Mesh,
-    state: &State,
-    to: &Mesh,
-    stress_ratio: f64,
-    out: &mut State,
-) {
+fn transfer_pressure(from: &Mesh, state: &State, to: &Mesh, stress_ratio: f64, out: &mut State) {
     let source_rows = from.row_middles();
     for (row, z) in to.row_middles().into_iter().enumerate() {
         let distance = |r: usize| (source_rows[r] - z).abs();

@@ -1,10 +1,9 @@
 //! No input panics: whatever the numbers, the answer is a refusal or a status.
 
-use gripscale_kernel::settings::Settings;
-use gripscale_kernel::transient::Stage;
+use crate::transient::Stage;
 use proptest::prelude::*;
 
-use crate::case::Case;
+use crate::tests::fixture::{cases, Case};
 
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![
@@ -16,7 +15,7 @@ fn any_number() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(cases(300, "rust/proptest-regressions/hostile_input.txt"))]
     #[test]
     fn no_input_panics(
         numbers in prop::collection::vec(any_number(), 8),
@@ -26,7 +25,6 @@ proptest! {
         rows in 1_usize..6,
         order in 1_usize..3,
     ) {
-        let settings = Settings::new([("max_iterations", 5.0), ("iteration_budget", 60.0)]);
         let case = Case {
             energy: [("neo_hookean", vec![]), ("mooney_rivlin", vec![("share", numbers[0])]),
                 ("yeoh", vec![("second", numbers[1]), ("third", numbers[2])])][rows % 3].clone(),
@@ -36,7 +34,6 @@ proptest! {
             bulk_modulus: numbers[1],
             wavelength: numbers[2],
             amplitude: numbers[3],
-            heights: None,
             pressure: numbers[4],
             speed: numbers[5],
             load_time: numbers[6],
@@ -44,9 +41,9 @@ proptest! {
             columns,
             rows,
             order,
-            settings: settings.unwrap(),
-            tolerance: None,
+            ..Case::elastic(1.0, 1.0)
         };
+        let case = case.with_settings([("max_iterations", 5.0), ("iteration_budget", 60.0)]);
         let stage = Stage { duration: numbers[7], speed: numbers[5], pressure: numbers[4] };
         let sampled = Case { heights: Some(numbers.clone()), columns: 24, ..case.clone() };
         if let Ok(solution) = sampled.solve(None) {
@@ -68,18 +65,9 @@ proptest! {
 
 #[test]
 fn an_endless_way_is_refused() {
-    let stage = Stage {
-        duration: 1e9,
-        speed: 1e9,
-        pressure: 0.1,
-    };
-    let error = Case::elastic(0.1, 0.1)
-        .run(&[stage], None)
-        .map(|_| ())
-        .unwrap_err();
-    assert!(error
-        .to_string()
-        .starts_with("a stage may slide over at most 10000 wavelengths"));
+    let stage = Stage { duration: 1e9, speed: 1e9, pressure: 0.1 };
+    let error = Case::elastic(0.1, 0.1).run(&[stage], None).map(|_| ()).unwrap_err();
+    assert!(error.to_string().starts_with("a stage may slide over at most 10000 wavelengths"));
 }
 
 #[test]
@@ -90,15 +78,9 @@ fn refusals_name_the_value() {
         case.solve(None).map(|_| ()).unwrap_err()
     };
     let error = refuse(|case| case.pressure = -2.0);
-    assert_eq!(
-        error.to_string(),
-        "pressure must be greater than zero and finite; got -2"
-    );
+    assert_eq!(error.to_string(), "pressure must be greater than zero and finite; got -2");
     let columns = refuse(|case| case.columns = 2).to_string();
-    assert_eq!(
-        columns,
-        "columns must be a whole number from 4 to 4096; got 2"
-    );
+    assert_eq!(columns, "columns must be a whole number from 4 to 4096; got 2");
     assert!(refuse(|case| case.moduli = vec![1.0])
         .to_string()
         .contains("same length; got 1 and 0"));

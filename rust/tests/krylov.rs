@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use gripscale_kernel::settings::Settings;
-use gripscale_kernel::status::Status;
+use crate::status::Status;
 
-use crate::case::{noise, Case};
+use crate::tests::fixture::{energies, noise, Case};
 
 /// Friction, contact fraction, approach and largest pressure of `wave(0)`, `wave(1)` ... by dense
 /// elimination of the node layers with the exact compliance of the surface (revision b333c5b of this
@@ -23,11 +22,7 @@ fn wave(number: usize) -> Case {
         // Elimination did not carry this load on half the columns, and went on to these.
         (case.columns, case.rows) = (52, 9);
     }
-    case.energy = match number / 2 % 3 {
-        0 => ("neo_hookean", vec![]),
-        1 => ("mooney_rivlin", vec![("share", 0.3)]),
-        _ => ("yeoh", vec![("second", -0.05), ("third", 0.02)]),
-    };
+    case.energy = energies()[number / 2 % 3].clone();
     case.bulk_modulus = 10.0_f64.powf(2.0 + 1.5 * share(1));
     let mut stiffness = 1.0;
     if number % 5 != 4 {
@@ -49,27 +44,17 @@ fn wave(number: usize) -> Case {
 }
 
 fn figures(number: usize, factored_contacts: f64) -> [f64; 4] {
-    let mut case = wave(number);
     let changes = [
         ("residual_tolerance", 1e-11),
         ("factored_contacts", factored_contacts),
         ("profile_patches", 0.0),
     ];
-    case.settings = Settings::new(changes).unwrap();
-    let finest = case.solve(None).unwrap().finest;
+    let finest = wave(number).with_settings(changes).finest();
     assert_eq!(finest.report.status, Status::Converged, "wave {number}");
-    let approach = finest.approach();
+    let approach = finest.state.approach;
     let outcome = finest.outcome;
-    let highest = outcome
-        .pressure
-        .iter()
-        .fold(0.0_f64, |most, &p| most.max(p));
-    [
-        outcome.friction,
-        outcome.contact_fraction,
-        approach,
-        highest,
-    ]
+    let highest = outcome.pressure.iter().fold(0.0_f64, |most, &p| most.max(p));
+    [outcome.friction, outcome.contact_fraction, approach, highest]
 }
 
 /// Residuals of 1e-11 are far below the 1e-8 allowed to figures of order one hundredth to one. The nodes
@@ -96,13 +81,10 @@ fn waves_are_those_of_dense_elimination() {
 /// on 256, 512 and 1024 columns.
 #[test]
 fn finer_meshes_take_no_more_products() {
-    let mut case = Case::elastic(0.168, 3.0);
-    (case.moduli, case.relaxation_times) = (vec![30.0], vec![1e-3]);
-    (case.speed, case.load_time) = (1.0, 10.0);
-    (case.columns, case.rows) = (256, 27);
+    let mut case = Case::elastic(0.168, 3.0).sliding(1.0, &[(30.0, 1e-3)]).on_mesh(256, 27, 1);
+    case.load_time = 10.0;
     let coarse = case.solve(None).unwrap();
-    (case.columns, case.rows) = (512, 41);
-    let fine = case.solve(Some(&coarse)).unwrap();
+    let fine = case.on_mesh(512, 41, 1).solve(Some(&coarse)).unwrap();
     assert_eq!(fine.finest.report.status, Status::Converged);
     let counts = fine.counts;
     assert!(

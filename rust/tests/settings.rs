@@ -1,6 +1,6 @@
 //! Settings: one list by name, ranges held, unknown names refused with what there is.
 
-use gripscale_kernel::settings::Settings;
+use crate::settings::Settings;
 
 #[test]
 fn every_setting_can_be_given_by_its_name() {
@@ -19,12 +19,7 @@ fn every_setting_can_be_given_by_its_name() {
         };
         let changed = Settings::new([(name, changed_value)]).unwrap().list();
         for (before, after) in defaults.iter().zip(&changed) {
-            assert_eq!(
-                before.1 != after.1,
-                before.0 == name,
-                "{name} and {}",
-                after.0
-            );
+            assert_eq!(before.1 != after.1, before.0 == name, "{name} and {}", after.0);
         }
     }
 }
@@ -32,26 +27,10 @@ fn every_setting_can_be_given_by_its_name() {
 #[test]
 fn refusals_name_value_and_range() {
     for (name, value, text) in [
-        (
-            "max_iterations",
-            0.0,
-            "max_iterations must be a whole number from 1 to 1000; got 0",
-        ),
-        (
-            "max_iterations",
-            1.5,
-            "max_iterations must be a whole number from 1 to 1000; got 1.5",
-        ),
-        (
-            "dwell_first",
-            f64::NAN,
-            "dwell_first must be from 1e-12 to 0.5; got NaN",
-        ),
-        (
-            "newton",
-            1.0,
-            "setting must be one of max_iterations, residual_tolerance, ",
-        ),
+        ("max_iterations", 0.0, "max_iterations must be a whole number from 1 to 1000; got 0"),
+        ("max_iterations", 1.5, "max_iterations must be a whole number from 1 to 1000; got 1.5"),
+        ("dwell_first", f64::NAN, "dwell_first must be from 1e-12 to 0.5; got NaN"),
+        ("newton", 1.0, "setting must be one of max_iterations, residual_tolerance, "),
     ] {
         let refusal = Settings::new([(name, value)]).unwrap_err().to_string();
         assert!(refusal.starts_with(text), "{refusal}");

@@ -2,16 +2,15 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gripscale_kernel::settings::Settings;
-use gripscale_kernel::solution::Solution;
-use gripscale_kernel::status::Status;
+use crate::solution::Outcome;
+use crate::status::Status;
 
-use crate::case::Case;
+use crate::tests::fixture::Case;
 
-fn solved(case: &Case) -> Solution {
-    let solution = case.solve(None).unwrap();
-    assert_eq!(solution.finest.report.status, Status::Converged);
-    solution
+fn solved(case: &Case) -> Outcome {
+    let finest = case.finest();
+    assert_eq!(finest.report.status, Status::Converged);
+    finest.outcome
 }
 
 /// Westergaard: fraction (2/pi) asin sqrt(p/p*), p* = pi E' A / lambda. Edges are found to about a
@@ -22,11 +21,8 @@ fn elastic_contact_fraction_is_westergaards() {
     let full = 4.0 * PI * amplitude;
     for (ratio, fraction) in [(0.1, 0.2048), (0.3, 0.3690), (0.5, 0.5), (0.8, 0.7048)] {
         for order in [1, 2] {
-            let mut case = Case::elastic(amplitude, ratio * full);
-            case.order = order;
-            case.columns /= order;
-            case.rows /= order;
-            let outcome = solved(&case).finest.outcome;
+            let case = Case::elastic(amplitude, ratio * full);
+            let outcome = solved(&case.on_mesh(64 / order, 14 / order, order));
             let error = (outcome.contact_fraction - fraction).abs();
             assert!(error < 0.005, "order {order}, p/p* {ratio}: {error}");
             assert!(outcome.friction.abs() < 1e-9);
@@ -38,21 +34,12 @@ fn elastic_contact_fraction_is_westergaards() {
 /// The bulk modulus is high enough that nu = 1/2 holds to 1e-4.
 #[test]
 fn full_contact_friction_is_that_of_the_loss_modulus() {
-    let amplitude = 1e-3;
-    let mut case = Case::elastic(amplitude, 0.2);
-    case.speed = 2.0;
-    case.moduli = vec![2.0, 4.0];
-    case.relaxation_times = vec![0.02, 0.3];
-    case.bulk_modulus = 1e5;
-    let outcome = solved(&case).finest.outcome;
+    let case = Case::full_contact();
+    let outcome = solved(&case);
     let omega = TAU * case.speed;
-    let loss: f64 = case
-        .moduli
-        .iter()
-        .zip(&case.relaxation_times)
-        .map(|(g, t)| g * omega * t / (1.0 + (omega * t).powi(2)))
-        .sum();
-    let expected = (TAU * amplitude).powi(2) * loss / case.pressure;
+    let networks = case.moduli.iter().zip(&case.relaxation_times);
+    let loss: f64 = networks.map(|(g, t)| g * omega * t / (1.0 + (omega * t).powi(2))).sum();
+    let expected = (TAU * case.amplitude).powi(2) * loss / case.pressure;
     assert_eq!(outcome.contact_fraction, 1.0);
     // 64 columns resolve the first harmonic to about (k h)^2 / 6 = 0.2 %.
     let errors =
@@ -66,7 +53,7 @@ fn finite_strain_contact_fraction_is_that_of_other_codes() {
     for (ratio, fraction) in [(0.1, 0.20589), (0.5, 0.50448), (0.9, 0.77240)] {
         let mut case = Case::elastic(0.1, ratio * 4.0 * PI * 0.1);
         case.depth = 1.0;
-        let error = (solved(&case).finest.outcome.contact_fraction - fraction).abs();
+        let error = (solved(&case).contact_fraction - fraction).abs();
         assert!(error < 0.004, "p/p* {ratio}: {error}");
     }
 }
@@ -75,21 +62,13 @@ fn finite_strain_contact_fraction_is_that_of_other_codes() {
 #[test]
 fn friction_is_the_energy_lost() {
     let mismatch = |columns: usize, rows: usize| {
-        let mut case = Case::elastic(0.2, 1.5);
-        case.speed = 1.0;
-        case.moduli = vec![2.0, 4.0];
-        case.relaxation_times = vec![0.02, 0.2];
-        case.load_time = 1.0;
-        (case.columns, case.rows) = (columns, rows);
-        let outcome = solved(&case).finest.outcome;
+        let case = Case::elastic(0.2, 1.5).sliding(1.0, &[(2.0, 0.02), (4.0, 0.2)]);
+        let outcome = solved(&Case { load_time: 1.0, ..case.on_mesh(columns, rows, 1) });
         assert!(outcome.max_stretch > 1.3);
         (outcome.friction_from_dissipation / outcome.friction - 1.0).abs()
     };
     let (coarse, fine) = (mismatch(24, 8), mismatch(64, 14));
-    assert!(
-        coarse < 0.03 && fine < 0.01 && fine < coarse,
-        "{coarse} {fine}"
-    );
+    assert!(coarse < 0.03 && fine < 0.01 && fine < coarse, "{coarse} {fine}");
 }
 
 /// The last gaps of biquadratic elements under pressures like the modulus: there the averaged compliance
@@ -97,12 +76,9 @@ fn friction_is_the_energy_lost() {
 /// 29 to 33 steps are needed.
 #[test]
 fn gaps_close_in_few_steps() {
-    let settings = [512.0, 0.0].map(|most| Settings::new([("factored_contacts", most)]).unwrap());
-    for (part, settings) in (0..=12).flat_map(|part| settings.map(|settings| (part, settings))) {
-        let mut case = Case::elastic(0.15, 1.93 + 0.01 * f64::from(part));
-        case.settings = settings;
-        (case.columns, case.rows, case.order) = (64, 12, 2);
-        case.bulk_modulus = 1000.0;
+    for (part, most) in (0..=12).flat_map(|part| [(part, 512.0), (part, 0.0)]) {
+        let case = Case::elastic(0.15, 1.93 + 0.01 * f64::from(part)).on_mesh(64, 12, 2);
+        let case = case.with_settings([("factored_contacts", most)]);
         let solved = case.solve(None).unwrap();
         let (report, steps) = (&solved.finest.report, solved.counts.iterations);
         assert_eq!(report.status, Status::Converged, "{}", case.pressure);

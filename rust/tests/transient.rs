@@ -2,52 +2,36 @@
 
 use std::f64::consts::TAU;
 
-use gripscale_kernel::settings::Settings;
-use gripscale_kernel::status::Status;
-use gripscale_kernel::transient::{Run, Stage};
+use crate::status::Status;
+use crate::transient::{Run, Stage};
 
-use crate::case::Case;
+use crate::tests::fixture::{energies, Case};
 
 /// Friction and contact fraction of a long run against the steady solution of the same mesh.
 #[test]
 fn a_long_run_ends_in_the_steady_state() {
-    let mut case = Case::elastic(0.1, 0.3);
-    case.speed = 1.0;
-    case.moduli = vec![2.0];
-    case.relaxation_times = vec![0.1];
-    let steady = case.solve(None).unwrap();
-    let stage = Stage {
-        duration: 4.0,
-        speed: 1.0,
-        pressure: case.pressure,
-    };
+    let case = Case::elastic(0.1, 0.3).sliding(1.0, &[(2.0, 0.1)]);
+    let steady = case.finest().outcome;
+    let stage = Stage { duration: 4.0, speed: 1.0, pressure: case.pressure };
     let run = case.run(&[stage], None).unwrap();
     assert_eq!(run.status, Status::Converged);
     let last = run.moments.last().unwrap();
     assert_eq!(run.moments.len(), 4 * case.columns + 1);
     // Memory linear between 64 columns against its Fourier series: (k h)^2 / 6 = 0.2 %.
-    assert!((last.friction / steady.finest.outcome.friction - 1.0).abs() < 0.005);
-    assert!((last.contact_fraction - steady.finest.outcome.contact_fraction).abs() < 0.002);
+    assert!((last.friction / steady.friction - 1.0).abs() < 0.005);
+    assert!((last.contact_fraction - steady.contact_fraction).abs() < 0.002);
 }
 
 /// Pressed at once, the rubber answers with its glassy modulus; at rest it relaxes to the soft one.
 #[test]
 fn a_dwell_relaxes_from_the_glassy_to_the_equilibrium_contact() {
-    let mut case = Case::elastic(1e-3, 0.3 * 2.0 * TAU * 1e-3);
-    case.moduli = vec![3.0];
-    case.relaxation_times = vec![1.0];
-    case.speed = 1.0;
-    let stage = Stage {
-        duration: 60.0,
-        speed: 0.0,
-        pressure: case.pressure,
-    };
+    let case = Case::elastic(1e-3, 0.3 * 2.0 * TAU * 1e-3).sliding(1.0, &[(3.0, 1.0)]);
+    let stage = Stage { duration: 60.0, speed: 0.0, pressure: case.pressure };
     let run = case.run(&[stage], None).unwrap();
-    let mut elastic = case.clone();
-    elastic.speed = 0.0;
-    let soft = elastic.solve(None).unwrap().finest.outcome.contact_fraction;
+    let mut elastic = case.sliding(0.0, &[(3.0, 1.0)]);
+    let soft = elastic.finest().outcome.contact_fraction;
     elastic.equilibrium_modulus = 4.0;
-    let stiff = elastic.solve(None).unwrap().finest.outcome.contact_fraction;
+    let stiff = elastic.finest().outcome.contact_fraction;
     let (first, last) = (run.moments[0], run.moments[run.moments.len() - 1]);
     assert!((first.contact_fraction - stiff).abs() < 1e-3);
     assert!((last.contact_fraction - soft).abs() < 1e-3);
@@ -55,11 +39,7 @@ fn a_dwell_relaxes_from_the_glassy_to_the_equilibrium_contact() {
 }
 
 fn lossy() -> Case {
-    let mut case = Case::elastic(0.1, 0.3);
-    case.moduli = vec![2.0];
-    case.relaxation_times = vec![0.1];
-    (case.columns, case.rows) = (32, 8);
-    case
+    Case::elastic(0.1, 0.3).sliding(0.0, &[(2.0, 0.1)]).on_mesh(32, 8, 1)
 }
 
 /// In static contact the networks are relaxed: a dwell stays there, and sliding on from there ends
@@ -69,16 +49,8 @@ fn a_run_starts_from_static_contact() {
     let mut case = lossy();
     let start = case.solve(None).unwrap();
     case.speed = 1.0;
-    let dwell = Stage {
-        duration: 1.0,
-        speed: 0.0,
-        pressure: case.pressure,
-    };
-    let slide = Stage {
-        duration: 2.0,
-        speed: 1.0,
-        ..dwell
-    };
+    let dwell = Stage { duration: 1.0, speed: 0.0, pressure: case.pressure };
+    let slide = Stage { duration: 2.0, speed: 1.0, ..dwell };
     let run = case.run(&[dwell, slide], Some(&start)).unwrap();
     assert_eq!(run.status, Status::Converged);
     let still = start.finest.outcome.contact_fraction;
@@ -87,10 +59,7 @@ fn a_run_starts_from_static_contact() {
         assert!((moment.contact_fraction - still).abs() < 1e-7 && moment.friction.abs() < 1e-7);
     }
     let from_rest = case.run(&[dwell, slide], None).unwrap();
-    let (last, other) = (
-        run.moments.last().unwrap(),
-        from_rest.moments.last().unwrap(),
-    );
+    let (last, other) = (run.moments.last().unwrap(), from_rest.moments.last().unwrap());
     // After 20 relaxation times nothing is left of the beginning.
     assert!((last.friction - other.friction).abs() < 1e-6 && last.friction > 0.01);
 }
@@ -101,14 +70,8 @@ fn a_start_of_another_rubber_or_profile_is_refused_by_name() {
     let mut case = lossy();
     case.speed = 1.0;
     let start = case.solve(None).unwrap();
-    let stage = Stage {
-        duration: 0.1,
-        speed: 2.0,
-        pressure: 1.1 * case.pressure,
-    };
-    let mut other_mesh = case.clone();
-    (other_mesh.columns, other_mesh.rows) = (16, 6);
-    let run = other_mesh.run(&[stage], Some(&start)).unwrap();
+    let stage = Stage { duration: 0.1, speed: 2.0, pressure: 1.1 * case.pressure };
+    let run = case.clone().on_mesh(16, 6, 1).run(&[stage], Some(&start)).unwrap();
     assert_eq!(run.status, Status::Converged);
     let refusal = |change: fn(&mut Case)| {
         let mut changed = case.clone();
@@ -116,74 +79,40 @@ fn a_start_of_another_rubber_or_profile_is_refused_by_name() {
         changed.run(&[stage], Some(&start)).unwrap_err().to_string()
     };
     let same = "start must be of the same rubber and profile; its";
-    assert_eq!(
-        refusal(|c| c.wavelength = 2.0),
-        format!("{same} wavelength is 1.0, not 2.0")
-    );
-    assert_eq!(
-        refusal(|c| c.moduli = vec![2.5]),
-        format!("{same} moduli is [2.0], not [2.5]")
-    );
+    assert_eq!(refusal(|c| c.wavelength = 2.0), format!("{same} wavelength is 1.0, not 2.0"));
+    assert_eq!(refusal(|c| c.moduli = vec![2.5]), format!("{same} moduli is [2.0], not [2.5]"));
     for (change, name) in [
-        (
-            (|c| c.equilibrium_modulus = 1.5) as fn(&mut Case),
-            "equilibrium_modulus",
-        ),
+        ((|c| c.equilibrium_modulus = 1.5) as fn(&mut Case), "equilibrium_modulus"),
         (|c| c.relaxation_times = vec![0.2], "relaxation_times"),
         (|c| c.bulk_modulus = 999.0, "bulk_modulus"),
         (|c| c.amplitude = 0.11, "profile"),
-        (
-            |c| c.energy = ("mooney_rivlin", vec![("share", 0.1)]),
-            "strain_energy",
-        ),
+        (|c| c.energy = ("mooney_rivlin", vec![("share", 0.1)]), "strain_energy"),
     ] {
-        assert!(
-            refusal(change).starts_with(&format!("{same} {name} is ")),
-            "{name}"
-        );
+        assert!(refusal(change).starts_with(&format!("{same} {name} is ")), "{name}");
     }
 }
 
 /// A state that was never found is nothing to start from.
 #[test]
 fn a_start_that_did_not_converge_is_refused() {
-    let mut case = lossy();
+    let mut case = lossy().with_settings([("max_iterations", 1.0)]);
     case.speed = 1.0;
-    case.settings = Settings::new([("max_iterations", 1.0)]).unwrap();
     let start = case.solve(None).unwrap();
-    let stage = Stage {
-        duration: 0.1,
-        speed: 1.0,
-        pressure: case.pressure,
-    };
+    let stage = Stage { duration: 0.1, speed: 1.0, pressure: case.pressure };
     let refusal = case.run(&[stage], Some(&start)).unwrap_err().to_string();
     assert!(refusal.starts_with("start must be a solution that converged; its status is"));
 }
 
 /// Forward, at rest and, more heavily loaded, backward.
 fn there_and_back(case: &Case) -> [Stage; 3] {
-    let forward = Stage {
-        duration: 0.5,
-        speed: 1.0,
-        pressure: case.pressure,
-    };
-    let still = Stage {
-        speed: 0.0,
-        ..forward
-    };
-    let back = Stage {
-        speed: -2.0,
-        pressure: 1.5 * case.pressure,
-        ..forward
-    };
+    let forward = Stage { duration: 0.5, speed: 1.0, pressure: case.pressure };
+    let still = Stage { speed: 0.0, ..forward };
+    let back = Stage { speed: -2.0, pressure: 1.5 * case.pressure, ..forward };
     [forward, still, back]
 }
 
 fn largest_difference(one: &Run, other: &Run) -> f64 {
-    assert_eq!(
-        (one.status, other.status),
-        (Status::Converged, Status::Converged)
-    );
+    assert_eq!((one.status, other.status), (Status::Converged, Status::Converged));
     assert_eq!(one.moments.len(), other.moments.len());
     let pairs = one.moments.iter().zip(&other.moments);
     let apart = pairs.flat_map(|(one, other)| {
@@ -201,30 +130,19 @@ fn largest_difference(one: &Run, other: &Run) -> f64 {
 /// That few products are left says that it is the factor that solved them.
 #[test]
 fn a_kept_factor_gives_the_run_of_gmres() {
-    let energies = [
-        ("neo_hookean", vec![]),
-        ("mooney_rivlin", vec![("share", 0.3)]),
-        ("yeoh", vec![("second", -0.05), ("third", 0.02)]),
-    ];
     for (order, columns, rows) in [(1, 32, 8), (2, 16, 6)] {
-        for energy in &energies {
-            let mut case = lossy();
-            (case.order, case.columns, case.rows) = (order, columns, rows);
-            case.energy = energy.clone();
+        for energy in &energies() {
+            let case = Case { energy: energy.clone(), ..lossy().on_mesh(columns, rows, order) };
             let run = |most: f64| {
                 let changes = [("residual_tolerance", 1e-11), ("kept_factor_nodes", most)];
-                let mut case = case.clone();
-                case.settings = Settings::new(changes).unwrap();
+                let case = case.clone().with_settings(changes);
                 case.run(&there_and_back(&case), None).unwrap()
             };
             let (kept, iterated) = (run(64.0), run(0.0));
             let apart = largest_difference(&kept, &iterated);
             assert!(apart < 1e-8, "{order} {energy:?}: {apart}");
             let (few, many) = (kept.counts.products, iterated.counts.products);
-            assert!(
-                5 * few < many,
-                "{order} {energy:?}: {few} products of {many}"
-            );
+            assert!(5 * few < many, "{order} {energy:?}: {few} products of {many}");
         }
     }
 }
@@ -234,13 +152,9 @@ fn a_kept_factor_gives_the_run_of_gmres() {
 #[test]
 fn a_kept_factor_gives_up_where_a_step_would_be_cut() {
     let run = |most: f64| {
-        let mut case = lossy();
-        let changes = [
-            ("residual_tolerance", 1e-11),
-            ("largest_step", 0.02),
-            ("kept_factor_nodes", most),
-        ];
-        case.settings = Settings::new(changes).unwrap();
+        let changes =
+            [("residual_tolerance", 1e-11), ("largest_step", 0.02), ("kept_factor_nodes", most)];
+        let case = lossy().with_settings(changes);
         case.run(&there_and_back(&case), None).unwrap()
     };
     let (kept, iterated) = (run(64.0), run(0.0));

@@ -8,9 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from gripscale.app.elements import Cards, Folded, html, notice_elements
-from gripscale.app.run_tabs import answer_elements, compared_elements
-from gripscale.core.finding import Finding, Severity
+from gripscale.app.run_tabs import compared_runs
 from gripscale.questions import page_of_folder
 from gripscale.questions.answer.answer import Answer
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
@@ -37,17 +35,6 @@ def results_elements(folder: Path) -> list[Element]:
     return [element for section in sections for element in section.elements]
 
 
-def test_three_warnings_are_open_and_the_others_folded() -> None:
-    error = Finding(Severity.ERROR, "no result")
-    warnings = [Finding(Severity.WARNING, str(number)) for number in range(5)]
-    *opened, folded = notice_elements([*warnings, error])
-    assert opened == [error, *warnings[:2]]
-    assert folded == Folded(warnings[2:])
-    assert list(notice_elements(warnings[:3])) == warnings[:3]
-    markup = html(folded).object
-    assert "<summary>3 more warnings</summary>" in markup
-
-
 def read_answer(folder: Path) -> Answer:
     result = page_of_folder.read_result(folder)
     assert isinstance(result, Answer)
@@ -61,18 +48,11 @@ def test_runs_are_compared_by_their_answers(ran: Path) -> None:
         SimpleNamespace(name=f"run-{number}", text=case, folder=ran, running=False)
         for number, case in enumerate((text, faster), start=1)
     ]
-    (table,) = compared_elements(SimpleNamespace(all=runs))
+    table = compared_runs(SimpleNamespace(all=runs))
     columns = {column.name: list(column.values) for column in table.columns}
     assert columns["answer"] == [read_answer(ran).lines[0]] * 2
     assert columns["changes"][0] == ""
     assert columns["changes"][1].startswith("load.speed = 1")
-
-
-def test_runs_without_an_answer_to_rely_on_say_so(ran: Path) -> None:
-    reason, numbers, *others = answer_elements(SimpleNamespace(folder=ran))
-    assert reason.sentence.startswith("Answer: none to rely on. The measured surface is too small")
-    assert isinstance(numbers, Cards)
-    assert others
 
 
 def test_a_fit_before_any_run_has_no_diamonds(ran: Path) -> None:

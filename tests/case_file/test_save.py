@@ -241,7 +241,7 @@ def test_saving_twice_replaces_its_own_files_and_no_others(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"chain": Chain(HalfPlane(poisson_ratio=0.4))}, "all options of the solver half_plane"),
+        ({"chain": Chain(HalfPlane(most_iterations=50))}, "all options of the solver half_plane"),
         ({"surface": gs.SineStack([1e-2], [1e-4], cut_off=5e-3)}, "waves that end beyond"),
     ],
 )

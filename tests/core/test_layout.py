@@ -185,7 +185,6 @@ READERS = {
     "rubber.blocks": "measured files",
     "rubber.columns": "titles of columns",
     "rubber.prony": "titles of columns",
-    "rubber.side_by_side": "titles of columns",
     "rubber.shift_fit": "titles of columns",
     "rubber.strain_sweeps": "titles of columns",
     "surface.cut_off": "rules as typed",
@@ -193,7 +192,6 @@ READERS = {
     "surface.height_grids": "measured files",
     "surface.read_spectrum": "measured files",
     "surface.text_files": "measured files",
-    "surface.triangles": "measured files",
 }
 """What regular expressions are for: the texts of people, files and formats."""
 

@@ -45,7 +45,7 @@ def objects() -> dict[str, Any]:
         rubber.superpose_report(made["sweeps"], reference_temperature=293.15),
         theory.persson(solid, surface.profile_spectrum(road), **load),
         gs.solve_transient(solid, wavelength=2e-3, amplitude=1e-4, stages=[gs.Stage(1e-3, 1, 1e5)]),
-        export.abaqus_rubber(solid),
+        export.rubber_file(solid, to="abaqus"),
         gs.Layers([(solid, 4e-3), (solid, 4e-3)]),
     ]
     classes = [

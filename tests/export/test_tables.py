@@ -103,32 +103,27 @@ def test_other_results_become_tables(tmp_path):
         coords={"speed": ("speed", [0.1, 1.0], {"units": "m/s"}), "rubber": ["soft", "hard"]},
     )
     for result in (chain.to_dataset(), direct.to_dataset(), study):
-        for made in tables_of(result):
-            rows = list(made.rows())
-            assert all(len(row) == len(made.titles) for row in rows)
-            assert len(set(made.titles)) == len(made.titles)
-    (made, _) = tables_of(study)
-    assert made.titles == ["speed [m/s]", "rubber", "total_friction [-]"]
-    assert list(made.rows()) == [(0.1, "soft", 0.1), (1.0, "soft", 0.3), (1.0, "hard", 0.4)]
+        for made in tables_of(result).values():
+            assert made.columns.is_unique
+    made = tables_of(study)["speed_rubber"]
+    assert list(made) == ["speed [m/s]", "rubber", "total_friction [-]"]
+    assert made.values.tolist() == [[0.1, "soft", 0.1], [1.0, "soft", 0.3], [1.0, "hard", 0.4]]
 
 
 def test_places_that_nothing_stands_at_are_a_table():
     data = xr.Dataset({"a": 1.0}, coords={"speed": ("speed", [0.1, 1.0], {"units": "m/s"})})
-    single, speeds, _ = tables_of(data)
-    assert list(single.rows()) == [(1.0,)]
-    assert speeds.titles == ["speed [m/s]"]
-    assert list(speeds.rows()) == [(0.1,), (1.0,)]
+    tables = tables_of(data)
+    assert list(tables) == ["single_values", "speed", "attributes"]
+    assert tables["single_values"].values.tolist() == [[1.0]]
+    assert tables["speed"].to_dict("list") == {"speed [m/s]": [0.1, 1.0]}
 
 
 def test_a_row_with_something_in_it_is_kept():
     values = {"a": [[1.0, np.nan], [np.nan, np.nan]], "b": [[np.nan, 2.0], [np.nan, np.inf]]}
     data = xr.Dataset({name: (("i", "j"), value) for name, value in values.items()})
-    made, _ = tables_of(data)
-    assert list(made.rows()) == [
-        (0, 0, 1.0, None),
-        (0, 1, None, 2.0),
-        (1, 1, None, np.inf),
-    ]
+    made = tables_of(data)["i_j"]
+    rows = [[0, 0, 1.0, np.nan], [0, 1, np.nan, 2.0], [1, 1, np.nan, np.inf]]
+    np.testing.assert_array_equal(made.values, rows)
 
 
 def test_a_file_is_read_with_its_groups(prediction, tmp_path):
@@ -153,9 +148,6 @@ def test_what_cannot_be_written_is_refused(prediction, tmp_path):
         tables_of(3)
     with pytest.raises(FileError, match="does not exist"):
         write_tables(tmp_path / "none.nc", tmp_path / "a")
-    times = xr.Dataset({"when": ("time", np.array(["2020-01-01"], dtype="datetime64[ns]"))})
-    with pytest.raises(InputError, match="when must hold numbers or texts"):
-        write_tables(times, tmp_path / "a")
     (tmp_path / "file").write_text("")
     with pytest.raises(FileError, match="cannot be written"):
         write_tables(prediction, tmp_path / "file")

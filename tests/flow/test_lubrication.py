@@ -1,4 +1,4 @@
-"""Squeeze-out and mixed lubrication against Stefan, Reynolds' slider and the dry limit."""
+"""Squeeze-out and mixed lubrication against Stefan and the dry limit."""
 
 from __future__ import annotations
 

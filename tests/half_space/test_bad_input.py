@@ -48,7 +48,6 @@ NAN, INF = math.nan, math.inf
         ({"tolerance": NAN}, r"tolerance must be a finite number; got nan"),
         ({"most_points": 16}, r"most_points must be at least \d+, four points in each wave"),
         ({"most_points": 1e20}, r"most_points must be a whole number from 1 to"),
-        ({"most_points": None}, r"most_points must be a finite number; got None"),
         ({"periodic": "yes"}, r"periodic must be True or False; got 'yes'"),
         ({"rubber": "tread"}, r"rubber must be a Rubber; got str"),
         ({"rubber": gs.Rubber(1e16, bulk_modulus=1e20)}, r"modulus of the rubber must be from"),

@@ -140,11 +140,12 @@ def test_thick_rubber_is_a_half_space_and_thin_rubber_is_stiffer() -> None:
 
 
 def test_equal_layers_have_the_contact_of_one() -> None:
+    """Rounding of K changes iterations that stop at 1e-6 of the pressure, and totals by 1e-8."""
     line = rough_line()
     one = gs.solve_rough_contact(CAP, line, thickness=8e-3, **LOAD)
     two = gs.solve_rough_contact(gs.Layers([(CAP, 3e-3), (CAP, 5e-3)]), line, **LOAD)
-    assert two.contact_fraction == pytest.approx(one.contact_fraction, rel=1e-8)
-    assert two.friction == pytest.approx(one.friction, rel=1e-8)
+    assert two.contact_fraction == pytest.approx(one.contact_fraction, rel=1e-7)
+    assert two.friction == pytest.approx(one.friction, rel=1e-7)
 
 
 def test_losses_of_the_layers_sum_to_the_friction() -> None:

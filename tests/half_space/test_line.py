@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy.fft
 
-from gripscale._kernel import Line, gmres
+from gripscale._kernel import GapExtension, Line, gmres
 from gripscale.half_space.active_set import PointsInContact
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.response import HalfSpace, Response
@@ -72,14 +72,19 @@ def test_its_system_is_that_of_numpy() -> None:
 
 
 def test_a_system_that_does_not_fit_its_line_is_refused() -> None:
-    transfer, rows = transfer_of(64), (np.zeros(65, np.int32),)
-    none = (np.zeros(0, np.int32), np.zeros(0, np.float32))
-    for places, of_points in (([64], 1), ([-1], 1), ([3, 4], 1)):
-        with pytest.raises(ValueError, match="points and rows of the line"):
+    transfer, numbers = transfer_of(64), (1.0, 1e-3, 5)
+    line, short = (GapExtension.of_line(np.arange(n) == 3, None) for n in (64, 32))
+    for places, points, extension in (
+        ([64], 1, line),
+        ([-1], 1, line),
+        ([3, 4], 1, line),
+        ([3], 1, short),
+    ):
+        with pytest.raises(ValueError, match="points and an extension of the line"):
             Line(64).close_gap(
-                np.ones(of_points, np.float32),
+                np.ones(points, np.float32),
                 np.array(places),
                 [transfer, transfer],
-                (*rows, *none),
-                (1.0, 1e-3, 5),
+                extension,
+                numbers,
             )

@@ -75,10 +75,9 @@ def test_products_of_all_steps_towards_a_lossy_rubber_are_counted():
     """Where the contact does not settle at once, the loss angle is raised in steps."""
     body, grid = half_space(gs.rubber.styrene_butadiene(), 1.0), Grid((64,), (1e-3,))
     height, start = 1e-4 * np.cos(2.0 * np.pi * np.arange(64) / 64), np.full(64, 1e4)
-    sequence = GridSequence(body, None, 1e4, 1)
     response = Response.of(body, grid, 1)
     alone = solve_grid(response, height, start)
-    stepped = sequence._through_losses(response, height, start, alone)
+    stepped = GridSequence(body, None, 1e4, 1)._through_losses(response, height, alone)
     assert stepped.products > alone.products + 8
     assert stepped.iterations >= alone.iterations + 8  # of each of the eight steps at least one
     assert np.array_equal(stepped.active, alone.active)

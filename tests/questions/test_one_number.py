@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -171,15 +170,12 @@ def test_run_prints_the_answer_once(asked: Asked) -> None:
     assert asked.printed.index(line) == asked.printed.index("Answer: ")
 
 
-def test_pages_and_app_show_it(asked: Asked) -> None:
+def test_pages_show_it(asked: Asked) -> None:
     from gripscale.report.elements import Card
 
-    app = pytest.importorskip("gripscale.app.run_tabs")
-    shown = app.answer_elements(SimpleNamespace(folder=asked.folder))
     for cards in (
         asked.answer.page_content().cards,
         read_result(asked.folder).page_content().cards,
-        next(element.cards for element in shown if hasattr(element, "cards")),
     ):
         assert all(isinstance(card, Card) for card in cards)
         values = {card.label: card.value for card in cards}

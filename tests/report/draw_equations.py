@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import io
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -31,5 +32,5 @@ def drawn(latex: str) -> str:
 
 if __name__ == "__main__":
     folder = Path(equations.__file__).parent / "templates" / "equations"
-    for name, latex, *_ in equations.EQUATIONS:
-        (folder / f"{name}.svg").write_text(drawn(latex), encoding="utf-8")
+    for name, entry in tomllib.loads((folder / "equations.toml").read_text("utf-8")).items():
+        (folder / f"{name}.svg").write_text(drawn(entry["latex"]), encoding="utf-8")

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from rich.console import Console
 
-from gripscale.io.table import Column, Table, as_text, percent, write_csv
+from gripscale.io.table import Column, Table, as_text, percent
 from gripscale.report.elements import with_code
 
 PRESSURE = Column("pressure", np.array([3e5, math.nan]), "p", "bar", 1e5, group="load")
@@ -73,15 +71,6 @@ def test_a_page_escapes_texts_and_sets_minus_signs() -> None:
     assert '<td class="">–</td>' in page
     assert '<th scope="colgroup" colspan="2">result</th>' in page
     assert page.count('<tr class="strong">') == 1
-
-
-def test_files_hold_every_digit_in_the_unit_of_the_column(tmp_path: Path) -> None:
-    titles = ["model", "pressure [bar]", "range_low", "range_high", "share"]
-    with write_csv(TABLE, tmp_path / "a.csv").open(encoding="utf-8", newline="") as file:
-        rows = list(csv.reader(file))
-    assert rows[0] == titles
-    assert rows[1] == ["<b>chain</b>", "3.0", "-0.1", "0.2", "0.25"]
-    assert rows[2] == ["direct", "", "0.3", "", "inf"]
 
 
 def test_a_long_heading_breaks_into_few_lines_on_a_narrow_page() -> None:

@@ -40,7 +40,9 @@ def study(**attributes: object) -> xr.Dataset:
 
 def rows(result: xr.Dataset) -> list[dict[str, object]]:
     table = summary_table(result)
-    return [dict(zip(table.titles, row, strict=True)) for row in table.rows()]
+    titles = [f"{c.name} [{c.unit.replace('1', '-')}]" if c.unit else c.name for c in table.columns]
+    values = [[None if x != x else x for x in column.values] for column in table.columns]
+    return [dict(zip(titles, row, strict=True)) for row in zip(*values, strict=True)]
 
 
 def test_a_row_for_each_point_of_a_study() -> None:

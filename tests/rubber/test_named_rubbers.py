@@ -45,12 +45,6 @@ def test_it_says_what_it_is():
     assert styrene_butadiene() is rubber
 
 
-@pytest.mark.parametrize("band", [(1.0, 10.0), (1e3, 1.0), (-1.0, 1e3)])
-def test_bad_bands(band):
-    with pytest.raises(InputError, match="band"):
-        styrene_butadiene(band=band)
-
-
 @pytest.mark.parametrize("omega", [0.0, -1.0, np.inf])
 def test_bad_frequencies(omega):
     with pytest.raises(InputError, match="omega must be"):

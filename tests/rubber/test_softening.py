@@ -5,7 +5,6 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions
-from gripscale.conditions.conditions import softening_from_dict
 from gripscale.core import InputError
 from gripscale.rubber.softening import (
     Kraus,
@@ -86,7 +85,7 @@ def test_between_two_temperatures_factors_are_interpolated_and_flagged_beyond():
     "law", [KRAUS, SofteningTable([[1e-3, 1.0]], [[2, 1]], [[1, 1]], 0.1, "shear")]
 )
 def test_a_law_survives_its_dict(law):
-    assert softening_from_dict(law.to_dict()) == law
+    assert Conditions.from_dict({"softening": law.to_dict()}).softening == law
 
 
 @pytest.mark.parametrize("factor", [1.0, 0.3])
@@ -166,7 +165,7 @@ def test_a_relaxed_rubber_is_softened_by_the_storage_factor():
 )
 def test_a_wrong_law_is_one_sentence(values, word):
     with pytest.raises(gs.InputError, match=word) as caught:
-        softening_from_dict(values)
+        Conditions.from_dict({"softening": values})
     assert "\n" not in str(caught.value)
 
 

@@ -8,7 +8,7 @@ import pytest
 import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.rubber import MasterCurve, fit_prony_report, read_master_curve, springpot_modulus
-from gripscale.rubber.prony_report import swapped_moduli
+from gripscale.rubber.prony_report import SwappedModuli
 from tests.rubber.test_sweeps_reader import POLYMER
 from tests.rubber.truths import TREAD, TRUTHS, fractional_zener
 
@@ -37,7 +37,7 @@ MEASURED = {"tread": lambda: read_master_curve(TREAD), "polymer": polymer, "SBR"
 @pytest.mark.parametrize("name", MEASURED)
 def test_exchanged_moduli_are_refused_and_others_are_not(name: str) -> None:
     curve = MEASURED[name]()
-    assert not swapped_moduli(curve).likely
+    assert not SwappedModuli(curve).likely
     with pytest.raises(InputError, match=r"storage and loss modulus look exchanged.*\(columns\)"):
         fit_prony_report(turned(curve), bulk_modulus=1e10)
 
@@ -48,7 +48,7 @@ def test_no_rubber_of_ours_is_taken_for_an_exchanged_one(name: str, where: str) 
     """With errors of ten per cent; what a wrong alarm begins with is more than twice away."""
     truth = TRUTHS[name]
     for seed in range(3):
-        found = swapped_moduli(truth.measured(*truth.cut(where), 0.1, seed))
+        found = SwappedModuli(truth.measured(*truth.cut(where), 0.1, seed))
         assert found.as_given < 0.25
         assert not found.likely
 
@@ -60,26 +60,26 @@ def test_transitions_with_a_large_loss_factor(exponent: float) -> None:
     curve = MasterCurve(omega, modulus.real, modulus.imag)
     assert max(curve.loss_factor) > {0.3: 0.4, 0.6: 1.0, 0.8: 2.5}[exponent]
     for rows in (slice(None), slice(0, 25), slice(20, 45), slice(40, 65)):
-        assert not swapped_moduli(part(curve, rows)).likely
-    assert swapped_moduli(turned(curve)).certain
+        assert not SwappedModuli(part(curve, rows)).likely
+    assert SwappedModuli(turned(curve)).certain
 
 
 def test_parts_of_the_tread_curve_and_single_sweeps() -> None:
     tread = read_master_curve(TREAD)
     for rows in (slice(0, 30), slice(30, 60), slice(60, 105), slice(10, 20)):
-        assert not swapped_moduli(part(tread, rows)).likely
-        assert swapped_moduli(turned(part(tread, rows))).certain
+        assert not SwappedModuli(part(tread, rows)).likely
+        assert SwappedModuli(turned(part(tread, rows))).certain
     for sweep in gs.read_sweeps(POLYMER):
         one = MasterCurve(sweep.frequency, sweep.storage, sweep.loss)
-        assert not swapped_moduli(one).likely
-        assert swapped_moduli(turned(one)).likely
+        assert not SwappedModuli(one).likely
+        assert SwappedModuli(turned(one)).likely
 
 
 def test_a_melt_is_no_exchanged_rubber() -> None:
     """One Maxwell element that flows: E' rises with the square of the frequency, E'' with it."""
     omega = np.geomspace(1e-3, 1e1, 33)
     modulus = 1e6 * 1j * omega / (1.0 + 1j * omega)
-    assert not swapped_moduli(MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag)).likely
+    assert not SwappedModuli(MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag)).likely
 
 
 def test_what_looks_exchanged_is_said() -> None:
@@ -87,7 +87,7 @@ def test_what_looks_exchanged_is_said() -> None:
     omega = np.geomspace(1e2, 1e6, 41)
     modulus = fractional_zener(omega, 1e6, 2e9, 1e-5, 0.6)
     curve = turned(MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag))
-    found = swapped_moduli(curve)
+    found = SwappedModuli(curve)
     assert found.likely
     assert not found.certain
     report = fit_prony_report(curve, bulk_modulus=1e10)[1]

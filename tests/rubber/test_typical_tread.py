@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gripscale.conditions.conditions import softening_from_dict
+from gripscale.conditions.conditions import Conditions
 from gripscale.rubber import softening as tread
 from gripscale.rubber.softening import (
     HARDER_TREAD,
@@ -81,4 +81,5 @@ def test_a_result_stores_it_by_its_name():
         "deviation": 1.0,
         "deformation": None,
     }
-    assert softening_from_dict(HARDER_TREAD.to_dict()) == HARDER_TREAD
+    stored = {"softening": HARDER_TREAD.to_dict()}
+    assert Conditions.from_dict(stored).softening == HARDER_TREAD

@@ -5,7 +5,7 @@ import pytest
 from scipy.special import spherical_jn
 
 import gripscale as gs
-from gripscale.surface.long_waves import PER_FOOTPRINT, long_waves, longest_held
+from gripscale.surface.low_pass import PER_FOOTPRINT, long_waves, longest_held
 from gripscale.surface.synthetic import self_affine_profile
 from tests.samples import ZENER
 

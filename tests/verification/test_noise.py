@@ -10,7 +10,7 @@ import pytest
 import gripscale as gs
 from gripscale.core import Severity
 from gripscale.surface import Profile
-from gripscale.surface.noise import noise_finding, sensor_noise
+from gripscale.surface.plausibility import noise_finding, sensor_noise
 from studies.shipped import road, tread
 from tests.samples import ROOT
 

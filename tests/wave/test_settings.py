@@ -1,4 +1,4 @@
-"""Every constant of the solver can be seen and changed from Python, and only those."""
+"""Every setting of the solver can be seen and changed from Python, and only those."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Elements of a report as panes of the page, and the thread that computes what they show.
+"""Parts of the page: texts, figures, pages of results in frames, buttons, and the worker thread.
 
 All texts are escaped by the template.
 """
@@ -6,49 +6,22 @@ All texts are escaped by the template.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable, Iterable, Iterator, Sequence
+from collections.abc import Awaitable, Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
-from typing import Any, ClassVar, TypeVar
+from pathlib import Path
+from typing import Any, TypeVar
 
 import panel as pn
 
-from gripscale.charts.bokeh_parts import model
+from gripscale.app.case import VisitFolder
 from gripscale.charts.draw import Chart
-from gripscale.core.finding import Finding
 from gripscale.report.build import template_text, templates
-from gripscale.report.elements import Card, Code, Element, Text, open_and_folded
+from gripscale.report.elements import Code, Element, Text
 
 _T = TypeVar("_T")
 
 
-@dataclass(frozen=True)
-class Cards:
-    """Results at the head of a page, and what they are for and rest on."""
-
-    cards: Sequence[Card]
-    basis: Sequence[str]
-    kind: ClassVar[str] = "cards"
-
-
-@dataclass(frozen=True)
-class Folded:
-    """Warnings that open at a click."""
-
-    notices: Sequence[Finding]
-    kind: ClassVar[str] = "folded"
-
-
-AppElement = Element | Cards | Folded
-PageElements = Sequence[AppElement]
-
-
-def notice_elements(notices: Sequence[Finding]) -> Iterator[AppElement]:
-    """Yield errors and the first few warnings, then the others folded."""
-    opened, folded = open_and_folded(notices)
-    yield from opened
-    if folded:
-        yield Folded(folded)
+REPORTS = "reports"  # where the server gives pages of results and previews, by visit
 
 
 def column(*parts: Any, **options: Any) -> pn.Column:
@@ -62,16 +35,11 @@ def folded_card(title: str, *parts: Any, **options: Any) -> pn.Card:
     return pn.Card(*parts, title=title, collapsed=True, **look, **options)
 
 
-def panes(elements: Iterable[AppElement]) -> list[pn.viewable.Viewable]:
-    """Return the panes that show `elements`, in order."""
-    return [chart_pane(e) if isinstance(e, Chart) else html(e) for e in elements]
-
-
 _STYLE = template_text("gripscale.app", "elements.css")
 
 
-def html(element: AppElement) -> pn.pane.HTML:
-    """Return the pane of a text, a notice, a table, facts, code or cards."""
+def html(element: Element) -> pn.pane.HTML:
+    """Return the pane of a text, a notice, a table or code."""
     return raw(templates("gripscale.app").get_template("elements.html").render(e=element))
 
 
@@ -81,12 +49,21 @@ def raw(markup: str) -> pn.pane.HTML:
     return pn.pane.HTML(markup, **look)
 
 
-def chart_pane(chart: Chart, figure: Any = None) -> pn.Column:
-    """Return the pane of a chart and its caption; `figure` is its Bokeh model, if there is one."""
-    figure = figure or model(chart.figure)
+def chart_pane(chart: Chart, figure: Any) -> pn.Column:
+    """Return the pane of the Bokeh model of a chart, with its caption."""
     figure.html_attributes = {"role": "img", "aria-label": chart.alt}
     pane = pn.pane.Bokeh(figure, sizing_mode="stretch_width", margin=(4, 8))
     return column(pane, html(Text(chart.caption)), css_classes=["chart"])
+
+
+def page_frame(visit: VisitFolder, page: Path, title: str, kind: str = "") -> pn.pane.HTML:
+    """Return a page of a visit in a frame, as a document of its own, with a link to it alone."""
+    written = page.stat().st_mtime_ns  # a page that was written anew is read anew
+    address = f"{REPORTS}/{page.relative_to(visit.path.parent).as_posix()}?{written}"
+    return raw(
+        f'<p><a href="{address}" target="_blank">Open this page alone</a></p>'
+        f'<iframe class="report {kind}" title="{title}" src="{address}"></iframe>'
+    )
 
 
 def code(text: str) -> pn.pane.HTML:

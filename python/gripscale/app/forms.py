@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Sequence
+from pathlib import Path
 from typing import Any
 
 import panel as pn
@@ -14,17 +15,18 @@ import panel as pn
 from gripscale.app.case import CaseState, field_text, field_value
 from gripscale.app.elements import (
     CUT_TEXT,
-    PageElements,
     column,
     folded_card,
     in_worker,
-    panes,
+    page_frame,
     work_button,
 )
 from gripscale.case_file import CaseFile
 from gripscale.case_file.keys import NEEDED, NOTHING, Key, KeySection, sections
 from gripscale.case_file.schema import choices_of
 from gripscale.conditions.conditions import DEFAULTED, OFF
+from gripscale.report import write_page
+from gripscale.report.elements import Page
 
 BY_DEFAULT = "by default"
 LOOK: dict[str, Any] = {
@@ -109,7 +111,8 @@ def field(state: CaseState, section: KeySection, key: Key) -> Any:
     kind = key.schema.get("type")
     choices = [True, False] if kind == "boolean" else choices_of(key.schema)
     is_text = kind == "string"
-    look = {**_words(key), **LOOK}
+    label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
+    look = {"label": label, "description": f"{key.meaning} Takes {key.takes}.", **LOOK}
     has_default = key.default not in (NEEDED, NOTHING)
     by_default = f"{BY_DEFAULT}: {key.default}" if has_default else BY_DEFAULT
     if key.default == NEEDED:
@@ -143,12 +146,6 @@ def field(state: CaseState, section: KeySection, key: Key) -> Any:
     return widget
 
 
-def _words(key: Key) -> dict[str, str]:
-    """Return label and description of the field of a key."""
-    label = key.name.replace("_", " ") + (" *" if key.default == NEEDED else "")
-    return {"label": label, "description": f"{key.meaning} Takes {key.takes}."}
-
-
 def _bind(
     state: CaseState, widgets: Sequence[Any], edit: Callable[[], None], follow: Callable[[], None]
 ) -> None:
@@ -177,24 +174,29 @@ def _rows(fields: list[Any]) -> pn.FlexBox:
 
 
 class PreviewPanel:
-    """What `make` returns for the case as it is, at a click or on `update`.
+    """The page that `make` composes of the case as it is, at a click or on `update`.
 
     What is refused is the problem of the case, in its `table`.
     """
 
     def __init__(
-        self, state: CaseState, table: str, label: str, make: Callable[[CaseFile], PageElements]
+        self, state: CaseState, table: str, label: str, make: Callable[[CaseFile], Page]
     ) -> None:
         self._state, self._table, self._make = state, table, make
         self.button = work_button(label, self.update, color="primary")
         self.body = column()
 
+    def _written(self) -> Path:
+        target = self._state.visit.path / f"preview-{self._table}.html"
+        return write_page(lambda: self._make(self._state.file()), target)
+
     async def update(self) -> None:
         """Make the preview of the case as it is now."""
-        self.body.loading, elements = True, []
+        self.body.loading, self.body.objects = True, []
         try:
             with self._state.refusals(self._table):
-                elements = list(await in_worker(lambda: self._make(self._state.file())))
-            self.body.objects = panes(elements)
+                page = await in_worker(self._written)
+                title = f"Preview of the {self._table}"
+                self.body.objects = [page_frame(self._state.visit, page, title)]
         finally:
             self.body.loading = False

@@ -18,13 +18,7 @@ from bokeh.models import BoxSelectTool
 from gripscale import case_file
 from gripscale.app.case import CaseState, with_value
 from gripscale.app.case_panel import NewText, file_upload, problem_pane, with_upload
-from gripscale.app.elements import (
-    AppElement,
-    chart_pane,
-    column,
-    in_worker,
-    notice_elements,
-)
+from gripscale.app.elements import chart_pane, column, in_worker
 from gripscale.app.forms import PreviewPanel, table_form
 from gripscale.case import Case
 from gripscale.case_file.prepare import raw_surface
@@ -42,7 +36,7 @@ from gripscale.questions.inputs.charts_of_surface import (
     raw_chart,
 )
 from gripscale.questions.inputs.record import InputRecord
-from gripscale.report.elements import Text
+from gripscale.report.elements import Element, Page, Section, Text, as_elements
 
 # Keys of [surface] that this figure depends on.
 READ_BY = (
@@ -136,45 +130,44 @@ def _case_with(file: case_file.CaseFile, **tables: Any) -> Case:
     return case_file.read_case(replace(file, case=file.case.model_copy(update=plain | tables)))
 
 
-def surface_elements(file: case_file.CaseFile) -> list[AppElement]:
-    """Return warnings, correlation with its waves, cleaning and profiles of the surface."""
+def surface_page(file: case_file.CaseFile) -> Page:
+    """Return the page of the surface: correlation with its waves, cleaning and profiles."""
     any_rubber = case_file.validate(case_file.RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
-    case = _case_with(file, rubber=any_rubber)
+    surface = (case := _case_with(file, rubber=any_rubber)).surface
     inputs = record.inputs(case)
-    notes = [*notice_elements(case.surface.findings)]
-    if case.surface.measured is None:
-        return [*notes, Text("The case states the sine waves; no surface is measured.")]
-    return [
-        *notes,
-        *correlation_charts(inputs),
-        *page.surface_facts(InputRecord(inputs), len(case.surface.sines)),
-        *page.cleaning_tables(InputRecord(inputs)),
-        *profile_charts(inputs),
-    ]
+    elements: list[Element] = [Text("The case states the sine waves; no surface is measured.")]
+    if surface.measured is not None:
+        elements = [
+            *correlation_charts(inputs),
+            *page.surface_facts(InputRecord(inputs), len(surface.sines)),
+            *page.cleaning_tables(InputRecord(inputs)),
+            *profile_charts(inputs),
+        ]
+    section = Section("road", "As read, cleaned and fitted", elements)
+    return Page.of("The road", surface.source, surface.findings, [], [section])
 
 
-def rubber_elements(file: case_file.CaseFile) -> list[AppElement]:
-    """Return findings, superposition, moduli with the fit and the ends of the data."""
+def rubber_page(file: case_file.CaseFile) -> Page:
+    """Return the page of the rubber: superposition, moduli with the fit and ends of the data."""
     any_wave = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
     case = _case_with(file, surface=case_file.validate(case_file.SurfaceTable, any_wave, "surface"))
-    inputs = record.inputs(case)
-    findings = InputRecord(inputs).findings
-    doubtful = [Finding(Severity.WARNING, f"{text}.") for text in findings]
-    elements = [*notice_elements([*case.measured_rubber.doubts, *doubtful])]
-    for part in page.shift_parts(case.measured_rubber):
-        elements.append(Text(part) if isinstance(part, str) else part)
-    sweeps, master = case.measured_rubber.sweeps, case.measured_rubber.master
+    inputs, measured = record.inputs(case), case.measured_rubber
+    doubtful = [Finding(Severity.WARNING, f"{text}.") for text in InputRecord(inputs).findings]
+    elements = as_elements(page.shift_parts(measured))
+    sweeps, master = measured.sweeps, measured.master
     if sweeps is not None and master is not None and master.shift is not None and len(sweeps) > 1:
         words = "Sweeps as measured and shifted to one temperature."
         alt = "Moduli and loss factor of all sweeps by frequency, as measured and shifted."
         figure = superposition_figure(sweeps, master)
         elements.append(image(Picture("superposition", figure, words, alt)))
-    return [*elements, *rubber_charts(inputs, None), page.rubber_facts(InputRecord(inputs))]
+    elements += [*rubber_charts(inputs, None), page.rubber_facts(InputRecord(inputs))]
+    section, findings = Section("rubber", "As read and fitted", elements), measured.doubts
+    return Page.of("The rubber", measured.rubber.name, [*findings, *doubtful], [], [section])
 
 
 def road_tab(state: CaseState) -> pn.Column:
     """Return the tab of the surface: upload, the surface as measured, fields, preview."""
-    preview = PreviewPanel(state, "surface", "Read, clean and fit", surface_elements)
+    preview = PreviewPanel(state, "surface", "Read, clean and fit", surface_page)
     return column(
         problem_pane(state, "surface"),
         file_upload(
@@ -207,7 +200,7 @@ def with_proposal(
 
 def rubber_tab(state: CaseState) -> pn.Column:
     """Return the tab of the rubber: uploads, fields, preview."""
-    preview = PreviewPanel(state, "rubber", "Read and fit", rubber_elements)
+    preview = PreviewPanel(state, "rubber", "Read and fit", rubber_page)
     return column(
         problem_pane(state, "rubber"),
         file_upload(

@@ -1,14 +1,10 @@
-"""Tabs for what comes of the case: run, the page of a result, and all runs of the visit.
-
-Figures, tables and sentences are those of the report.
-"""
+"""Tabs for what comes of the case: run, the page of a result, and all runs of the visit."""
 
 from __future__ import annotations
 
 import asyncio
-import io
 import shlex
-import zipfile
+import shutil
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -26,7 +22,6 @@ from gripscale.questions.registry import Form
 from gripscale.report.elements import Element, Text
 
 POLL = 500  # milliseconds between two readings of the text of a run
-REPORTS = "reports"  # where the server gives the pages of results, by visit and run
 NO_RUN = "<p>No case was run yet.</p>"
 
 
@@ -92,7 +87,8 @@ def run_tab(state: CaseState, runs: Runs) -> pn.Column:
         bar.visible = stop.visible = False
         show_output(run)
         if run.state == "finished":
-            answer.objects = elements.panes(await elements.in_worker(lambda: answer_elements(run)))
+            title = f"Answer of {run.name}"
+            answer.objects = [elements.page_frame(state.visit, run.page(), title, "answer")]
         runs.changes += 1
         if run.state == "failed":
             raise InputError(f"{run.name}: {run.failure()}")
@@ -127,18 +123,6 @@ def run_status(run: AppRun) -> Element:
     return Text(f"{run.name}, {run.command.title.lower()}, {words[run.state]}")
 
 
-def answer_elements(run: AppRun) -> elements.PageElements:
-    """Return the answer of a finished run, what it rests on, and what is to be known of it."""
-    try:
-        result = page_of_folder.read_result(run.folder)
-    except GripscaleError:
-        return []  # the next tab says why
-    page = result.page_content()
-    numbers = elements.Cards(page.cards, [*filter(None, [page.subtitle]), *page.basis])
-    opened, folded = page.warnings
-    return [*page.errors, numbers, *opened, *([elements.Folded(folded)] if folded else [])]
-
-
 def results_tab(state: CaseState, runs: Runs) -> pn.Column:
     """Return the tab that shows the page of one run, and saves its files."""
     choice = pn.widgets.Select(label="Run", options=[], margin=(4, 8), width=320)
@@ -153,17 +137,12 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
             body.objects = [elements.raw(waiting)]
             return
         try:
-            page = run.page().relative_to(state.visit.path.parent).as_posix()
+            frame = elements.page_frame(state.visit, run.page(), f"Report of {run.name}")
         except FileError as error:
             why = state.visit.short(error)
             body.objects = [elements.html(Text(f"{run.name} has no page: {why}"))]
-            return
-        address = f"{REPORTS}/{page}"
-        frame = elements.raw(
-            f'<p><a href="{address}" target="_blank">Open this page alone</a></p>'
-            f'<iframe class="report" title="Report of {run.name}" src="{address}"></iframe>'
-        )
-        body.objects = [downloads(run), frame]
+        else:
+            body.objects = [downloads(run), frame]
 
     def follow(_: Any) -> None:
         options = {f"{run.name}: {run.command.title}": run for run in runs.all}
@@ -180,13 +159,8 @@ def results_tab(state: CaseState, runs: Runs) -> pn.Column:
 def downloads(run: AppRun) -> pn.FlexBox:
     """Return buttons that save the report, each data file and the whole folder."""
 
-    def zipped() -> io.BytesIO:
-        buffer = io.BytesIO()
-        with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-            for path in sorted(path for path in run.folder.rglob("*") if path.is_file()):
-                archive.write(path, path.relative_to(run.folder.parent))
-        buffer.seek(0)
-        return buffer
+    def zipped() -> str:
+        return shutil.make_archive(str(run.folder), "zip", run.folder.parent, run.folder.name)
 
     files = [
         pn.widgets.FileDownload(
@@ -207,13 +181,14 @@ def all_runs_tab(runs: Runs) -> pn.Column:
 
     async def follow(_: Any) -> None:
         if any(not run.running for run in runs.all):
-            body.objects = elements.panes(await elements.in_worker(lambda: compared_elements(runs)))
+            compared = await elements.in_worker(lambda: compared_runs(runs))
+            body.objects = [elements.html(compared)]
 
     runs.param.watch(follow, "changes")
     return body
 
 
-def compared_elements(runs: Runs) -> elements.PageElements:
+def compared_runs(runs: Runs) -> Text | Table:
     """Return the answer of each run that has one, and the keys in which its case differs."""
     answers: list[tuple[AppRun, Answer]] = []
     for run in runs.all:
@@ -224,7 +199,7 @@ def compared_elements(runs: Runs) -> elements.PageElements:
         if isinstance(result, Answer):
             answers.append((run, result))
     if not answers:
-        return [Text(NONE_TO_COMPARE)]
+        return Text(NONE_TO_COMPARE)
     first = answers[0][0].text
     changes = [", ".join(changed_keys(first, run.text)) for run, _ in answers]
     columns = [
@@ -232,7 +207,7 @@ def compared_elements(runs: Runs) -> elements.PageElements:
         Column("answer", [answer.lines[0] for _, answer in answers], words=True),
         Column("changes", changes, "keys that differ from the first", words=True),
     ]
-    return [Table("runs", columns, "The runs of this visit")]
+    return Table("runs", columns, "The runs of this visit")
 
 
 def changed_keys(first: str, other: str) -> Iterator[str]:

@@ -131,15 +131,11 @@ class AppRun:
 
     def failure(self) -> str:
         """Return the sentence the process failed with; its last line if it broke off."""
-        return self.last_line().removeprefix("error: ") if self.state == "failed" else ""
-
-    def last_line(self) -> str:
-        """Return what the process printed last."""
-        return self.log().rstrip().rpartition("\n")[2].strip()
+        return self.how_far().removeprefix("error: ") if self.state == "failed" else ""
 
     def how_far(self) -> str:
-        """Return how far it is, in words."""
-        return self.last_line() or "starting"
+        """Return what the process printed last."""
+        return self.log().rstrip().rpartition("\n")[2].strip() or "starting"
 
 
 class Runs(param.Parameterized):

@@ -15,9 +15,9 @@ from tornado.web import HTTPError, StaticFileHandler
 
 from gripscale.app.case import MAX_UPLOAD, CaseState, VisitFolder
 from gripscale.app.case_panel import case_panel, prepare_areas
-from gripscale.app.elements import column, raw
+from gripscale.app.elements import REPORTS, column, raw
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
-from gripscale.app.run_tabs import REPORTS, all_runs_tab, results_tab, run_tab
+from gripscale.app.run_tabs import all_runs_tab, results_tab, run_tab
 from gripscale.app.runs import REPORT, Runs
 from gripscale.case_file import read_case_file
 from gripscale.case_file.examples import EXAMPLES
@@ -37,6 +37,7 @@ PAGE_STYLE = """\
 @media (prefers-color-scheme: dark) { :root { filter: invert(0.9) hue-rotate(180deg); } }
 """
 HOST = "127.0.0.1"
+PAGES = rf"(?:runs/[^/]+/{REPORT}|preview-\w+\.html)"  # of a visit, given to frames
 GONE_AFTER = 15_000  # milliseconds after which a page that was closed counts as left
 
 
@@ -73,10 +74,8 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
         case_panel(state), styles={"flex": "1 1 300px", "min-width": "0", "max-width": "100%"}
     )
 
-    def give_room(event: Any) -> None:
-        side.visible = event.new < len(of_case)  # a result has a case of its own
-
-    tabs.param.watch(give_room, "active")
+    # a result has a case of its own
+    tabs.param.watch(lambda event: side.param.update(visible=event.new < len(of_case)), "active")
     body = pn.FlexBox(tabs, side, sizing_mode="stretch_width", align_items="start")
     return column(raw(INTRO), body, max_width=1500)
 
@@ -100,7 +99,7 @@ def serve(root: Path, case: Path | None, port: int, browser: bool) -> None:
     reports = {"path": str(root.resolve()), "hosts": origins}
     server = pn.serve(
         {"/": page},
-        extra_patterns=[(rf"/{REPORTS}/([^/]+/runs/[^/]+/{REPORT})", ReportHandler, reports)],
+        extra_patterns=[(rf"/{REPORTS}/([^/]+/{PAGES})", ReportHandler, reports)],
         title={"/": _TITLE},
         address=HOST,
         port=port,

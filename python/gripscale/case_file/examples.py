@@ -15,7 +15,7 @@ import numpy as np
 
 from gripscale.case_file.keys import SCHEMA_LINE, write_schema
 from gripscale.core import ZERO_CELSIUS, Described, FileError, checks
-from gripscale.io.folders import nearest_existing, write_bytes
+from gripscale.io.folders import make_folder, require_writable, write_bytes
 
 
 def road_text() -> str:
@@ -52,38 +52,22 @@ def sweeps_text() -> str:
     return "\n".join(rows) + "\n"
 
 
-_CASE = "case.toml"
+_CASE, _PACKAGE = "case.toml", files("gripscale.case_file")
 
 
 @dataclass(frozen=True, repr=False)
 class Example(Described):
     """A case with the files it names."""
 
-    about: str
-    """What slides on what."""
-    files: tuple[str, ...] = ()
-    """Files of the package, by the path they get; origin and licence among them."""
-    made: tuple[tuple[str, Callable[[], str]], ...] = ()
-    """Texts that are computed instead, by the path they get."""
-    needs: str = ""
-    """Extra of the package without which its files cannot be read, or nothing."""
+    about: str  # what slides on what
+    folders: tuple[str, ...] = ()  # of the package, whose files it names, with origin and licence
+    made: tuple[tuple[str, Callable[[], str]], ...] = ()  # texts computed instead, by their path
+    needs: str = ""  # extra of the package without which its files cannot be read, or nothing
 
-
-_ROAD, _FRICTION, _SURFACES = "data/road", "data/friction", "data/surfaces"
 
 EXAMPLES: dict[str, Example] = {
     "road": Example(
-        "a filled tread rubber on a coarse road, both measured",
-        (
-            f"{_ROAD}/20211011_aylesbury_dec_station_0.dat",
-            f"{_ROAD}/20211011_aylesbury_dec_station_1.dat",
-            f"{_ROAD}/SOURCE.txt",
-            f"{_ROAD}/LICENSE",
-            f"{_FRICTION}/S100_master_curve.csv",
-            f"{_FRICTION}/S100_shift.csv",
-            f"{_FRICTION}/S100_strain_sweeps.csv",
-            f"{_FRICTION}/SOURCE.txt",
-        ),
+        "a filled tread rubber on a coarse road, both measured", ("data/road", "data/friction")
     ),
     "synthetic": Example(
         "an unfilled rubber known by name on a made-up self-affine road",
@@ -95,7 +79,7 @@ EXAMPLES: dict[str, Example] = {
     ),
     "map": Example(
         "an unfilled rubber known by name on a measured map of a ground surface",
-        (f"{_SURFACES}/al3d-1.al3d", f"{_SURFACES}/SOURCE.txt", f"{_SURFACES}/LICENSE.md"),
+        ("data/surfaces",),
         needs="formats",
     ),
 }
@@ -113,11 +97,11 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
     # A case of the source tree seeks its data in the folder above.
     text = _packaged(f"cases/{name}.toml").decode("utf-8").replace('"../data/', '"data/')
     contents = {_CASE: f"{SCHEMA_LINE}{text}".encode()}
-    contents |= {path: _packaged(path) for path in example.files}
+    for data in example.folders:
+        measured = sorted(file.name for file in _PACKAGE.joinpath(data).iterdir())
+        contents |= {f"{data}/{name}": _packaged(f"{data}/{name}") for name in measured}
     contents |= {path: make().encode("utf-8") for path, make in example.made}
-    parent = nearest_existing(target)
-    if not parent.is_dir():
-        raise FileError(f"folder {target} cannot be made: {parent} is not a folder")
+    require_writable(target)
     taken = [path for path in contents if (target / path).exists()]
     if taken:
         raise FileError(
@@ -125,15 +109,11 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
             "expected a folder without it"
         )
     for path, content in contents.items():
-        written = target / path
-        try:
-            written.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise FileError(f"folder {written.parent} cannot be made: {error.strerror}") from error
-        write_bytes(written, content)
+        make_folder((target / path).parent)
+        write_bytes(target / path, content)
     write_schema(SCHEMA_LINE, target)
     return [target / path for path in contents]
 
 
 def _packaged(path: str) -> bytes:
-    return files("gripscale.case_file").joinpath(*path.split("/")).read_bytes()
+    return _PACKAGE.joinpath(path).read_bytes()

@@ -23,14 +23,7 @@ from gripscale.case_file.keys import write_schema
 from gripscale.case_file.read import CaseFile, read_case_file
 from gripscale.case_file.tables import CaseTables, FigureKind
 from gripscale.core.errors import GripscaleError, InputError
-from gripscale.io.folders import (
-    make_folder,
-    path_between,
-    require_writable,
-    unwritable,
-    write_bytes,
-    write_text,
-)
+from gripscale.io import folders
 from gripscale.io.text_table import read_bytes
 
 SAVED_CASE, INPUTS = "case.toml", "inputs"
@@ -136,16 +129,16 @@ def claim(folder: Path, case: Path, *, replace: bool = False) -> None:
     Raises `FileError` if the folder cannot be written, `InputError` if it holds results of another
     case and they are not to be replaced.
     """
-    require_writable(folder)
-    note, name = folder / CASE_NOTE, path_between(folder, case)
+    folders.require_writable(folder)
+    note, name = folder / CASE_NOTE, folders.path_between(folder, case)
     other = note.read_text(encoding="utf-8").strip() if note.is_file() else name
     if other != name and not replace:
         raise InputError(
             f"{folder} holds the results of another case, {Path(os.path.normpath(folder / other))}"
             "; --output DIR keeps both, --replace replaces them"
         )
-    make_folder(folder)
-    write_text(note, f"{name}\n")
+    folders.make_folder(folder)
+    folders.write_text(note, f"{name}\n")
 
 
 def prepare(folder: Path, file: CaseFile) -> None:
@@ -154,13 +147,13 @@ def prepare(folder: Path, file: CaseFile) -> None:
     Predictions stay: each is found by all it depends on.
     """
     saved = saved_case(file, folder)
-    make_folder(folder)
+    folders.make_folder(folder)
     try:
         earlier = {*RESULT_FILES, *_OF_OTHER_VERSIONS, *saved_inputs(folder)}
         for name in earlier - {*saved.copies, SAVED_CASE}:
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
-        raise unwritable(folder, error) from error
+        raise folders.unwritable(folder, error) from error
     write_saved(saved, folder)
 
 
@@ -171,8 +164,8 @@ def save_case(file: CaseFile, folder: Path) -> None:
 
 def write_saved(saved: SavedCase, folder: Path, case_name: str = SAVED_CASE) -> None:
     """Write the case and its copies; raise `FileError` if that fails."""
-    make_folder(folder / INPUTS if saved.copies else folder)
+    folders.make_folder(folder / INPUTS if saved.copies else folder)
     for target, content in saved.copies.items():
-        write_bytes(folder / target, content)
+        folders.write_bytes(folder / target, content)
     write_schema(saved.text, folder)
-    write_text(folder / case_name, saved.text)
+    folders.write_text(folder / case_name, saved.text)

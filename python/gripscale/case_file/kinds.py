@@ -14,18 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.case_file.proposals import (
-    ENOUGH_LINES,
-    UNITS_OF_RUBBER,
-    UNITS_OF_SURFACE,
-    holds_moduli,
-    open_rubber,
-    open_shift,
-    open_strain_sweeps,
-    open_surface,
-    read_with,
-    reading_keys,
-)
+from gripscale.case_file import proposals
 from gripscale.core import ZERO_CELSIUS, GripscaleError, checks, in_mm
 from gripscale.core.checks import shortened
 from gripscale.core.units import spelled
@@ -63,16 +52,12 @@ class Taken:
     path: Path
     kind: str
     why: str
-    measured: Any = None
-    """What was read; of strain sweeps a list, of a Prony series a dictionary."""
+    measured: Any = None  # what was read; of strain sweeps a list, of a Prony series a dictionary
+    # Keys that nothing states and without which it cannot be read, as assumed to read it.
     missing: Mapping[str, Any] = field(default_factory=dict)
-    """Keys that nothing states and without which it cannot be read, as assumed to read it."""
-    columns: Mapping[int, ColumnTitle] = field(default_factory=dict)
-    """The columns that were read, by their numbers from 1."""
-    refusal: GripscaleError | None = None
-    """Why the file cannot be read as what it seems to be."""
-    by_caller: bool = False
-    """Whether the caller states its kind."""
+    columns: Mapping[int, ColumnTitle] = field(default_factory=dict)  # that were read, from 1
+    refusal: GripscaleError | None = None  # why it cannot be read as what it seems to be
+    by_caller: bool = False  # whether the caller states its kind
 
     @property
     def titles(self) -> str:
@@ -89,14 +74,14 @@ class Taken:
 # How the files of each kind are read, and the keys that nothing states; of moduli and of surfaces
 # all kinds alike.
 READERS: dict[str, Callable[[Path, FileKeys], tuple[Any, dict[str, Any]]]] = {
-    "strain-sweep": lambda path, _: open_strain_sweeps([path]),
-    "prony": lambda path, _: read_with(read_prony_table, path, UNITS_OF_RUBBER),
-    "moduli": lambda path, keys: open_rubber([path], keys.layout),
-    "shift": lambda path, _: open_shift(path),
+    "strain-sweep": lambda path, _: proposals.open_strain_sweeps([path]),
+    "prony": lambda path, _: proposals.read_with(read_prony_table, path, proposals.UNITS_OF_RUBBER),
+    "moduli": lambda path, keys: proposals.open_rubber([path], keys.layout),
+    "shift": lambda path, _: proposals.open_shift(path),
     "friction": lambda path, _: (read_measured_friction(path), {}),
     "spectrum": lambda path, _: (read_spectrum(path), {}),
-    "surface": lambda path, keys: open_surface(
-        path, keys.step, UNITS_OF_SURFACE, **reading_keys(keys.surface)
+    "surface": lambda path, keys: proposals.open_surface(
+        path, keys.step, proposals.UNITS_OF_SURFACE, **proposals.reading_keys(keys.surface)
     ),
 }
 _READER_OF = {**dict.fromkeys(SURFACES[:2], "surface"), **dict.fromkeys(RUBBERS[:3], "moduli")}
@@ -128,7 +113,7 @@ def take(path: Path, keys: FileKeys, name: str | None = None) -> Taken:
             continue
         if of_speeds and not any(spelled(title.unit, "length") for title in columns.values()):
             break  # speeds are no heights, unlike lengths beside them
-        return Taken(path, _kind_of(kind, measured), _about(measured), measured, missing, columns)
+        return Taken(path, *_kind_and_size(measured), measured, missing, columns)
     refusal = of_speeds or refusals[-1]
     why = str(refusal).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
     kind = {"moduli": RUBBERS[1]}.get(seems[0], seems[0] if len(seems) == 1 else UNUSED)
@@ -145,26 +130,16 @@ def _seems(path: Path, keys: FileKeys) -> list[str]:
     titled: set[str | None] = set()
     with suppress(GripscaleError):
         of_titles = replace(layout, frequency=None)
-        blocks = read_blocks(path, of_titles, temperature_unit="C", most=ENOUGH_LINES)
+        blocks = read_blocks(path, of_titles, temperature_unit="C", most=proposals.ENOUGH_LINES)
         titled = {quantity(name) for block in blocks for name in block.table.names}
         titled |= {"loss" for block in blocks if other_content(block.table)}
     if "strain" in titled and holds_strain_sweeps(path):
         return ["strain-sweep"]
-    if titled & {"frequency", "storage", "loss"} or holds_moduli(path, layout):
+    if titled & {"frequency", "storage", "loss"} or proposals.holds_moduli(path, layout):
         return ["moduli"]
     if titled and {quantity(n) for n in blocks[0].table.names[:1]} & {"temperature", "strain"}:
         return ["shift", "friction"]  # no distances
     return ["shift", "friction", "surface"]
-
-
-def _kind_of(reader: str, measured: Any) -> str:
-    if isinstance(measured, Sweeps):
-        return "ramp" if measured.is_ramp else "sweeps"
-    if reader == "moduli":
-        return "master-curve"
-    if reader == "surface":
-        return "map" if isinstance(measured, HeightMap) else "profile"
-    return reader
 
 
 def joinable(file: Taken, layout: Mapping[str, Any]) -> bool:
@@ -176,28 +151,31 @@ def joinable(file: Taken, layout: Mapping[str, Any]) -> bool:
     return all(block.states_temperature(FileLayout(**layout)) for block in named)
 
 
-def _about(measured: Any) -> str:
-    """Return what was read, in a clause."""
+def _kind_and_size(measured: Any) -> tuple[str, str]:
+    """Return the kind of what was read, and how much it is in a clause."""
     match measured:
         case dict():
-            return f"{len(measured['moduli'])} relaxation times and an equilibrium modulus"
+            return "prony", f"{len(measured['moduli'])} relaxation times and an equilibrium modulus"
         case Profile():
-            return f"{len(measured.z)} heights over {in_mm(measured.length, 4)}"
+            return "profile", f"{len(measured.z)} heights over {in_mm(measured.length, 4)}"
         case HeightMap():
             size = " x ".join(in_mm(length, 4) for length in measured.length)
-            return f"{' x '.join(map(str, measured.z.shape))} heights over {size}"
+            return "map", f"{' x '.join(map(str, measured.z.shape))} heights over {size}"
         case Spectrum():
             height, slope = in_mm(measured.rms_height, 3), measured.rms_gradient()
-            return f"{len(measured.density)} points, rms height {height}, rms slope {slope:.3g}"
+            points = len(measured.density)
+            return "spectrum", f"{points} points, rms height {height}, rms slope {slope:.3g}"
         case Sweeps():
-            return measured.summary()
+            return "ramp" if measured.is_ramp else "sweeps", measured.summary()
         case MasterCurve():
-            return f"{len(measured.frequency)} rows, {least_to_most(measured.frequency)} Hz"
+            hertz = measured.frequency
+            return "master-curve", f"{len(hertz)} rows, {least_to_most(hertz)} Hz"
         case ShiftTable():
-            celsius = least_to_most(measured.temperature - ZERO_CELSIUS)
-            return f"{len(measured.temperature)} shift factors from {celsius} °C"
+            celsius = measured.temperature - ZERO_CELSIUS
+            return "shift", f"{len(celsius)} shift factors from {least_to_most(celsius)} °C"
         case MeasuredFriction():
-            return f"{len(measured.speed)} values at {least_to_most(measured.speed)} m/s"
+            speed = measured.speed
+            return "friction", f"{len(speed)} values at {least_to_most(speed)} m/s"
     strains = np.concatenate([100.0 * sweep.strain for sweep in measured])
     conditions = "; ".join(sweep.condition for sweep in measured)
-    return f"strains of {least_to_most(strains)} %, at {conditions}"
+    return "strain-sweep", f"strains of {least_to_most(strains)} %, at {conditions}"

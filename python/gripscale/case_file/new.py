@@ -12,23 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from gripscale.case import Case
+from gripscale.case_file import proposals
 from gripscale.case_file.keys import SCHEMA_LINE, sections, write_schema
 from gripscale.case_file.kinds import RUBBERS, SURFACES, FileKeys, Taken
 from gripscale.case_file.laboratory import Ask, Laboratory, first_choice, laboratory
 from gripscale.case_file.prepare import read_case
-from gripscale.case_file.proposals import (
-    BY_A_FACTOR,
-    OF_ANOTHER_CASE,
-    TENS_OF_PERCENT,
-    Proposal,
-    add_shift,
-    add_softening,
-    assumption,
-    celsius_text,
-    conditions_proposal,
-    rubber_proposal,
-    surface_proposal,
-)
+from gripscale.case_file.proposals import Proposal
 from gripscale.case_file.read import read_case_file
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS
 from gripscale.case_file.schema import toml_text
@@ -166,12 +155,14 @@ def propose(
     if kelvin is None and friction:
         kelvin = friction[0].measured.middle("temperature")
     paths = [file.path for file in lab.of(*SURFACES)]
-    road = surface_proposal(paths, [inside[path] for path in paths], step=step, keys=of_surface)
+    road = proposals.surface_proposal(
+        paths, [inside[path] for path in paths], step=step, keys=of_surface
+    )
     rubbers, shifts = [file.path for file in lab.of(*RUBBERS)], lab.of("shift")
     if names:
         rubber = Proposal()
         rubber.add("name", names[0], "known by published parameters")
-        add_shift(rubber, shift)
+        proposals.add_shift(rubber, shift)
     else:
         units: Mapping[str, str] = {}
         options: dict[str, Any] = {"shift": shift, "reference": reference}
@@ -180,9 +171,9 @@ def propose(
             unity = shifts[0].measured.unity
             if reference is None and unity is not None:
                 reason = f"a_T of {shifts[0].path.name} is 1 there"
-                options |= {"reference": celsius_text(unity), "reason": reason}
+                options |= {"reference": proposals.celsius_text(unity), "reason": reason}
             units, shifts = shifts[0].missing, []
-        rubber = rubber_proposal(
+        rubber = proposals.rubber_proposal(
             rubbers,
             [inside[path] for path in rubbers],
             temperature=kelvin,
@@ -190,14 +181,14 @@ def propose(
             **options,
         )
         for key, unit in units.items():
-            rubber.add(key, unit, "the shift factors do not state it", OF_ANOTHER_CASE)
+            rubber.add(key, unit, "the shift factors do not state it", proposals.OF_ANOTHER_CASE)
     for file in () if shift is not None else shifts:
         cure = f'shift = "{inside[file.path]}" in [rubber] takes them'
         unused = f"{inside[file.path]} holds shift factors and is not used: {cure}"
-        rubber.findings.append(assumption(BY_A_FACTOR, unused))
+        rubber.findings.append(proposals.assumption(proposals.BY_A_FACTOR, unused))
         lab.leave_out([file], "the sweeps find their own")
     if thickness is None:
-        rubber.findings.append(assumption(TENS_OF_PERCENT, _WITHOUT_END))
+        rubber.findings.append(proposals.assumption(proposals.TENS_OF_PERCENT, _WITHOUT_END))
     else:
         rubber.add("thickness", thickness)
     strain = [file.path for file in lab.of("strain-sweep")]
@@ -205,9 +196,9 @@ def propose(
         filled = {"yes": True, "no": False}.get(ask(_IS_FILLED, ("unknown", "yes", "no")))
     if filled is not None:
         rubber.add("filled", filled, "as stated")
-    conditions = conditions_proposal(rubber, rubbers, kelvin)
+    conditions = proposals.conditions_proposal(rubber, rubbers, kelvin)
     if strain:
-        add_softening(conditions, strain, [inside[path] for path in strain])
+        proposals.add_softening(conditions, strain, [inside[path] for path in strain])
     if interface is not None:
         conditions.add("interface", interface, "as stated")
     rubber.findings += lab.findings
@@ -241,9 +232,11 @@ def _load(load: Mapping[str, str | None], friction: Sequence[Taken]) -> Proposal
         elif measured:
             unit, size = _UNITS_OF_LOAD[key]
             words = f"the middle one of {friction[0].path.name}; --{key} states another"
-            proposal.add(key, f"{plain(measured / size, 4)} {unit}", words, TENS_OF_PERCENT)
+            proposal.add(
+                key, f"{plain(measured / size, 4)} {unit}", words, proposals.TENS_OF_PERCENT
+            )
         else:
-            effect = TENS_OF_PERCENT if key == "footprint" else BY_A_FACTOR
+            effect = proposals.TENS_OF_PERCENT if key == "footprint" else proposals.BY_A_FACTOR
             proposal.add(key, default, f"not stated; --{key} states another", effect)
     return proposal
 
@@ -289,9 +282,9 @@ def findings_of_inputs(case: Case) -> Iterator[Finding]:
     yield from case.findings()
     joint = case.measured_rubber.superposition
     for text in () if joint is None else joint.findings:
-        yield assumption(TENS_OF_PERCENT, f"Rubber: {text}.")
+        yield proposals.assumption(proposals.TENS_OF_PERCENT, f"Rubber: {text}.")
     try:
         wavelengths = case.surface.sines.wavelength
         require_measured(case.rubber_before, wavelengths, case.load.speed)
     except ExtrapolationError as error:
-        yield assumption(BY_A_FACTOR, str(error))
+        yield proposals.assumption(proposals.BY_A_FACTOR, str(error))

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from gripscale import rubber as rubbers
 from gripscale import surface as surfaces
 from gripscale.case import BelowMeasurement, Case, NamedFile, Origin, described_surface
 from gripscale.case_file.read import CaseFile, read_case_file
@@ -27,33 +28,13 @@ from gripscale.case_file.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
-from gripscale.core import (
-    CaseKey,
-    FileError,
-    InputError,
-    Words,
-    about_file,
-    about_keys,
-    unstated,
-)
+from gripscale.core import CaseKey, FileError, InputError, Words
+from gripscale.core.errors import about_file, about_keys, unstated
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.half_space.grid import MOST_POINTS
 from gripscale.io.text_table import lines_by_size, read_bytes
 from gripscale.model import FOOTPRINT
-from gripscale.rubber import (
-    MasterCurve,
-    Rubber,
-    Shift,
-    Superposition,
-    Sweeps,
-    fit_prony_report,
-    read_master_curve,
-    read_shift_table,
-    read_sweeps,
-    styrene_butadiene,
-    superpose_report,
-)
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.prony import holds_prony_table, read_prony_table
@@ -178,14 +159,7 @@ def _cleaned(surface: SurfaceTable, raw: RawHeights, resolve: Resolve) -> surfac
         return surfaces.Measured.of_map(raw, clean_map, [report])
     if not surface.clean:
         return surfaces.Measured.of(raw)
-    profiles, reports = [], []
-    for line in raw:
-        with about_file(line.source, InputError):
-            cleaned, report = surfaces.clean(line, **_options(surface, surfaces.clean))
-        profiles.append((line, cleaned))
-        reports.append(report)
-    measured = surfaces.Measured.of_pairs(profiles, reports)
-    return replace(measured, longest=surface.longest_wavelength)
+    return surfaces.Measured.of_raw(raw, _options(surface, surfaces.clean))
 
 
 # Keys of the case's [rubber] that only sweeps at several temperatures have.
@@ -203,10 +177,10 @@ def prepare_rubber(
 
     Raises `FileError` and `InputError` as reading, superposition and fitting do.
     """
-    options = _options(source, fit_prony_report)
+    options = _options(source, rubbers.fit_prony_report)
     options = {name: value for name, value in options.items() if value is not None}
     if source.file is None:
-        rubber = replace(styrene_butadiene(**options), strain_energy=source.strain_energy)
+        rubber = replace(rubbers.styrene_butadiene(**options), strain_energy=source.strain_energy)
         return MeasuredRubber(_shifted(rubber, source, resolve), rubber.source)
     paths, layout = [resolve(name) for name in source.measured_files], source.layout()
     path = paths[0]
@@ -229,9 +203,9 @@ def prepare_rubber(
                 f"{path}: {foreign[0]} is for sweeps at several temperatures; got a master curve"
             )
         reference = source.reference_temperature
-        master = read_master_curve(path, reference_temperature=reference, **reading)
+        master = rubbers.read_master_curve(path, reference_temperature=reference, **reading)
     with about_file(path, InputError):
-        rubber, fit = fit_prony_report(master, **options)
+        rubber, fit = rubbers.fit_prony_report(master, **options)
     rubber = replace(rubber, strain_energy=source.strain_energy)
     fit = replace(fit, findings=(*(master if sweeps is None else sweeps).notes, *fit.findings))
     if sweeps is not None and sweeps.is_ramp:
@@ -243,9 +217,9 @@ def prepare_rubber(
 
 
 # What `Rubber.to_dict` returns of a rubber of which only the moduli are known.
-_DEFAULTS = {item.name: item.default for item in fields(Rubber) if item.default is not MISSING} | {
-    "strain_energy": {"kind": NeoHookean.kind}
-}
+_DEFAULTS = {
+    item.name: item.default for item in fields(rubbers.Rubber) if item.default is not MISSING
+} | {"strain_energy": {"kind": NeoHookean.kind}}
 
 
 def _stored_rubber(path: Path, source: RubberSource, resolve: Resolve) -> MeasuredRubber:
@@ -268,7 +242,7 @@ def _stored_rubber(path: Path, source: RubberSource, resolve: Resolve) -> Measur
     with about_file(path, InputError):
         if "equilibrium_modulus" not in values:
             raise InputError("equilibrium_modulus must be given [Pa]; got none")
-        rubber = Rubber.from_dict(_DEFAULTS | values)
+        rubber = rubbers.Rubber.from_dict(_DEFAULTS | values)
     changes = keys & {"bulk_modulus", "strain_energy", "reference_temperature", "source"}
     rubber = replace(rubber, **{name: getattr(source, name) for name in changes})
     return MeasuredRubber(_shifted(rubber, source, resolve), rubber.source)
@@ -283,13 +257,15 @@ OF_A_RAMP = (
 
 def _superposed(
     paths: list[Path], source: RubberSource, resolve: Resolve, reading: dict[str, Any]
-) -> tuple[Sweeps, MasterCurve, Superposition]:
+) -> tuple[rubbers.Sweeps, rubbers.MasterCurve, rubbers.Superposition]:
     """Return sweeps, the master curve they make, and how they meet."""
     path = paths[0]
     shift = _shift(source, resolve)
     if shift is None and not source.vertical:
         shift = read_shift_of_sweeps(path, source.layout())
-    sweeps = read_sweeps(paths, tolerance=0.0, temperature_step=source.temperature_step, **reading)
+    sweeps = rubbers.read_sweeps(
+        paths, tolerance=0.0, temperature_step=source.temperature_step, **reading
+    )
     if sweeps.is_ramp and shift is None:
         low, high = (sweeps.temperature[at] - ZERO_CELSIUS for at in (0, -1))
         words = (
@@ -310,7 +286,7 @@ def _superposed(
         )
         raise unstated(f"{path}: ", "reference_temperature", words)
     try:
-        master, report = superpose_report(
+        master, report = rubbers.superpose_report(
             sweeps,
             reference_temperature=float(sweeps.temperatures[0]) if reference is None else reference,
             vertical=source.vertical,
@@ -324,7 +300,7 @@ def _superposed(
     return sweeps, master, report
 
 
-def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
+def _shifted(rubber: rubbers.Rubber, source: RubberSource, resolve: Resolve) -> rubbers.Rubber:
     """Return a rubber of one master curve with the shift that is stated, if one is."""
     shift = _shift(source, resolve)
     if shift is None:
@@ -339,17 +315,17 @@ def _shifted(rubber: Rubber, source: RubberSource, resolve: Resolve) -> Rubber:
     return replace(rubber, shift=shift)
 
 
-def _shift(source: RubberSource, resolve: Resolve) -> Shift | None:
-    shift: Shift | str | None = source.shift
+def _shift(source: RubberSource, resolve: Resolve) -> rubbers.Shift | None:
+    shift: rubbers.Shift | str | None = source.shift
     if not isinstance(shift, str):
         return shift
     path = resolve(shift)
     try:
-        return read_shift_table(path)
+        return rubbers.read_shift_table(path)
     except InputError as error:
         if error.missing != "temperature_unit" or source.temperature_unit is None:
             raise
-        return read_shift_table(path, temperature_unit=source.temperature_unit)
+        return rubbers.read_shift_table(path, temperature_unit=source.temperature_unit)
 
 
 _EFFECTS = {field.name for field in fields(Conditions)} & ConditionsTable.model_fields.keys()
@@ -371,12 +347,6 @@ def prepare_conditions(table: ConditionsTable, resolve: Resolve = Path) -> Condi
     if isinstance(table.softening, StrainSweeps):
         effects["softening"] = table.softening.softening(resolve)
     return Conditions(**effects)
-
-
-def _filled(source: RubberSource, softening: object) -> bool | None:
-    """Return whether a rubber is filled: those known by name are not, unless they are to soften."""
-    stated_or_measured = source.filled is not None or source.name is None or softening is not None
-    return source.filled if stated_or_measured else False
 
 
 @about_keys("below_measurement")
@@ -447,7 +417,10 @@ def read_case(path: CaseFile | str | Path) -> Case:
     _require_few_points(file)
     surface = case_surface(file)
     rubber = prepare_rubber(file.case.rubber, file.resolve)
-    table = file.case.surface
+    table, source = file.case.surface, file.case.rubber
+    filled = source.filled
+    if filled is None and source.name is not None and file.case.conditions.softening is None:
+        filled = False  # those known by name, unless they are to soften
     cleaned = table.clean and surface.measured is not None and surface.spectrum is None
     with about_keys("rubber.shift"):
         try:
@@ -456,10 +429,10 @@ def read_case(path: CaseFile | str | Path) -> Case:
                 rubber,
                 **file.case.load.model_dump(),
                 kind=table.kind,
-                thickness=file.case.rubber.thickness,
+                thickness=source.thickness,
                 chain=chain,
                 conditions=conditions,
-                filled=_filled(file.case.rubber, file.case.conditions.softening),
+                filled=filled,
                 interface=file.case.conditions.interface,
                 below_measurement=_below_measurement(file),
                 klueppel_heinrich=file.case.compare,
@@ -471,7 +444,7 @@ def read_case(path: CaseFile | str | Path) -> Case:
                     file.text,
                     file.units,
                     named_files(file),
-                    (*(table.assumed or ()), *(file.case.rubber.assumed or ())),
+                    (*(table.assumed or ()), *(source.assumed or ())),
                 ),
             )
         except InputError as error:

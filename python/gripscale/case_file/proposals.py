@@ -17,28 +17,13 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from gripscale import rubber as rubbers
 from gripscale.case_file.read import validate
 from gripscale.case_file.tables import SurfaceTable
-from gripscale.core import (
-    ZERO_CELSIUS,
-    CaseKey,
-    Finding,
-    GripscaleError,
-    InputError,
-    Severity,
-    Words,
-    in_mm,
-)
+from gripscale.core import CaseKey, Finding, GripscaleError, InputError, Severity, Words
+from gripscale.core.units import ZERO_CELSIUS, in_mm
 from gripscale.io.cells import SEPARATORS, cells_of, is_comment
 from gripscale.io.text_table import TextTable, is_excel, read_lines
-from gripscale.rubber import (
-    MasterCurve,
-    ShiftTable,
-    Sweeps,
-    read_master_curve,
-    read_shift_table,
-    read_sweeps,
-)
 from gripscale.rubber.blocks import read_blocks
 from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.material import BULK_MODULUS, least_bulk_modulus
@@ -278,7 +263,7 @@ def rubber_proposal(
     if asked:
         measured, _ = open_rubber(paths, settings)
     _add_reference(proposal, measured, temperature, reference, reason)
-    if isinstance(measured, Sweeps) and not measured.is_ramp:
+    if isinstance(measured, rubbers.Sweeps) and not measured.is_ramp:
         try:
             replace(measured, tolerance=TEMPERATURE_TOLERANCE)
         except InputError:
@@ -312,11 +297,11 @@ def rubber_proposal(
 
 def open_rubber(
     paths: list[Path], layout: Mapping[str, Any]
-) -> tuple[MasterCurve | Sweeps, dict[str, str]]:
+) -> tuple[rubbers.MasterCurve | rubbers.Sweeps, dict[str, str]]:
     """Return sweeps or a master curve, and the keys of the layout that nothing states."""
     if len(paths) > 1 or holds_sweeps(paths[0], FileLayout(**layout)):
-        return read_with(read_sweeps, paths, UNITS_OF_RUBBER, tolerance=0.0, **layout)
-    return read_with(read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
+        return read_with(rubbers.read_sweeps, paths, UNITS_OF_RUBBER, tolerance=0.0, **layout)
+    return read_with(rubbers.read_master_curve, paths[0], UNITS_OF_RUBBER, **layout)
 
 
 _UNITS_OF_STRAIN = {"amplitude": "single", "strain_unit": "%", **UNITS_OF_RUBBER}
@@ -337,12 +322,12 @@ def open_strain_sweeps(paths: list[Path]) -> tuple[list[StrainSweep], dict[str, 
     return sweeps, asked
 
 
-def open_shift(path: Path) -> tuple[ShiftTable, dict[str, str]]:
+def open_shift(path: Path) -> tuple[rubbers.ShiftTable, dict[str, str]]:
     """Return shift factors, and the unit of their temperatures if nothing states it."""
-    table, asked = read_with(read_shift_table, path, UNITS_OF_RUBBER)
+    table, asked = read_with(rubbers.read_shift_table, path, UNITS_OF_RUBBER)
     if asked and table.temperature.mean() > _HOTTEST:
         asked = {"temperature_unit": "K"}
-        table = read_shift_table(path, **asked)
+        table = rubbers.read_shift_table(path, **asked)
     return table, asked
 
 
@@ -369,7 +354,7 @@ def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str
 
     if key == "temperature_unit":
         sweeps = measured("C")
-        warm = isinstance(sweeps, Sweeps) and float(sweeps.temperature.mean()) > _HOTTEST
+        warm = isinstance(sweeps, rubbers.Sweeps) and float(sweeps.temperature.mean()) > _HOTTEST
         return ("K" if warm else "C"), "so the temperatures are those of a laboratory"
     units = ("MPa", "Pa", "kPa", "GPa")
     likely = (u for u in units if _SOFTEST < float(measured(u).storage.min()) < _STIFFEST)
@@ -378,17 +363,17 @@ def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str
 
 def _add_reference(
     proposal: Proposal,
-    measured: MasterCurve | Sweeps | None,
+    measured: rubbers.MasterCurve | rubbers.Sweeps | None,
     temperature: float | None,
     reference_text: str | None,
     reason: str,
 ) -> None:
-    curve = isinstance(measured, MasterCurve) and measured.reference_temperature is not None
+    curve = isinstance(measured, rubbers.MasterCurve) and measured.reference_temperature is not None
     if reference_text is not None and not (curve and reason != _STATED):
         proposal.add("reference_temperature", reference_text, reason)
         return
     target = ROOM if temperature is None else temperature
-    if not isinstance(measured, Sweeps):
+    if not isinstance(measured, rubbers.Sweeps):
         if measured is None or measured.reference_temperature is None:
             words = (
                 "the file states no temperature; the moduli are assumed to be measured at this one"
@@ -434,7 +419,7 @@ def has_shift(paths: list[Path], proposal: Proposal) -> bool:
     layout = {k: v for k, v in proposal.keys.items() if k in FileLayout.__dataclass_fields__}
     if not holds_sweeps(paths[0], FileLayout(**layout)):
         return False
-    sweeps = read_sweeps(paths, tolerance=0.0, **layout)
+    sweeps = rubbers.read_sweeps(paths, tolerance=0.0, **layout)
     several = float(np.ptp(sweeps.temperature)) > _ONE_SWEEP
     return several or read_shift_of_sweeps(paths[0], layout) is not None
 

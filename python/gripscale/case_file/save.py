@@ -34,6 +34,8 @@ from gripscale.core import Array, FileError, InputError, quantity_in_si
 from gripscale.core.provenance import version_of
 from gripscale.experiment.measured_friction import MEASURED
 from gripscale.rubber import ShiftTable, fit_prony_report
+from gripscale.rubber.columns import THREE
+from gripscale.rubber.master_curve import MODULI_TITLES
 from gripscale.rubber.measured_rubber import MeasuredRubber
 from gripscale.rubber.softening import SofteningTable
 from gripscale.rubber.strain_energy import NeoHookean
@@ -217,11 +219,7 @@ def _rubber_keys(measured: MeasuredRubber, inputs: _Inputs) -> dict[str, Any]:
             "a case file cannot state how this series was fitted to its master curve; a case with "
             "its Rubber alone can be saved"
         )
-    columns = {
-        "frequency (Hz)": master.frequency,
-        "storage modulus E' (Pa)": master.storage,
-        "loss modulus E'' (Pa)": master.loss,
-    }
+    columns = dict(zip(MODULI_TITLES, (getattr(master, name) for name in THREE), strict=True))
     keys: dict[str, Any] = {"file": inputs.add_table(name, columns), "source": rubber.source}
     keys["bulk_modulus"] = rubber.bulk_modulus
     if rubber.strain_energy != NeoHookean():

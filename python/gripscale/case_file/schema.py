@@ -10,17 +10,9 @@ from functools import cache
 from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal, cast, get_args, get_origin, get_type_hints
 
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    GetCoreSchemaHandler,
-    GetJsonSchemaHandler,
-    TypeAdapter,
-    ValidationError,
-    create_model,
-    with_config,
-)
+from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError, create_model, with_config
 from pydantic import Field as PydanticField
+from pydantic.annotated_handlers import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import ErrorDetails, core_schema
 
@@ -50,16 +42,12 @@ _LIMITS = {
 class Reading:
     """Beside a type: reads a value as a person writes it, before pydantic looks at its type."""
 
-    words: str
-    """What is expected."""
-    read: Callable[[Any], Any]
-    """Returns what the type asks for; raises `ValueError` with one sentence."""
-    quantity: str = ""
-    """Kind of the quantity that it reads, such as length; empty for anything else."""
+    words: str  # what is expected
+    read: Callable[[Any], Any]  # returns what the type asks for, or raises `ValueError`
+    quantity: str = ""  # kind of the quantity that it reads, such as length; empty for others
+    # Laws whose tables it reads, by kind, and JSON Schemas of texts in place of such a table.
     laws: Mapping[str, type] = field(default_factory=dict, hash=False)
-    """The laws whose tables it reads, by kind."""
     words_for_a_law: Sequence[Mapping[str, Any]] = field(default=(), hash=False)
-    """JSON Schemas of the texts it takes in place of such a table."""
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
@@ -167,7 +155,9 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
             inside = schema["items"] if isinstance(part, int) else schema["properties"]
             schema = inside if isinstance(part, int) else inside.get(part, {})
         if first["type"] == "extra_forbidden":
-            return f"unknown key {where}; {_instead_of(key, owner)}"
+            instead = owner["gone"].get(key)
+            cure = checks.instead_of(key, [*owner["properties"]], _MOST_NAMES)
+            return f"unknown key {where}; {f'it is gone: {instead}' if instead else cure}"
         finite = first["type"] == "finite_number"
         reason = f"expected {'a finite number' if finite else expected(schema)}"
     if first["type"] == "missing":
@@ -176,13 +166,6 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
         return f"{where}: {reason}" if where else reason
     text = repr(value)
     return f"{where} = {text if len(text) <= 60 else f'{text[:57]}...'}: {reason}"
-
-
-def _instead_of(key: str, table: Mapping[str, Any]) -> str:
-    """Return what to state in place of a key that a table does not have."""
-    if instead := table["gone"].get(key):
-        return f"it is gone: {instead}"
-    return checks.instead_of(key, [*table["properties"]], _MOST_NAMES)
 
 
 def first_complaint(error: ValidationError) -> ErrorDetails:

@@ -1,12 +1,7 @@
 """The chain: the pressure in the contact of one wave is the mean pressure on the next.
 
-With A_i the contact length of wave i projected on the mean plane (Lind & Wangenheim 2014,
-IMECE2014-37998, equation 1):
-
-    p_(i+1)  = p_i lambda_i / A_i
-
-This is the mean pressure. With several pressure classes a wave hands down its distribution, see
-`gripscale.chain.prediction`.
+With A_i the contact length of wave i on the mean plane, p_(i+1) = p_i lambda_i / A_i (Lind &
+Wangenheim 2014, IMECE2014-37998, equation 1); of its distribution, `gripscale.chain.prediction`.
 """
 
 from __future__ import annotations
@@ -29,27 +24,21 @@ from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import CHOICES, require_measured
 from gripscale.rubber.material import require_load_bearing
 from gripscale.surface import SineStack, Surface, SurfacePart
-from gripscale.theory.half_plane import HalfPlane, solve_half_plane
-from gripscale.wave.block import FiniteStrainBlock, solve_scale
+from gripscale.theory.half_plane import HalfPlane
+from gripscale.wave.block import FiniteStrainBlock
 from gripscale.wave.kernel import WaveSolver
 from gripscale.wave.problem import Sine
-from gripscale.wave.result import ScaleResult
 
 WAVE_SOLVERS: dict[str, Any] = {solver.name: solver for solver in (FiniteStrainBlock, HalfPlane)}
 """Solvers of one wave by name. A new one is added here."""
 
-# Functions that may stand for a solver of one wave.
-SOLVE_FUNCTIONS = ((solve_scale, FiniteStrainBlock), (solve_half_plane, HalfPlane))
-WaveSolverLike = WaveSolver | str | Callable[..., ScaleResult]
+WaveSolverLike = WaveSolver | str
 
 
 def wave_solver(solver: WaveSolverLike, options: Mapping[str, Any]) -> WaveSolver:
-    """Return a solver by its name or its function with options, or the solver itself."""
+    """Return a solver by its name with options, or the solver itself."""
     if isinstance(solver, str):
         kind = WAVE_SOLVERS[checks.one_of("solver", solver, WAVE_SOLVERS)]
-    else:
-        kind = next((kind for function, kind in SOLVE_FUNCTIONS if function is solver), None)
-    if kind is not None:
         out: WaveSolver = kind.of(**options)
         return out
     if not isinstance(solver, WaveSolver):
@@ -109,8 +98,7 @@ def solve_chain(
     thickness
         Thickness of the rubber on a rigid base [m], which no block exceeds; None: no limit.
     solver
-        "finite_strain", "half_plane", its function (`solve_scale`,
-        `theory.solve_half_plane`), or any `WaveSolver`.
+        "finite_strain", "half_plane", or any `WaveSolver`.
     smallest_wavelength
         Waves shorter than this are left out [m].
     pressure_classes
@@ -154,22 +142,6 @@ def solve_chain(
         on_scale=on_scale,
         start=start,
     )
-
-
-def select_waves(sines: SineStack, *, smallest_wavelength: float | None = None) -> list[Sine]:
-    """Return the waves of the chain; raise `InputError` if the limit excludes all of them."""
-    pairs = zip(sines.wavelength, sines.amplitude, strict=True)
-    waves = [Sine(float(wavelength), float(amplitude)) for wavelength, amplitude in pairs]
-    if smallest_wavelength is not None:
-        least = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
-        largest = waves[0].wavelength
-        waves = [wave for wave in waves if wave.wavelength >= least]
-        if not waves:
-            raise InputError(
-                f"smallest_wavelength must not exceed the largest wave, {largest:g} m; "
-                f"got {least:g} m"
-            )
-    return waves
 
 
 class Chain(Checked, model.Model):
@@ -233,7 +205,17 @@ class Chain(Checked, model.Model):
     ) -> ChainResult:
         """Return the prediction; arguments and errors as for `solve_chain`."""
         checks.instance("sines", sines, SineStack)
-        waves = select_waves(sines, smallest_wavelength=smallest_wavelength)
+        pairs = zip(sines.wavelength.tolist(), sines.amplitude.tolist(), strict=True)
+        waves = [Sine(*pair) for pair in pairs]
+        if smallest_wavelength is not None:
+            least = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
+            largest = waves[0].wavelength
+            waves = [wave for wave in waves if wave.wavelength >= least]
+            if not waves:
+                raise InputError(
+                    f"smallest_wavelength must not exceed the largest wave, {largest:g} m; "
+                    f"got {least:g} m"
+                )
         conditions = self.conditions
         before = rubber if conditions is None else conditions.before(rubber)
         require_load_bearing(before, load.pressure, load.time_under(load.footprint))

@@ -1,18 +1,13 @@
 """Temperature of the rubber on every wave of a chain, by the friction heat of all waves.
 
-Wave j loses mu_j p_j v per area of its own, which is mu_j p_1 v of the nominal area: all waves
-together lose mu p_1 v. Over the nominal area this heat is uniform while the footprint passes. In
-the contact of wave l it is distributed as the pressure there, and the loss of wave l itself as that
-loss. So the temperature rise on wave i is
+With mu_j the friction of wave j and p_l the pressure on wave l, the temperature rise on wave i is
 
     uniform, for the time footprint/v           v p_1 sum_j mu_j
     + the harmonics of each wave l <= i         v p_l (mu_l own pattern + sum_(j > l) mu_j contact)
 
 each from `gripscale.conditions.flash_temperature`: for l < i averaged over the contact, weighted by
 its pressure; for l = i averaged over the loss of wave i. An area term, less what a counterface
-takes up of all heat, counts as a further wave below the last, at the surface: it is distributed as
-the pressure on each wave. The strain of a wave, for the softening, is that of
-`gripscale.conditions.conditions`.
+takes up of all heat, counts as a further wave below the last, at the surface.
 """
 
 from __future__ import annotations

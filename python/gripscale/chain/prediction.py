@@ -1,21 +1,15 @@
 """ChainResult of the chain: the solved waves, and area and friction down to each of them.
 
-    real area    A_r/A_0  = prod A_i / lambda_i
-    friction     mu_r     = sum mu_i
+    A_r/A_0  = prod A_i / lambda_i,    mu_r = sum mu_i
 
-Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. The friction sum conserves energy,
-because the pressure on a wave times the area fraction above it is the nominal pressure.
-
-A wave hands the pressure in its contact down to the next one. The mean of this pressure, p_(i+1) =
-p_i lambda_i / A_i (equation 1), is one class. But the pressure under a crest is not uniform, and
-neither contact nor friction of the next wave is linear in it. So the contact is divided, from low
-to high pressure, into N classes of equal load:
+Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. A wave hands the pressure in its contact
+down to the next one: its mean, p_(i+1) = p_i lambda_i / A_i (equation 1), or N classes of equal
+load, from low to high pressure, which keep load and contact area exactly:
 
     a_n = int dF / p    over the n-th of N equal shares of the load F,    p_n = p_1 / (N a_n)
 
-with a_n the area of the class over the nominal area and p_1 the nominal pressure: load and contact
-area are kept exactly. The next wave is solved under each p_n. Its contacts are divided into N
-classes again, so that the cost grows as waves times classes, not as a tree.
+with a_n the area of the class over the nominal area. The contacts of the next wave under all p_n
+are divided into N classes again, so that the cost grows as waves times classes, not as a tree.
 """
 
 from __future__ import annotations
@@ -270,27 +264,15 @@ class ChainResult(Pictured):
 
     def to_dataset(self) -> xr.Dataset:
         """Return everything as a labelled Dataset over the dimension `scale`."""
-        running = {
-            "running_contact_fraction": (
-                self.running_contact_fraction,
-                "real contact area down to the wave",
-                f"{LW}, equation 2",
-            ),
-            "running_friction": (
-                self.running_friction,
-                "friction coefficient down to the wave",
-                f"{LW}, equation 3",
-            ),
-        }
-        data = waves_to_dataset(self.scales).assign(
-            {n: labelled("scale", values, "1", *words) for n, (values, *words) in running.items()}
-            | {
-                f"sines_{part}": labelled(
-                    "wave", getattr(self.sines, part), "m", f"{part} of the waves", CHAIN
-                )
-                for part in ("wavelength", "amplitude")
-            }
-        )
+        data = waves_to_dataset(self.scales)
+        what = {"contact_fraction": "real contact area", "friction": "friction coefficient"}
+        for number, name in enumerate(what, start=2):
+            values, source = getattr(self, f"running_{name}"), f"{LW}, equation {number}"
+            words = f"{what[name]} down to the wave"
+            data[f"running_{name}"] = labelled("scale", values, "1", words, source)
+        for part in ("wavelength", "amplitude"):
+            values, words = getattr(self.sines, part), f"{part} of the waves"
+            data[f"sines_{part}"] = labelled("wave", values, "m", words, CHAIN)
         classes = [
             np.ravel(s.details.get(CLASS_PRESSURES, s.pressure_received)) for s in self.scales
         ]

@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.charts.style import BLUE, GREY, INK, WIDE
+from gripscale.charts.style import BLUE, GREY, INK
 from gripscale.core.arrays import Array
 
 LETTERS = {
@@ -217,23 +216,3 @@ class ColourBar:
     scale: str
     label: str
     first_row: bool = False  # whether it belongs to the first row of panels only
-
-
-@dataclass(frozen=True)
-class PanelGrid:
-    """Panels of a figure on paper, row by row."""
-
-    panels: Sequence[Panel]
-    columns: int = 2
-    width: float = WIDE
-    height: float = 3.1  # of the figure [inch]
-    # Where the legend of all panels is: "above", "beside", "below" or nowhere.
-    legend: str = "above"
-    legend_columns: int = 3
-    legend_title: str = ""
-    keys: Sequence[Mark] = ()  # entries of the legend that no panel has
-    title: str = ""
-    gap: float = 0.06
-    colour_bar: ColourBar | None = None
-    # `sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`.
-    layout: Mapping[str, Any] = field(default_factory=dict)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from gripscale.charts.chart import Panel, PanelGrid
-from gripscale.io.folders import write_bytes
+from gripscale.charts.chart import ColourBar, Mark, Panel
+from gripscale.charts.style import WIDE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -55,8 +55,23 @@ class Image:
 
 
 @dataclass(frozen=True)
-class Sheet(PanelGrid):
-    """A figure of panels."""
+class Sheet:
+    """A figure of panels on paper, row by row."""
+
+    panels: Sequence[Panel]
+    columns: int = 2
+    width: float = WIDE
+    height: float = 3.1  # of the figure [inch]
+    # Where the legend of all panels is: "above", "beside", "below" or nowhere.
+    legend: str = "above"
+    legend_columns: int = 3
+    legend_title: str = ""
+    keys: Sequence[Mark] = ()  # entries of the legend that no panel has
+    title: str = ""
+    gap: float = 0.06
+    colour_bar: ColourBar | None = None
+    # `sharex`, `sharey`, `width_ratios` and `height_ratios` of matplotlib's `subplots`.
+    layout: Mapping[str, Any] = field(default_factory=dict)
 
     def on_paper(self) -> Figure:
         """Draw the panels with matplotlib, whose own rules stay as they are."""
@@ -99,8 +114,7 @@ class FigureFolder:
 
     def save(self, figure: Sheet | Figure, name: str) -> None:
         """Write a figure or what describes it; `FileError` if that fails."""
-        from gripscale.charts.paper import figure_file
+        from gripscale.charts.paper import save_figure
 
         drawn = figure.on_paper() if isinstance(figure, Sheet) else figure
-        for kind in self.kinds or ("png",):
-            write_bytes(self.path / f"{name}.{kind}", figure_file(drawn, kind))
+        save_figure(drawn, self.path, name, self.kinds or ("png",))

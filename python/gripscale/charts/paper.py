@@ -23,6 +23,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 
 from gripscale.charts import chart
+from gripscale.charts.draw import Sheet
 from gripscale.charts.style import (
     BEYOND_LABEL,
     DASHES,
@@ -88,7 +89,7 @@ def figure_rules() -> AbstractContextManager[None]:
     return mpl.rc_context(RULES)
 
 
-def draw_sheet(sheet: chart.PanelGrid) -> Figure:
+def draw_sheet(sheet: Sheet) -> Figure:
     """Return the figure of a sheet; matplotlib's own rules stay as they are."""
     columns, count, layout = sheet.columns, len(sheet.panels), sheet.layout
     size: Any = {"figsize": (sheet.width, sheet.height), "dpi": DPI}
@@ -135,7 +136,7 @@ def _draw_panel(figure: Figure, axes: Axes, panel: chart.Panel) -> None:
         if axis.margin is not None:
             (axes.set_xmargin if which == "x" else axes.set_ymargin)(axis.margin)
         if axis.low != axis.high and None not in (axis.low, axis.high):  # nothing need be drawn
-            (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
+            axes.set(**{f"{which}lim": (axis.low, axis.high)})
     for mark in panel.marks:
         _draw_mark(figure, axes, mark)
     if panel.to_scale:
@@ -155,7 +156,7 @@ def _end_axis(axes: Axes, which: str, axis: chart.PlotAxis) -> None:
     """Set the limits of an axis, and place numbers or names along it."""
     drawn: DrawnAxis = axes.xaxis if which == "x" else axes.yaxis
     if axis.low != axis.high:
-        (axes.set_xlim if which == "x" else axes.set_ylim)(axis.low, axis.high)
+        axes.set(**{f"{which}lim": (axis.low, axis.high)})
     if axis.ticks is not None:
         drawn.set_ticks(list(axis.ticks), list(axis.ticks.values()))
         for label in drawn.get_ticklabels() if axis.bold else []:
@@ -179,10 +180,14 @@ def _draw_mark(figure: Figure, axes: Axes, mark: chart.Mark) -> None:
             _draw_series(axes, chart.Series(*mark.drawn(_PIECES), mark.colour, mark.label,
                                       width=mark.width, coarse=True))  # fmt: skip
         case chart.ShadedBand():
-            _draw_band(axes, mark)
+            curves = (np.asarray(values, float) for values in (mark.x, mark.low, mark.high))
+            x, low, high = np.broadcast_arrays(*curves)
+            look: dict[str, Any] = {"color": mark.colour, "alpha": mark.alpha}
+            look |= {"lw": 0.3, "ec": "white"} if mark.edged else {"lw": 0.0}
+            axes.fill_between(x, low, high, label=mark.label or None, **look)
         case chart.Bars():
             x0, x1, y0, y1 = np.broadcast_arrays(mark.x0, mark.x1, mark.y0, mark.y1)
-            look: dict[str, Any] = {"color": mark.colour, "alpha": mark.alpha, "lw": 0}
+            look = {"color": mark.colour, "alpha": mark.alpha, "lw": 0}
             axes.bar(x0, y1 - y0, x1 - x0, y0, align="edge", zorder=mark.order,
                      label=mark.label or None, **look)  # fmt: skip
         case chart.CrossLine(to=None):
@@ -195,8 +200,8 @@ def _draw_mark(figure: Figure, axes: Axes, mark: chart.Mark) -> None:
             shade(mark.at, end, label=mark.label or None, **look)
         case chart.Note():
             frames: dict[str, Any] = {"x": ("axes fraction", "data"), "xy": "axes fraction"}
-            box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0} if mark.boxed else None
             look = {"xycoords": frames.get(mark.frame, "data"), "textcoords": "offset points"}
+            box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0} if mark.boxed else None
             look |= {"va": "top" if mark.top else "center", "ha": mark.align, "bbox": box}
             look |= {"fontsize": mark.size, "fontstyle": "italic" if mark.italic else "normal"}
             axes.annotate(mark.text, (mark.x, mark.y), mark.offset, color=mark.colour, **look)
@@ -247,15 +252,6 @@ def _draw_series(axes: Axes, series: chart.Series) -> None:
         axes.plot([], [], label=label, **look)
 
 
-def _draw_band(axes: Axes, band: chart.ShadedBand) -> None:
-    x, low, high = (np.asarray(values, dtype=float) for values in (band.x, band.low, band.high))
-    x, low, high = np.broadcast_arrays(x, low, high)
-    look: dict[str, Any] = {"color": band.colour, "alpha": band.alpha, "lw": 0.0}
-    if band.edged:
-        look |= {"lw": 0.3, "ec": "white"}
-    axes.fill_between(x, low, high, label=band.label or None, **look)
-
-
 def _draw_field(figure: Figure, axes: Axes, field: chart.ValueMap) -> None:
     x, y, values = (np.asarray(part, dtype=float) for part in (field.x, field.y, field.values))
     mappable: Any
@@ -274,7 +270,7 @@ def _draw_field(figure: Figure, axes: Axes, field: chart.ValueMap) -> None:
     bar.ax.yaxis.set_major_formatter(lambda value, _: short_number(value))
 
 
-def _add_legend(figure: Figure, panels: Sequence[Axes], sheet: chart.PanelGrid) -> None:
+def _add_legend(figure: Figure, panels: Sequence[Axes], sheet: Sheet) -> None:
     """Add the labels and keys of a sheet, and what dashed means where it occurs."""
     entries: dict[str, Any] = {}
     dashed = False

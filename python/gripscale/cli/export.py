@@ -64,15 +64,15 @@ def rubber(
         rubber = rubber.at(temperature)
     console, ends = screen(), None
     if band is not None:
-        words = band.strip().removesuffix("Hz").strip().split("..")
         try:
+            words = band.strip().removesuffix("Hz").strip().split("..")
             low, high = (parse_quantity(f"{end.strip()} Hz", "frequency") for end in words)
         except ValueError as error:
             raise InputError(
                 f"band must be two frequencies such as 1..1e6 Hz; got {band!r}"
             ) from error
         ends = low, high
-    if ends is not None or terms is not None:
+    if band is not None or terms is not None:
         reduction = reduced(rubber, band=ends, terms=terms)
         rubber = reduction.rubber
         print_wrapped(console, f"{reduction}.")

@@ -5,39 +5,20 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Iterator
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gripscale.cli.new import (
-    ReferenceTemperature,
-    RubberFrequency,
-    RubberHeader,
-    RubberModulus,
-    RubberSheet,
-    WlfConstants,
-    naming_options,
-    shift_of_wlf,
-)
+from gripscale.cli.keys import takes_keys
+from gripscale.cli.new import naming_options
 from gripscale.core.errors import about_keys
 from gripscale.io.text_table import files_read_once
 from gripscale.questions.terminal import (
-    COLUMNS,
     READING,
-    LongestWavelength,
-    SurfaceAxis,
-    SurfaceChannel,
-    SurfaceCrop,
-    SurfaceUnit,
     argument,
-    column_of,
-    columns_of,
     command,
     end_steps,
-    keys_of,
-    lengths_of,
     option,
     print_parts,
     print_wrapped,
@@ -56,26 +37,17 @@ if TYPE_CHECKING:
 _FIGURES = ("png", "pdf")
 
 
-class ExampleName(StrEnum):
-    """Names of the examples."""
-
-    road = "road"
-    synthetic = "synthetic"
-    sweeps = "sweeps"
-    map = "map"
-
-
 @command
 def init(
     folder: Annotated[Path, argument("Where to write; made if needed.", "FOLDER")],
     example: Annotated[
-        ExampleName,
+        str,
         typer.Option(
             help="road: a measured road and a measured tread rubber; synthetic: a made-up road "
             "and a named rubber; sweeps: the same road with a rubber in sweeps at 13 temperatures; "
             "map: a measured map, which needs gripscale[formats] to be read."
         ),
-    ] = ExampleName.road,
+    ] = "road",
 ) -> None:
     """Write a commented case and example data to start from; nothing is overwritten."""
     from gripscale.case_file.examples import EXAMPLES, write_example
@@ -133,39 +105,18 @@ def keys(
 
 
 @command
+@takes_keys(
+    *("scales", "smallest_wavelength", "cut_off", "top_height_fraction", "s_wavelength"),
+    *("s_amplitude", "single_factor", "crop", "x_unit", "z_unit", "z_axis", "channel", "step"),
+    *("spikes", "detrend", "longest_wavelength"),
+)
 def fit_surface(
     context: typer.Context,
     files: Annotated[list[str], argument("Profiles, or a map.")],
-    scales: Annotated[int | None, option("Number of sine waves.")] = None,
-    smallest_wavelength: Annotated[str | None, option('The last wave, such as "0.1 mm".')] = None,
-    cut_off: Annotated[
-        str | None,
-        option(
-            'Where the roughness ends, in its place: "0.1 mm", "instrument", "rms_slope 1.3" (of '
-            'the surface), "rms_slope 1.3 of profile", either with "extrapolate" at its end.'
-        ),
-    ] = None,
     slopes: Annotated[bool, option("Print the rms slope down to each wavelength.")] = False,
-    top_height_fraction: Annotated[
-        float, typer.Option(help="Part of the heights, from the top.")
-    ] = 1.0,
-    s_wavelength: Annotated[float | None, option("Given instead of fitted.")] = None,
-    s_amplitude: Annotated[float | None, option("Given instead of fitted.")] = None,
-    single_factor: Annotated[bool, option("One factor for both lengths.")] = False,
-    crop: SurfaceCrop = None,
-    x_unit: SurfaceUnit = None,
-    z_unit: SurfaceUnit = None,
-    z_axis: SurfaceAxis = None,
-    channel: SurfaceChannel = None,
-    step: Annotated[
-        str | None, option('Distance between points, if not stated: "0.1 mm", or "1 um, 2 um".')
-    ] = None,
-    spikes: Annotated[
-        str, typer.Option(help="Rule for spikes: isolated, iso13473 or none.")
-    ] = "isolated",
-    detrend: Annotated[str, typer.Option(help="linear, mean or none.")] = "linear",
-    longest_wavelength: LongestWavelength = None,
     output: Annotated[Path | None, option("Folder for figures.", metavar="DIR")] = None,
+    *,
+    keys: dict[str, Any],
 ) -> None:
     """Clean profiles or a map, find their height difference correlation, fit sine waves to it."""
     from gripscale.case_file import SurfaceTable, prepare_surface, validate
@@ -174,14 +125,8 @@ def fit_surface(
     from gripscale.questions.inputs import page
     from gripscale.surface import HeightMap
 
-    values = keys_of(context, SurfaceTable)
-    if crop is not None:
-        values["crop"] = list(crop)
-    if step is not None:
-        values["step"] = lengths_of(step)
-    if channel is not None:
-        values["channel"] = column_of(channel)
-    if scales is None and smallest_wavelength is None and cut_off is None:
+    values = {"files": files, **keys}
+    if not {"scales", "smallest_wavelength", "cut_off"} & keys.keys():
         values["scales"] = 8
     raw, console = None, screen()
     show_step(console, READING)
@@ -241,43 +186,20 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
 
 @command
 @files_read_once()
+@takes_keys(
+    *("terms", "frequency_unit", "modulus_unit", "modulus", "frequency", "bulk_modulus"),
+    *("reference_temperature", "temperature_unit", "columns", "sheet", "header"),
+    *("outlier_threshold", "shift", "wlf", "vertical"),
+    *("amplitude", "deformation", "measured_at", "strain_unit"),
+)
 def fit_rubber(
-    context: typer.Context,
     file: Annotated[
         list[str],
         argument("A master curve, or sweeps to make one of, and strain sweeps; in several files."),
     ],
-    terms: Annotated[int | None, option("Relaxation times; chosen if not given.")] = None,
-    frequency_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
-    modulus_unit: Annotated[str | None, option("Where the header does not state it.")] = None,
-    modulus: RubberModulus = None,
-    frequency: RubberFrequency = None,
-    bulk_modulus: Annotated[str | None, option('Such as "2 GPa".')] = None,
-    reference_temperature: ReferenceTemperature = None,
-    temperature_unit: Annotated[str | None, option("K, C or F, if not stated.")] = None,
-    columns: Annotated[str | None, option(COLUMNS)] = None,
-    sheet: RubberSheet = None,
-    header: RubberHeader = None,
-    outlier_threshold: Annotated[
-        float | None,
-        option("Times the typical scatter beyond which a row is left out; inf keeps all."),
-    ] = None,
-    shift: Annotated[str | None, option("Table of shift factors to be taken; sweeps.")] = None,
-    wlf: WlfConstants = None,
-    vertical: Annotated[
-        bool, typer.Option("--vertical", help="Find vertical shifts as well; sweeps.")
-    ] = False,
-    amplitude: Annotated[
-        str | None, option("single or peak-to-peak, if strain sweeps do not say.")
-    ] = None,
-    deformation: Annotated[
-        str | None, option("tension or shear, if strain sweeps do not say.")
-    ] = None,
-    measured_at: Annotated[
-        str | None, option('Strain of the master curve, beside strain sweeps; "0.1 %" by default.')
-    ] = None,
-    strain_unit: Annotated[str | None, option("1 or %, if not stated.")] = None,
     output: Annotated[Path | None, option("Folder for figures and files.", metavar="DIR")] = None,
+    *,
+    keys: dict[str, Any],
 ) -> None:
     """Fit a Prony series to a master curve or to sweeps at several temperatures.
 
@@ -291,9 +213,7 @@ def fit_rubber(
 
     console, law, prepared = screen(), None, None
     show_step(console, READING)
-    layout: dict[str, Any] = {} if columns is None else {"columns": columns_of(columns)}
-    if sheet is not None:
-        layout["sheet"] = column_of(sheet)
+    layout = {key: keys[key] for key in ("columns", "sheet") if key in keys}
     of_strain = layout if "strain" in layout.get("columns", ()) else {}
     by_strain = [name for name in file if holds_strain_sweeps(name, **of_strain)]
     file = [name for name in file if name not in by_strain]
@@ -301,14 +221,16 @@ def fit_rubber(
         require_writable(output)
     with naming_options():
         if by_strain:
-            values = keys_of(context, StrainSweeps) | ({} if file else layout)
+            values = {key: keys[key] for key in StrainSweeps.model_fields if key in keys}
+            if file:
+                values.pop("columns", None)  # they are those of the moduli
             values |= {"kind": "table", "files": by_strain}
             law = validate(StrainSweeps, values, "options").softening()
         if file:
-            values = keys_of(context, RubberSource) | layout
+            if "wlf" in keys:
+                keys["shift"] = keys.pop("wlf")
+            values = {key: keys[key] for key in RubberSource.model_fields if key in keys}
             values["file"] = file[0] if len(file) == 1 else file
-            if wlf is not None:
-                values["shift"] = shift_of_wlf(wlf)
             prepared = prepare_rubber(validate(RubberSource, values, "options"))
     end_steps()
     if prepared is not None:

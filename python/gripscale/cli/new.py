@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from typer.core import TyperCommand
 
+from gripscale.cli.keys import takes_keys
 from gripscale.core import GripscaleError, Words
 from gripscale.questions import terminal
 
 if TYPE_CHECKING:
     from gripscale.io.table import Table
 
+SURFACE_KEYS = ("channel", "crop", "x_unit", "z_unit", "z_axis", "longest_wavelength")
 # Options that state what is missing, by its key in a case.
 _EXAMPLES = {
     "shift": ': here with --wlf C1 C2, such as --wlf 8.86 "101.6 K"',
@@ -25,36 +27,6 @@ _EXAMPLES = {
     "modulus": ", such as --modulus E",
     "channel": ", such as --channel 2",
 }
-
-
-RubberSheet = Annotated[
-    str | None,
-    terminal.option("Excel sheet of the rubber, by name or number from 1, if several hold moduli."),
-]
-RubberFrequency = Annotated[
-    str | None,
-    terminal.option('Of all rows, such as "10 Hz", if no column holds it: a temperature ramp.'),
-]
-RubberModulus = Annotated[
-    str | None, terminal.option("E (Young) or G (shear), if the file of the rubber does not say.")
-]
-RubberHeader = Annotated[
-    int | None,
-    terminal.option("Lines above the rows of the rubber, if there are numbers among them."),
-]
-ReferenceTemperature = Annotated[
-    str | None,
-    terminal.option('Such as "20 C": what a master curve holds for, or sweeps are shifted to.'),
-]
-WlfConstants = Annotated[
-    tuple[float, str] | None,
-    terminal.option('Constants c1 and c2 of a shift, such as 8.86 "101.6 K".', metavar="C1 C2"),
-]
-
-
-def shift_of_wlf(constants: tuple[float, str]) -> dict[str, Any]:
-    """Return the constants of a WLF shift, as typed, as a key of the case."""
-    return {"kind": "wlf", "c1": constants[0], "c2": constants[1]}
 
 
 @contextmanager
@@ -117,6 +89,11 @@ def _ask(question: str, answers: Sequence[str]) -> str:
 
 
 @terminal.command
+@takes_keys(
+    *("step", "x_unit", "z_unit", "z_axis", "channel", "crop", "longest_wavelength"),
+    *("wlf", "columns", "sheet", "header", "reference_temperature", "frequency"),
+    *("frequency_unit", "modulus", "temperature_unit", "modulus_unit"),
+)
 def new(
     files: Annotated[
         list[Path],
@@ -153,60 +130,16 @@ def new(
     interface: Annotated[
         str | None, terminal.option('"dry": a dry road, which also shears the contact area.')
     ] = None,
-    step: Annotated[
-        str | None,
-        terminal.option(
-            'Distance between points where a file has none: "0.1 mm", of a map "1 um, 2 um".'
-        ),
-    ] = None,
-    x_unit: terminal.SurfaceUnit = None,
-    z_unit: terminal.SurfaceUnit = None,
-    z_axis: terminal.SurfaceAxis = None,
-    channel: terminal.SurfaceChannel = None,
-    crop: terminal.SurfaceCrop = None,
-    longest_wavelength: terminal.LongestWavelength = None,
-    wlf: WlfConstants = None,
-    columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
-    sheet: RubberSheet = None,
-    header: RubberHeader = None,
-    reference_temperature: ReferenceTemperature = None,
-    frequency: RubberFrequency = None,
-    frequency_unit: Annotated[
-        str | None, terminal.option("Such as rad/s, if the file of the rubber does not state it.")
-    ] = None,
-    modulus: RubberModulus = None,
-    temperature_unit: Annotated[
-        str | None, terminal.option("K, C or F, if the file of the rubber does not state it.")
-    ] = None,
-    modulus_unit: Annotated[
-        str | None,
-        terminal.option("Such as MPa, if that file does not state it, or states a wrong one."),
-    ] = None,
+    *,
+    keys: dict[str, Any],
 ) -> None:
     """Write a commented case for measured files, and list what is doubtful about it."""
     from gripscale.case_file.laboratory import first_choice
     from gripscale.case_file.look import kinds_table
     from gripscale.case_file.new import new_case
 
-    layout = {
-        "columns": None if columns is None else terminal.columns_of(columns),
-        "sheet": None if sheet is None else terminal.column_of(sheet),
-        "header": header,
-        "reference_temperature": reference_temperature,
-        "frequency": frequency,
-        "frequency_unit": frequency_unit,
-        "modulus": modulus,
-        "temperature_unit": temperature_unit,
-        "modulus_unit": modulus_unit,
-    }
-    surface = terminal.surface_keys(
-        channel=channel,
-        crop=crop,
-        x_unit=x_unit,
-        z_unit=z_unit,
-        z_axis=z_axis,
-        longest_wavelength=longest_wavelength,
-    )
+    step, shift = keys.pop("step", None), keys.pop("wlf", None)
+    surface = {key: keys.pop(key) for key in SURFACE_KEYS if key in keys}
     console = terminal.screen()
     terminal.show_step(console, terminal.READING)
     with naming_options():
@@ -215,9 +148,9 @@ def new(
             output,
             load={"pressure": pressure, "speed": speed, "footprint": footprint},
             temperature=temperature,
-            step=None if step is None else terminal.lengths_of(step),
-            shift=None if wlf is None else shift_of_wlf(wlf),
-            layout={key: value for key, value in layout.items() if value is not None},
+            step=step,
+            shift=shift,
+            layout=keys,
             thickness=thickness,
             filled=filled,
             interface=interface,
@@ -235,16 +168,12 @@ def new(
 
 
 @terminal.command
+@takes_keys("step", "x_unit", "z_unit", "channel", "columns")
 def look_at(
     files: Annotated[list[Path], terminal.argument("Measured files, or folders.", "FILE...")],
     kinds: Kinds = None,
-    step: Annotated[
-        str | None, terminal.option('Distance between points where a file has none: "0.1 mm".')
-    ] = None,
-    x_unit: terminal.SurfaceUnit = None,
-    z_unit: terminal.SurfaceUnit = None,
-    channel: terminal.SurfaceChannel = None,
-    columns: Annotated[str | None, terminal.option(terminal.COLUMNS)] = None,
+    *,
+    keys: dict[str, Any],
 ) -> None:
     """Show how files are read: what each is taken for, its columns, first rows and a picture."""
     from gripscale.case_file.kinds import FileKeys
@@ -252,9 +181,8 @@ def look_at(
     from gripscale.case_file.look import parts_of
     from gripscale.io.text_table import files_read_once
 
-    keys = terminal.surface_keys(x_unit=x_unit, z_unit=z_unit, channel=channel, crop=None)
-    layout = {} if columns is None else {"columns": terminal.columns_of(columns)}
-    reading = FileKeys(None if step is None else terminal.lengths_of(step), keys, layout)
+    layout = {"columns": keys.pop("columns")} if "columns" in keys else {}
+    reading = FileKeys(keys.pop("step", None), keys, layout)
     with files_read_once():
         for file in all_taken(files, reading, kinds_of(kinds)):
             terminal.print_parts(terminal.screen(), [*parts_of(file, reading), ""])

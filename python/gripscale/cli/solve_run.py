@@ -68,7 +68,11 @@ def solve_run(
         terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
         result.chain = solved_chain(case, bench_of(target))
         terminal.end_steps()
-    _save(result, case, target)
+    result.save(target / ANSWER_FILE)
+    assert result.chain is not None
+    netcdf.save(result.chain, target / CHAIN_FILE)
+    if result.curve is not None:
+        cut_off_result(result.curve, case).save(target / CURVE_FILE)
     by_default = ["png"] if figures or not all(map(find_spec, ("bokeh", "jinja2"))) else []
     _conclude(work, result, verbose, [*(work.file.case.output.figures or by_default)])
 
@@ -83,7 +87,10 @@ def _conclude(
     """
     case, target = work.case, work.target
     assert result.chain is not None
-    parts: Parts = [*chain_tables(result.chain), LEGEND, *_tables(result)]
+    parts: Parts = [*chain_tables(result.chain), LEGEND, *slopes_table(result.data)]
+    if result.curve is not None:
+        curve = CutOff(result.curve)
+        parts += ["", *(line.strip() for line in curve.lines[1:]), curve.rules_table()]
     if case.surface.measured is not None:
         tables = parts if verbose else [waves_in_brief(result.chain)]
         parts = [*tables, judgement(result.chain, result.data)]
@@ -123,21 +130,3 @@ def _inputs(case: Case) -> Parts:
         conditions = conditions_lines(case.conditions, case.rubber)
         lines += ["", "Conditions", *(f"  {line}" for line in conditions)]
     return lines
-
-
-def _save(result: Answer, case: Case, target: Path) -> None:
-    """Write the answer, its chain, and the contact against the cut-off where it is solved."""
-    result.save(target / ANSWER_FILE)
-    assert result.chain is not None
-    netcdf.save(result.chain, target / CHAIN_FILE)
-    if result.curve is not None:
-        cut_off_result(result.curve, case).save(target / CURVE_FILE)
-
-
-def _tables(result: Answer) -> Parts:
-    """Return the tables of an answer: shares by slope, and the rules of the cut-off."""
-    parts: Parts = list(slopes_table(result.data))
-    if result.curve is not None:
-        curve = CutOff(result.curve)
-        parts += ["", *(line.strip() for line in curve.lines[1:]), curve.rules_table()]
-    return parts

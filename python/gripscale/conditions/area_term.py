@@ -2,16 +2,12 @@
 
     mu_adh = tau_f(v, T) A_r / (A_0 p_0)
 
-Its parameters are fits to measured friction of one rubber on one surface; the only law with numbers
-of its own is that of treads on a dry road (`gripscale.conditions.area_term`).
+The parameters of a law are fits to measured friction of one rubber on one surface; only `DryTread`
+has numbers of its own, from three treads on a dry road (`studies/dry_law.py`):
 
-The interfacial shear stress of a tread on a dry road, from friction measured with others.
     ln tau_f = ln tau_0 - c log10(v/v_0)^2 + d s
 
-with d the deviation of the tread from the mean and s the scatter between compounds. tau_f is
-(mu - hysteresis) p_0 A_0/A_r, mu measured and the rest computed as an answer is
-(`studies/dry_law.py`, from `examples/data/friction`). With each compound left out, all points lie
-in the 90 % interval of the others.
+with d the deviation of the tread from the mean and s the scatter between compounds.
 """
 
 from __future__ import annotations

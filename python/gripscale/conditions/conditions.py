@@ -6,25 +6,8 @@ wavenumber q meets the rubber at the temperature and the strain of its scale,
     E*(w, q) = (f E'(a_T w) + i g E''(a_T w)) / b_T,     a_T, b_T, f and g functions of |q|
 
 with the modulus ratios f and g exact: no relaxation times have to be fitted. Between the scales
-where they are known the logarithms of the factors are linear in log |q|.
-
-How far typical laws may be off: conditions with one of them a standard error away.
-A typical tread has the scatter between measured compounds, typical thermal constants that between
-rubbers. Whether a strain sweep was made in tension or in shear is as likely one as the other, and
-so is a single or a double amplitude that nothing states. A master curve of unknown strain was
-measured at 0.04 to 0.3 %, two times in three.
-
-Which strain softens the rubber on a scale, and how well it follows blocks of softening rubber.
-A harmonic u_q of the surface's displacement strains an incompressible half-space at depth y by
-
-    e = |q|^2 y exp(-|q| y) u_q,    e_zz = e,  e_ij = -e q_i q_j/|q|^2,  e_iz = i e q_i/|q|
-
-(K. L. Johnson, "Contact Mechanics" (1985), section 13.2, of a wave without friction), most at
-y = 1/|q|. The strain of a scale is that of all harmonics at this depth: the equivalent uniaxial
-amplitude sqrt(2/3 e:e), its mean over the contact times `DEPTH_FACTOR`. A chain has one wave at a
-time and takes `SLOPE_FACTOR` times the rms slope in its contact.
-
-Measured by studies/strain_rule: docs/strain-rule.md.
+where they are known the logarithms of the factors are linear in log |q|. docs/derivations.md says
+which strain softens a scale, and how far typical laws may be off.
 """
 
 from __future__ import annotations
@@ -38,13 +21,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.conditions.area_term import (
-    DRY_TREAD,
-    InterfacialShearStress,
-    adhesive_friction,
-    shear_stress_from_dict,
-    shear_stress_to_dict,
-)
+from gripscale.conditions import area_term
 from gripscale.conditions.flash_temperature import (
     COUNTERFACE_BY_KIND,
     THERMAL_SCATTER,
@@ -109,12 +86,6 @@ def water_film(water: object) -> float:
 SOFTENING_LAWS: dict[str, Any] = {law.kind: law for law in (Kraus, SofteningTable, TypicalTread)}
 
 
-def softening_from_dict(values: Mapping[str, Any]) -> SofteningLaw:
-    """Return the law of `to_dict`; `InputError` if the kind is unknown or a value unusable."""
-    law: SofteningLaw = checks.of_kind(SOFTENING_LAWS, "softening", values)
-    return law
-
-
 class Conditions(Checked):
     """Effects on the rubber as measured, the area term and water; each is off by default.
 
@@ -135,8 +106,11 @@ class Conditions(Checked):
         _effect, kind=ThermalProperties, expected="ThermalProperties", default=None
     )
     """With it the rubber warms by its friction."""
-    shear_stress: InterfacialShearStress | None = checked(
-        _effect, kind=InterfacialShearStress, expected="a law of gripscale.conditions", default=None
+    shear_stress: area_term.InterfacialShearStress | None = checked(
+        _effect,
+        kind=area_term.InterfacialShearStress,
+        expected="a law of gripscale.conditions",
+        default=None,
     )
     """Interfacial shear stress of the area term."""
     water: float | None = checked(lambda _, value: water_film(value) or None, default=None)
@@ -176,7 +150,7 @@ class Conditions(Checked):
             "strain_norm": self.strain_norm,
             "heat": self.heat and asdict(self.heat),
             "counterface": self.counterface and asdict(self.counterface),
-            "shear_stress": self.shear_stress and shear_stress_to_dict(self.shear_stress),
+            "shear_stress": self.shear_stress and area_term.shear_stress_to_dict(self.shear_stress),
             "water": FLOODED if self.water == math.inf else self.water,
             **({"off": list(self.off)} if self.off else {}),
         }
@@ -186,10 +160,10 @@ class Conditions(Checked):
         """Return the conditions of `to_dict`; raise `InputError` if a value cannot be used."""
         effects = dict(values)
         laws: dict[str, Callable[[Any], Any]] = {
-            "softening": softening_from_dict,
+            "softening": partial(checks.of_kind, SOFTENING_LAWS, "softening"),
             "heat": partial(checks.from_mapping, ThermalProperties, "heat"),
             "counterface": partial(checks.from_mapping, ThermalProperties, "counterface"),
-            "shear_stress": shear_stress_from_dict,
+            "shear_stress": area_term.shear_stress_from_dict,
         }
         for name, law in laws.items():
             if effects.get(name) is not None:
@@ -208,7 +182,7 @@ class Conditions(Checked):
             return math.nan
         kelvin = self.temperature if temperature is None else temperature
         stress = float(self.shear_stress.stress(speed, kelvin))
-        return adhesive_friction(stress, contact_fraction, pressure)
+        return area_term.adhesive_friction(stress, contact_fraction, pressure)
 
     def without(self, *effects: str) -> Conditions:
         """Return the same with effects switched off on purpose."""
@@ -468,5 +442,5 @@ def with_defaults(
         if effects.heat is not None and effects.counterface is None:
             effects = replace(effects, counterface=COUNTERFACE_BY_KIND[kind])
     if interface == "dry" and effects.shear_stress is None:
-        effects = replace(effects, shear_stress=DRY_TREAD)
+        effects = replace(effects, shear_stress=area_term.DRY_TREAD)
     return None if effects == Conditions() else effects

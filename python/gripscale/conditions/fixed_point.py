@@ -1,22 +1,12 @@
 """Fixed-point iteration of a contact and the rubber it deforms, accelerated by a coarse mesh.
 
 Temperatures and strains x decide what the rubber is; the contact with that rubber has the
-temperatures and strains F(x), and the coupled solution is x = F(x). With f(x) the same function on
-a coarse mesh, the argument after F(x_k) solves
-
-    x = f(x) + F(x_k) - f(x_k)
-
-(defect correction: H. J. Stetter, Numer. Math. 29 (1978) 425, doi:10.1007/BF01432879). The last
-term changes along x as it did between the last two x_k (C. G. Broyden, Math. Comp. 19 (1965) 577,
-doi:10.1090/S0025-5718-1965-0198670-6). On one mesh the next argument follows from the last few by
-Anderson's acceleration,
-
-    x_next = f_k - sum_j gamma_j (f_j+1 - f_j)
-
-with r = f - x and gamma minimising |r_k - sum_j gamma_j (r_j+1 - r_j)| (D. G. Anderson, J. ACM 12
-(1965) 547, doi:10.1145/321296.321305; in this form H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49
-(2011) 1715, doi:10.1137/10078356X). The iteration ends when the step to the next x would change the
-results of the coarse mesh by less than `RESULT_TOLERANCE`.
+temperatures and strains F(x), and the coupled solution is x = F(x). With f the same function on a
+coarse mesh, the argument after F(x_k) solves x = f(x) + F(x_k) - f(x_k) (defect correction: H. J.
+Stetter, Numer. Math. 29 (1978) 425, doi:10.1007/BF01432879), the last term changing along x as
+between the last two x_k. On one mesh the next argument is that of Anderson's acceleration (J. ACM
+12 (1965) 547, doi:10.1145/321296.321305). The iteration ends when the step to the next x would
+change the results of the coarse mesh by less than `RESULT_TOLERANCE`: docs/derivations.md.
 """
 
 from __future__ import annotations

@@ -6,66 +6,9 @@ per area [W/m^2], lost at random depths Z and Z', in the steady state gives
     T(0)    = q E exp(-m Z) / (kappa m),      m^2 = |k|^2 + i k_x v / D,   Re m > 0
     T(lost) = q (E exp(-m |Z - Z'|) + (E exp(-m Z))^2) / (2 kappa m)
 
-at the surface, and on average where the energy is lost. A uniform q that lasts for a time t,
-l = 2 sqrt(D t):
-
-    T(0)    = q l E ierfc(Z/l) / kappa        (2 q sqrt(t / (pi kappa rho c)) at the surface)
-    T(lost) = q l (E ierfc(|Z - Z'|/l) + E ierfc((Z + Z')/l)) / (2 kappa)
-
-Source of the plane source and its image: H. S. Carslaw & J. C. Jaeger, Conduction of Heat in
-Solids, 2nd ed. (1959), sec. 10.2 and 10.7; the averages over depths are derived here.
-
-A harmonic across the sliding direction does not move over the rubber and approaches its steady
-state by conduction alone. Switched on at t = 0 it gives
-
-    T(0)    = q E r(Z) / kappa
-    T(lost) = q (E r(|Z - Z'|) + E r(Z + Z')) / (2 kappa)
-    r(z)    = (exp(-m z) erfc(z/l - m l/2) - exp(m z) erfc(z/l + m l/2)) / (2 m)
-
-which is the steady exp(-m z)/m for l to infinity and the uniform l ierfc(z/l) for m to zero: the
-integral over time of the plane source sqrt(D/(pi s)) exp(-z^2/(4 D s) - D m^2 s) with complex
-decay. Its means over depths are integrated over time: the waves are then the same for all depths.
-
-Depths of the loss: a pressure p cos(k x) that moves along a half-plane shears it with an amplitude
-p k z exp(-k z), the same everywhere along x (K. L. Johnson, Contact Mechanics (1985), sec. 13.2,
-doi:10.1017/CBO9781139171731). Its loss is distributed over depth as (k z)^2 exp(-2 k z), a gamma
-distribution of shape 3 and mean 3/(2 k). With b = 3/mean and m of positive real part:
-
-    E exp(-m Z)        = (b/(b + m))^3
-    E exp(-m |Z - Z'|) = b/8 (3/(b + m) + 3 b/(b + m)^2 + 2 b^2/(b + m)^3)
-
-A solver may report the loss by layers instead. With the share s_i of the loss in the layer between
-the depths a_i and b_i, h_i = b_i - a_i, and the mean e_i = (1 - exp(-m h_i)) / (m h_i) of
-exp(-m (z - a_i)) over it,
-
-    E exp(-m Z)        = sum_i s_i exp(-m a_i) e_i
-    E exp(-m |Z - Z'|) = sum_i s_i^2 2 (1 - e_i) / (m h_i)
-                       + 2 sum_(i < j) s_i s_j exp(-m (a_j - b_i)) e_i e_j
-
-and means of ierfc are differences of its integrals i2erfc and i3erfc between the edges (Carslaw &
-Jaeger, appendix II); over |Z - Z'|, where ierfc has an edge, of l^2 i3erfc(|d|/l) + l |d|/4, whose
-second derivative is ierfc(|d|/l) everywhere.
-
-Along the contact every harmonic of the pressure loses the power l(q), whose sum is the friction.
-With phi(q) the phase of the harmonic, and only the half q_x > 0 of the spectrum,
-
-    g(r) = sum_q sqrt(l(q)) exp(i phi(q) + i q . r),      mean |g|^2 = sum_q l(q)
-
-so that |g|^2 is a density of the loss that is never negative and has the right mean. How harmonics
-of different wavelengths share their loss at one point is a choice.
-
-The interface loses its friction at the surface, evenly over the real contact, and there the road
-conducts. In its frame the contact stays: m = |k| with the constants of the road, for the time t.
-The flux into the road is taken as even over the contact as well, and as much as makes the mean
-temperatures of both surfaces equal there (H. Blok, Proc. Instn Mech. Engrs 2 (1937) 222; J. C.
-Jaeger, J. Proc. R. Soc. N.S.W. 76 (1942) 203). With the rise a of the rubber by hysteresis alone,
-and b and c of rubber and road by a unit of flux, all means over the contact,
-
-    a + b (q - s) = c s,       s = (a + b q)/(b + c)
-
-of the interface's q goes into the road. Where all is in contact b/c is the inverse ratio of the
-effusivities sqrt(kappa rho c). The error of an even flux, against equal temperatures everywhere in
-the contact, is in docs/conditions.md.
+at the surface, and on average where the energy is lost (H. S. Carslaw & J. C. Jaeger, Conduction of
+Heat in Solids, 2nd ed. (1959), sec. 10.2 and 10.7). docs/derivations.md has the uniform heat, the
+harmonics that begin with the contact, the means over depths, and the division with the road.
 """
 
 from __future__ import annotations
@@ -74,7 +17,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -124,23 +67,6 @@ COUNTERFACES = {"stone": STONE, "concrete": CONCRETE, "glass": GLASS, "steel": S
 """Counterfaces by the word for their material."""
 COUNTERFACE_BY_KIND = {"surface": STONE, "road": STONE, "floor": CONCRETE, "counterface": STEEL}
 """Counterface of each kind of surface where none is stated."""
-
-
-class DepthsOfLoss(Protocol):
-    """A distribution of the depth Z at which energy is lost, with the means temperatures need."""
-
-    @property
-    def mean(self) -> float:
-        """Mean depth [m]."""
-
-    def decay(self, m: ComplexArray) -> ComplexArray:
-        """Return E exp(-m Z) for `m` [1/m], same shape."""
-
-    def decay_between(self, m: ComplexArray) -> ComplexArray:
-        """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
-
-    def spread(self, length: float, of: Distances = "depth") -> float:
-        """Return E ierfc(distance / length), ierfc being the integral of erfc."""
 
 
 # Z, |Z - Z'| and Z + Z'.
@@ -402,6 +328,10 @@ class LossLayers:
         """Return e_i, shape (..., layers)."""
         height = np.multiply.outer(m, np.diff(self.edges))
         return np.asarray(-np.expm1(-height) / height)
+
+
+DepthsOfLoss: TypeAlias = LossDepth | LossLayers
+"""A distribution of the depth Z at which energy is lost, with the means temperatures need."""
 
 
 def _i2erfc(x: Array) -> Array:

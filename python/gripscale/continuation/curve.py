@@ -1,29 +1,13 @@
 """Contact and friction against the cut-off, from the longest waves to far below the measurement.
 
-A line is continued octave by octave: its measured waves stay, and random waves are added below them
-(`gripscale.continuation.roughness`). What counts is how rough the faces are that touch, so the
-slope of each octave is measured on the points in contact of the solution without it, as the 68 %
-quantile of its magnitude: steep edges, of which there are few, do not decide it. Each new octave
-gets a slope that is r times that of the octave above. r comes from
+A line is continued octave by octave with random waves (`gripscale.continuation.roughness`), each
+with r times the slope of the octave above, on the faces that touch. r is from a withheld octave,
 
-- the faces themselves (`OwnFaces`): the last measured octave is withheld, continued in the same way
-  and solved; with r_1 the ratio that gives its true friction, and r_H = 2^(1 - H) that of the usual
-  Hurst exponent, each octave keeps a share c of what the one above had beyond it,
+    ln r_(k+1) = ln r_H + c (ln r_k - ln r_H),
 
-      ln r_(k+1) = ln r_H + c (ln r_k - ln r_H);
-
-- a finer measurement of a face of a stone (`FinerMeasurement`): the slopes of its octaves;
-- a stated Hurst exponent (`HurstExponent`): r = 2^(1 - H).
-
-A number y, from y_0 where the measurement ends, has n octaves below it a 90 % band of
-
-    ln y +- sqrt((a n)^2 + (b ln(y / y_0))^2).
-
-What continuation adds is wrong by a share b of it, and a surface may change its kind (a). r_2 is
-the ratio of the octave before the last. Where r_1 and r_2 are far apart (`UNFORETOLD`) the
-roughness changes its kind where it is measured: the faces foretell no octave, and the curve ends
-with the measurement. The constants come from withheld octaves of measured and synthetic lines, see
-docs/below-measurement.md.
+a `FinerMeasurement` or a `HurstExponent`. n octaves below the end of the measurement, where it is
+y_0, a number y has the 90 % band ln y +- sqrt((a n)^2 + (b ln(y / y_0))^2). Letters, and the
+withheld octaves that a, b, c and `UNFORETOLD` come from: docs/below-measurement.md.
 """
 
 from __future__ import annotations

@@ -1,19 +1,12 @@
 """Octaves of a periodic line, and where those below its measurement come from.
 
-The slope of a line is the sum of its octaves s_k, the waves between two wavelengths of which one is
-half the other. The local amplitude of an octave is the smoothed length of its analytic signal,
+The local amplitude of an octave s_k is a_k(x)^2 = G * |s_k + i H s_k|^2, with the Hilbert transform
+H and a Gaussian G as wide as a wave. Roughness is intermittent: by least squares over the faces,
 
-    a_k(x)^2 = G * |s_k + i H s_k|^2,
+    ln a_k(x) = c + b ln a_(k-1)(x) + e(x).
 
-H being the Hilbert transform and G a Gaussian as wide as a wave of the octave. Real roughness is
-intermittent: where an octave is strong, the next is strong too. From the measured octaves,
-
-    ln a_k(x) = c + b ln a_(k-1)(x) + e(x),
-
-by least squares over the faces that touch; a Gaussian line has b = 0 and a scatter of ln a that
-belongs to random waves alone. A new octave is Gaussian noise times exp(b ln a_(k-1) + e), with the
-scatter of e beyond that of random waves. It is limited: the largest amplitudes are those of edges,
-whose waves are in phase and do not stand for rough places.
+A new octave is Gaussian noise times exp(b ln a_(k-1) + e), with the scatter of e beyond that of
+random waves. It is limited: the largest amplitudes are those of edges, not of rough places.
 """
 
 from __future__ import annotations
@@ -28,7 +21,7 @@ import numpy as np
 import scipy
 
 from gripscale.core import Array, Checked, ComplexArray, InputError, Mask, checked, checks
-from gripscale.half_space.grid import periodic_heights, resampled
+from gripscale.half_space.grid import Grid, periodic_heights, resampled
 from gripscale.half_space.grid_sequence import POINTS_IN_WAVE
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import STEEPEST
@@ -67,7 +60,7 @@ class PeriodicLine:
         length, count = heights.grid.lengths[0], heights.grid.points
         steps = POINTS_IN_WAVE * length / (min(shortest, finest) * count)
         points = 2 * math.ceil(0.5 * steps) * count  # with those of the measurement
-        z = resampled(heights.spectrum, heights.grid.shape, (points,))
+        z = resampled(heights.spectrum, heights.grid.shape, Grid((points,), (length,)))
         return cls(length, points, np.asarray(scipy.fft.rfft(z)))
 
     @property

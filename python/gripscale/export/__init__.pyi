@@ -2,13 +2,8 @@ from .mesh import BlockStress as BlockStress
 from .mesh import block_stress as block_stress
 from .mesh import wave_of as wave_of
 from .mesh import write_mesh as write_mesh
-from .programs import PROGRAMS as PROGRAMS
-from .programs import abaqus_rubber as abaqus_rubber
-from .programs import ansys_rubber as ansys_rubber
-from .programs import febio_rubber as febio_rubber
+from .programs import rubber_file as rubber_file
 from .programs import write_rubber as write_rubber
 from .rubber import ProgramFile as ProgramFile
-from .tables import Column as Column
-from .tables import Table as Table
 from .tables import tables_of as tables_of
 from .tables import write_tables as write_tables

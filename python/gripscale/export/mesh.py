@@ -1,28 +1,14 @@
 """The deformed block of a wave, with pressure and stress, as a VTU file.
 
-The kernel keeps deformed positions only; its mesh follows from columns, rows, depth and order of
-the elements by the same rule as in the kernel,
-
-    h_r = h_0 q^r,   sum h_r = depth,   h_0 = min(width of an element, depth/rows),
-
-with square first elements. Quadrature is the (order + 1)^2 Gauss rule; the pressure is constant in
-an element of order 1 and linear in one of order 2 (rust/fem).
-
-The stress follows from the deformed mesh and the material law, without a new solution:
+The mesh follows from columns, rows, depth and order of the elements as in the kernel: rows h_0 q^r
+high, h_0 = min(width of an element, depth/rows), whose heights sum up to the depth. The stress is
 
     P = J^(-2/3) (F H - 1/3 (H : C) F^-T) + p J F^-T,   sigma = P F^T / J
     H = G_inf b + (G(t) - G_inf) 1 + T^-1{ (G(t) - G*(w_k)) T{Y} },   Y = J^(2/3) C^-1
 
-with b = 2 dW/dCbar of a unit shear modulus, T the Fourier series along a line of equally spaced
-Gauss points (its mean not counted), w_k = 2 pi k v/wavelength, t the load time, and for p the
-projection of K (J - 1) on the pressure modes of the element. At rest H = G_inf b. These are the
-equations of the kernel (rust/material), so that nodal forces vanish in the block to its residual.
-Source: Lubliner, Mech. Res. Commun. 12 (1985) 93; Holzapfel, Nonlinear Solid Mechanics (2000),
-section 6.4.
-
-ParaView, VisIt, PyVista and meshio open VTU, the XML format of VTK for unstructured grids. Arrays
-stand in it as base64 of a length and little-endian numbers. Source: The VTK User's Guide, 11th ed.
-(2010), section 19.3; VTK file formats, docs.vtk.org.
+with the letters of docs/export.md, where its forces on the nodes vanish as those of the kernel do.
+Lubliner, Mech. Res. Commun. 12 (1985) 93; Holzapfel, Nonlinear Solid Mechanics (2000), section 6.4.
+The VTK User's Guide, 11th ed. (2010), section 19.3; VTK file formats, docs.vtk.org.
 """
 
 from __future__ import annotations
@@ -282,18 +268,9 @@ def write_mesh(result: ScaleResult, path: str | Path) -> Path:
     """Write the deformed block of a wave as VTU to `path`; return the path.
 
     Coordinates are those of gripscale, in m: x along the sliding, z up, y = 0. Points are the
-    deformed nodes, with
-
-    - `displacement` [m], from the block at rest with its surface on the mean plane; its mean along
-      the surface is zero in x,
-    - `contact_pressure` [Pa], zero outside the contact, in the block and on its other sides too, so
-      that filters that integrate or scale meet no missing numbers.
-
-    Cells, bilinear or biquadratic as solved, carry the means over the deformed element of
-
-    - `stress` [Pa], the Cauchy stress, positive in tension, as nine components xx, xy, ... zz,
-    - `pressure` [Pa], less a third of its trace,
-    - `volume_ratio` [-], J.
+    deformed nodes, with `displacement` [m] and `contact_pressure` [Pa], zero outside the contact.
+    Cells, bilinear or biquadratic as solved, carry means over the deformed element: `stress` [Pa],
+    positive in tension, as xx, xy, ... zz, `pressure` [Pa], `volume_ratio` [-] (docs/export.md).
 
     The `result` is of the finite-strain block, solved or read from a file. If it is not in
     equilibrium (its status is neither converged nor that of a missed accuracy), cells have no data.

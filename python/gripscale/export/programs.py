@@ -1,33 +1,9 @@
 """A rubber as the material of a finite element program: Abaqus, Ansys MAPDL or FEBio.
 
-Abaqus, with *HYPERELASTIC, *VISCOELASTIC, *TRS (Abaqus Keywords Reference Guide (2016); Analysis
-User's Guide, sections 22.5.1 and 22.7.1):
-
-    U     = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / D1,   K = 2/D1
-    G(t)  = G_0 (1 - sum g_i (1 - exp(-t/tau_i))),   k_i = 0
-    log10 A = -c1 (T - T_0) / (c2 + T - T_0),   time runs at 1/A
-
-With MODULI=LONG TERM the C_ij are those of the relaxed rubber, C_ij(0) = C_ij / (1 - sum g_i).
-
-Ansys MAPDL, with TB,HYPER, TB,PRONY, TB,SHIFT (Ansys Mechanical APDL, Material Reference,
-"Hyperelasticity" and "Viscoelasticity"):
-
-    W    = sum C_ij (I1 - 3)^i (I2 - 3)^j + (J - 1)^2 / d,   K = 2/d
-    G(t) = G_0 (alpha_inf + sum alpha_i exp(-t/tau_i)),   alpha_inf = 1 - sum alpha_i
-    log10 A = C1 (T - T_r) / (C2 + T - T_r),   tau_i(T) = tau_i(T_r) / A
-
-The constants of TB,HYPER are those of the fast limit: C_ij of the relaxed rubber over alpha_inf.
-
-FEBio, with a mixture of the permanent network and temporary networks (FEBio User Manual 4,
-"Uncoupled Viscoelastic Materials" and "Uncoupled Solid Mixture"):
-
-    S_dev = sum over solids of g_0 S_e + sum g_i int exp(-(t - s)/t_i) dS_e/ds ds
-    U     = K/2 (ln J)^2,   S_e of W = c1 (I1 - 3) + c2 (I2 - 3)
-
-"uncoupled viscoelastic" has six terms. A mixture of uncoupled solids adds their deviatoric
-stresses, so that any number of terms is exported exactly: the permanent network is one solid, and
-each six Maxwell elements are another, neo-Hookean as in gripscale, with g_0 = 0. The bulk modulus
-stands on the mixture, and in equal parts on its solids: versions that add those get the same sum.
+The equations of the programs, and what becomes of a rubber in each, are in docs/export.md. Sources:
+Abaqus Keywords Reference Guide (2016) and Analysis User's Guide, sections 22.5.1 and 22.7.1; Ansys
+Mechanical APDL, Material Reference, "Hyperelasticity" and "Viscoelasticity"; FEBio User Manual 4,
+"Uncoupled Viscoelastic Materials" and "Uncoupled Solid Mixture".
 """
 
 from __future__ import annotations
@@ -42,6 +18,8 @@ from xml.etree import ElementTree as ET
 from gripscale.core import InputError, checks
 from gripscale.export import rubber as parts
 from gripscale.export.rubber import ProgramFile, Units, coefficients, comment, prony_shares
+from gripscale.io.folders import write_text
+from gripscale.io.text_table import file_path
 from gripscale.rubber import Rubber
 
 # Of each strain energy the form in Abaqus, option and number of TB,HYPER, order of the C_ij and
@@ -54,31 +32,13 @@ FORMS: dict[str, tuple[str, str, int, tuple[tuple[int, int], ...], int]] = {
 }
 
 
-def abaqus_rubber(
+def _abaqus(
     rubber: Rubber,
-    *,
     name: str | None = None,
     modulus_unit: str = "Pa",
     temperature_unit: str = "K",
 ) -> ProgramFile:
-    """Return a rubber as an Abaqus material, to be included in an input file.
-
-    Numbers have 15 digits, as many as fit into the 20 characters that Abaqus reads of each. Raises
-    `InputError` if a unit or the name cannot be used, or E_inf is below 1e-7 of E_inf + sum E_i.
-
-    Parameters
-    ----------
-    rubber : Rubber
-        Any strain energy; Isihara's becomes a polynomial. Its times and moduli are those at its
-        reference temperature; a shift becomes *TRS if it is, or can be fitted by, WLF.
-    name : str, optional
-        Name of the material, by default derived from that of the rubber.
-    modulus_unit : str
-        Pa, kPa, MPa, N/mm^2 or GPa, for all stresses in the file.
-    temperature_unit : str
-        K or C, for the reference temperature of the shift.
-    """
-    checks.instance("rubber", rubber, Rubber)
+    """Return an Abaqus material, to be included in an input file."""
     units = Units(modulus_unit, temperature_unit)
     about = "MODULI=LONG TERM: the constants of *HYPERELASTIC are those of the relaxed rubber."
     remarks, law = parts.with_one_series(rubber, units, "Abaqus", "hybrid elements", about)
@@ -112,25 +72,10 @@ def _row(numbers: Sequence[float]) -> str:
     return ", ".join(texts)
 
 
-def ansys_rubber(
-    rubber: Rubber, *, material: int = 1, modulus_unit: str = "Pa", temperature_unit: str = "K"
+def _ansys(
+    rubber: Rubber, material: int = 1, modulus_unit: str = "Pa", temperature_unit: str = "K"
 ) -> ProgramFile:
-    """Return a rubber as commands for Ansys MAPDL, to be read with /INPUT in PREP7.
-
-    Raises `InputError` if a unit or the number cannot be used, or E_inf is below 1e-7 of E_inf +
-    sum E_i.
-
-    Parameters
-    ----------
-    rubber : Rubber
-        Any strain energy; Isihara's becomes a polynomial. Its times and moduli are those at its
-        reference temperature; a shift becomes TB,SHIFT if it is, or can be fitted by, WLF.
-    material : int
-        Number of the material, 1 to 99999.
-    modulus_unit, temperature_unit : str
-        As for `abaqus_rubber`.
-    """
-    checks.instance("rubber", rubber, Rubber)
+    """Return commands for Ansys MAPDL, to be read with /INPUT in PREP7."""
     number = checks.whole("material", material, least=1, most=99999)
     units = Units(modulus_unit, temperature_unit)
     about = "The constants of TB,HYPER are those of the fast limit, as TB,PRONY wants them."
@@ -171,27 +116,10 @@ def _data(values: Sequence[float]) -> list[str]:
 TERMS = 6  # terms of an "uncoupled viscoelastic" material
 
 
-def febio_rubber(
-    rubber: Rubber, *, name: str | None = None, material: int = 1, modulus_unit: str = "Pa"
+def _febio(
+    rubber: Rubber, name: str | None = None, material: int = 1, modulus_unit: str = "Pa"
 ) -> ProgramFile:
-    """Return a rubber as the Material section of an FEBio file.
-
-    The file, of version 4.0, has this section only, to be copied or included. Raises `InputError`
-    if a unit, the name or the id cannot be used, or FEBio has no material with the strain energy.
-
-    Parameters
-    ----------
-    rubber : Rubber
-        Neo-Hookean, Mooney-Rivlin with a share below one, or Yeoh. FEBio has no time-temperature
-        shift: the file is valid at the reference temperature of the rubber only.
-    name : str, optional
-        Name of the material, by default derived from that of the rubber.
-    material : int
-        Id of the material, 1 to 99999.
-    modulus_unit : str
-        As for `abaqus_rubber`.
-    """
-    checks.instance("rubber", rubber, Rubber)
+    """Return the Material section of an FEBio file of version 4.0, to be copied or included."""
     number = checks.whole("material", material, least=1, most=99999)
     units = Units(modulus_unit)
     root = ET.Element("febio_spec", version="4.0")
@@ -266,24 +194,47 @@ def _value(into: ET.Element, name: str, value: float) -> None:
 
 
 PROGRAMS: dict[str, Callable[..., ProgramFile]] = {
-    "abaqus": abaqus_rubber,
-    "ansys": ansys_rubber,
-    "febio": febio_rubber,
+    "abaqus": _abaqus,
+    "ansys": _ansys,
+    "febio": _febio,
 }
-"""Functions that write a rubber as the input of a program."""
 
 
-def write_rubber(rubber: Rubber, path: str | Path, *, to: str, **options: Any) -> ProgramFile:
-    """Write a rubber for a finite element program to the file `path`; return its contents.
+def rubber_file(rubber: Rubber, *, to: str, **options: Any) -> ProgramFile:
+    """Return a rubber as a material of a finite element program, at its reference temperature.
 
-    The rubber is that at the temperature of the analysis (`Rubber.at`). `to` is abaqus, ansys or
-    febio, and `options` are those of `abaqus_rubber`, `ansys_rubber` or `febio_rubber`. Raises
-    `InputError` if the program is unknown, does not take an option, or has no such material,
-    `FileError` if the file cannot be written.
+    Raises `InputError` if the program is unknown, does not take an option or its value, has no such
+    material, or takes E_inf as 1 - sum g_i and it is below 1e-7 of E_inf + sum E_i.
+
+    Parameters
+    ----------
+    rubber : Rubber
+        At the temperature of the analysis (`Rubber.at`). Abaqus and Ansys take any strain energy,
+        Isihara's as a polynomial, and a shift that is, or can be fitted by, WLF; FEBio takes
+        neo-Hookean, Mooney-Rivlin with a share below one, or Yeoh, and no shift.
+    to : str
+        abaqus, ansys or febio.
+    name : str, optional
+        Name of the material, by default derived from that of the rubber; not for ansys.
+    material : int
+        Number of the material, 1 to 99999; not for abaqus.
+    modulus_unit : str
+        Pa, kPa, MPa, N/mm^2 or GPa, for all stresses in the file.
+    temperature_unit : str
+        K or C, for the reference temperature of the shift; not for febio.
     """
+    checks.instance("rubber", rubber, Rubber)
     program = PROGRAMS[checks.one_of("to", to, PROGRAMS)]
     allowed = [name for name in signature(program).parameters if name != "rubber"]
     checks.allowed_names(f"option of {to}", options, allowed)
-    file = program(rubber, **options)
-    file.write(path)
+    return program(rubber, **options)
+
+
+def write_rubber(rubber: Rubber, path: str | Path, *, to: str, **options: Any) -> ProgramFile:
+    """Write what `rubber_file` returns to the file `path`, and return it.
+
+    Raises `InputError` as `rubber_file` does, `FileError` if the file cannot be written.
+    """
+    file = rubber_file(rubber, to=to, **options)
+    write_text(file_path(path), file.text)
     return file

@@ -2,15 +2,10 @@
 
     W = sum C_ij (I1 - 3)^i (I2 - 3)^j + K/2 (J - 1)^2
 
-with the invariants of the isochoric C, as in `gripscale.rubber.strain_energy`, its Prony series and
-its WLF law.
+with the invariants of the isochoric C, as in `gripscale.rubber.strain_energy`; its WLF law; and its
+Prony series, or one of fewer terms for a band of frequencies: E_inf, E_i >= 0 that minimise
 
-A Prony series of fewer terms, or for a band of frequencies, with what it misses.
-    E(w) = E_inf + sum_i E_i i w t_i/(1 + i w t_i),    E_inf, E_i >= 0
-    min sum_k (E'(w_k)/E'_k - 1)^2 + (E''(w_k)/E''_k - 1)^2
-
-over frequencies w_k of the band, with times t_i at equal ratios over the band and half a decade
-beyond both of its ends. Slower elements become part of E_inf, faster ones are left out.
+    sum_k (E'(w_k)/E'_k - 1)^2 + (E''(w_k)/E''_k - 1)^2.
 """
 
 from __future__ import annotations
@@ -19,7 +14,6 @@ import math
 import textwrap
 import warnings
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 from scipy.optimize import nnls
@@ -27,8 +21,6 @@ from scipy.optimize import nnls
 from gripscale.core import Array, Described, InputError, RubberWarning, checks
 from gripscale.core.provenance import version_of
 from gripscale.core.units import UNITS, ZERO_CELSIUS
-from gripscale.io.folders import write_text
-from gripscale.io.text_table import file_path
 from gripscale.rubber import WLF, Rubber, ShiftTable, WLFArrhenius, fit_wlf
 from gripscale.rubber.strain_energy import Isihara, MooneyRivlin, NeoHookean, Yeoh
 
@@ -43,10 +35,6 @@ class ProgramFile(Described):
     """The whole file."""
     remarks: tuple[str, ...]
     """Comments of the file: units, limits of validity, properties that are not exported."""
-
-    def write(self, path: str | Path) -> Path:
-        """Write the file, completely or not at all, or raise `FileError`; return its path."""
-        return write_text(file_path(path), self.text)
 
 
 @dataclass(frozen=True)

@@ -1,21 +1,10 @@
-r"""Water under a block: squeeze-out while it passes, and the block that slides at an inclination.
+"""Water under a block: squeeze-out while it passes.
 
 The contact under rising pressures gives its pressure p_c and flow factor phi against the mean gap h
 (`gap_curve`). A block of length L, wide across it, sinks into water of viscosity eta by the mean
-pressure p_0:
+pressure p_0 (Stefan's equation without contact and with phi = 1; docs/wet-roads.md):
 
     -dh/dt = (p_0 - p_c(h)) phi(h) h^3 / (eta L^2)
-
-Without contact and with phi = 1 this is Stefan's equation. A block that slides with speed v passes
-a spot of the road in L / v; in this time the mean of p_c / p_0 is the share of the load on
-asperities, and the wet friction is that of the contact with its share of the load, and the shear of
-the water, eta v / h.
-
-A block with its leading edge higher by the slope s rides on the water, and sinks until water and
-contact carry p_0 (N. Patir & H. S. Cheng, J. Lubr. Technol. 101 (1979) 220, doi:10.1115/1.3453329,
-without their shear flow factor):
-
-    d/dx (phi h^3 / (12 eta) dp/dx) = v / 2 dh/dx,    h = h_0 + s (L - x),    p(0) = p(L) = 0
 
 Inertia is left out: it counts above a reduced Reynolds number rho v <h^2> / (eta L) of about one.
 """

@@ -1,16 +1,11 @@
-r"""Pressure in a network of conductances, by conjugate gradients with an algebraic multigrid.
+"""Pressure in a network of conductances, by conjugate gradients with an algebraic multigrid.
 
-The network has sum_j c_ij (P_i - P_j) = q_i. Its conductances follow the cube of a gap and span
-twenty decades near a contact, so that coarse grids must follow them. Aggregates of about four nodes
-are pairs of pairs; nodes i and j, with the sums d of their conductances, pair by the largest
-
-    c_ij (1 / d_i + 1 / d_j),    at least 2 / 8,
-
-which bounds the condition number of two grids, whatever the conductances (A. Napov & Y. Notay, SIAM
-J. Sci. Comput. 34 (2012) A1079, doi:10.1137/100818509; the limit 8 is theirs). Two steps of
-conjugate gradients on every coarse grid keep the bound on many grids (K-cycle: Y. Notay & P. S.
-Vassilevski, Numer. Linear Algebra Appl. 15 (2008) 473, doi:10.1002/nla.542). The smoother is that
-of Jacobi.
+The network has sum_j c_ij (P_i - P_j) = q_i. Nodes i and j, with the sums d of their conductances,
+pair by the largest c_ij (1 / d_i + 1 / d_j), at least 2 / 8, which bounds the condition number of
+two grids, whatever the conductances (A. Napov & Y. Notay, SIAM J. Sci. Comput. 34 (2012) A1079,
+doi:10.1137/100818509). Aggregates are pairs of pairs. Two steps of conjugate gradients on every
+coarse grid keep the bound on many (K-cycle: Y. Notay & P. S. Vassilevski, Numer. Linear Algebra
+Appl. 15 (2008) 473, doi:10.1002/nla.542).
 """
 
 from __future__ import annotations

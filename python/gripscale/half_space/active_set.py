@@ -30,15 +30,23 @@ displacement u known everywhere, S u would be p at once. For an elastic body
     (S u)(x)  ~  sum_y (u(x) - u(y)) / |x - y|^(d+1),    d = 1 on a line, 2 on a map
 
 (the half Laplacian: M. Kwasnicki, Fract. Calc. Appl. Anal. 20 (2017) 7, def. 2.7,
-doi:10.1515/fca-2017-0002) is zero outside A: u(x) there is the mean of the others with these
-weights. E takes this mean over the neighbours of x in A. Neighbours outside A count as u(x) itself,
-and all farther points as zero with the weight `FAR`, chosen by measurements on elastic and lossy
-rubbers.
+doi:10.1515/fca-2017-0002) is zero outside A. On a line this is a harmonic function of a half-plane,
+whose value in an open gap of the length g follows from all contacts by the Poisson kernel. Of each
+of the two next to the gap, with their lengths L and the distances a and b of a point from its end
+and from the other one, the weight is the harmonic measure
+
+    w = 2/pi arctan sqrt(L b / ((L + g) a)),
+
+with `CONTACT_REACH` L in place of L for the contacts behind it. It needs half the products of the
+neighbours alone, on roads and self-affine lines. On a map u(x) next to A is the mean of the others
+with the weights of the sum, over the neighbours of x in A. Neighbours outside A count as u(x)
+itself, and all farther points as zero with the weight `FAR`, chosen by measurements on elastic and
+lossy rubbers.
 
 Of very lossy rubber, E* ~ (i w)^a, S is of the order 1 + a and its weights fall off as
 |x - y|^-(2 + a): the displacement of a gap is that of its two ends. At the order 2 it would be
-linear between them, and so it is taken on lines of such rubber. A lossy line then needs a tenth of
-the products (loss angles 0.7 to 1.2); maps converge without.
+linear between them, and so it is taken on lines of such rubber. A lossy line then needs a fifth of
+the products (loss angles 0.5 to 1.2); maps converge without.
 
 The open points of a pool of trapped water (`gripscale.half_space.water`) have one pressure, and the
 mean of their gap is given. They belong to A, with gaps and pressures replaced by their means over
@@ -47,15 +55,13 @@ the pool, before E and after S.
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable
+import math
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
-from gripscale._kernel import gmres
+from gripscale._kernel import GapExtension, gmres
 from gripscale.core.arrays import Array, Mask
 from gripscale.half_space.grid import Single
 from gripscale.half_space.regions import Averaged, Pools
@@ -63,10 +69,12 @@ from gripscale.half_space.response import AnyArray, Response
 from gripscale.theory.half_plane import GridContact
 
 _Index = NDArray[np.intp]
-_REACH = 1  # steps along each axis to the neighbours that the extension uses
-FAR = 2.0  # weight of all farther points, over that of a neighbour along an axis
-# Loss angle, median of the waves, above which a line takes the extension across its gaps [rad].
-LOSSY = 0.6
+FAR = 2.0  # weight of all farther points of a map, over that of a neighbour along an axis
+# Length of the contacts beside a gap with those behind them, over their own: from 10 to 40 the
+# products differ by less than a tenth.
+CONTACT_REACH = 20.0
+# Loss angle, median of the waves, above which a line takes the linear extension [rad].
+LOSSY = 0.45
 # Factor of Q r there: it is 3 to 30 times smaller than the error of the pressure (root mean square,
 # against elimination), and ten times more at the ends of the contacts.
 SHORTFALL = 1e3
@@ -87,6 +95,8 @@ FEW = 600
 CONTACT_TOLERANCE = 1e-6
 # The same on a grid that another one starts from: its contact fraction is reported, too.
 START_TOLERANCE = 1e-4
+# The same on grids in single precision.
+SINGLE_TOLERANCE = 3e-4
 LOOSEST = 1e-2
 TIGHTENING = 1e-2  # missing pressure allowed, over the share of points that changed sides last
 # Iterations without fewer wrong points before only the worse half of them may change sides, and
@@ -95,65 +105,11 @@ PATIENCE, GIVING_UP = 6, 18
 MOST_ITERATIONS = 60  # active sets tried on a grid
 
 
-def _across_gaps(active: Mask) -> scipy.sparse.csr_array:
-    """Return E on a periodic line: linear across each open gap."""
-    closed, point = np.flatnonzero(active), np.arange(active.size)
-    lower = (np.cumsum(active) - 1) % len(closed)
-    upper = (lower + ~active) % len(closed)  # itself in contact
-    before = (point - closed[lower] - 1) % active.size + 1
-    after = (closed[upper] - point) % active.size
-    share = np.where(active, 0.0, before / (before + after))
-    ends = np.stack([lower, upper], axis=1).astype(np.int32).reshape(-1)
-    weights = np.stack([1.0 - share, share], axis=1).astype(np.float32).reshape(-1)
-    starts = np.arange(0, ends.size + 1, 2, dtype=np.int32)
-    return scipy.sparse.csr_array((weights, ends, starts), shape=(active.size, len(closed)))
-
-
-def _around_contacts(active: Mask) -> scipy.sparse.csr_array:
-    """Return E on a periodic line or map: to the open points next to a contact."""
-    steps = range(-_REACH, _REACH + 1)
-    near = active
-    for axis in range(active.ndim):
-        near = near | np.logical_or.reduce([np.roll(near, by, axis) for by in steps if by])
-    around, in_contact = np.flatnonzero(near & ~active), np.flatnonzero(active)
-    order = np.full(active.size, -1, dtype=np.int32)
-    order[in_contact] = np.arange(len(in_contact), dtype=np.int32)
-
-    position = np.unravel_index(around, active.shape)
-    moved = [
-        [(axis + by) % n for by in steps] for axis, n in zip(position, active.shape, strict=True)
-    ]
-    rows, columns, weights = [], [], []
-    for step in itertools.product(steps, repeat=active.ndim):
-        square = sum(by * by for by in step)
-        if square == 0:
-            continue
-        neighbour = np.zeros_like(around)
-        for n, by_step, by in zip(active.shape, moved, step, strict=True):
-            neighbour = neighbour * n + by_step[by + _REACH]
-        column = order[neighbour]
-        row = np.flatnonzero(column >= 0).astype(np.int32)
-        rows.append(row)
-        columns.append(column[row])
-        weight = float(square ** (-0.5 * (active.ndim + 1)))
-        weights.append(np.full(len(row), weight, dtype=np.float32))
-    row_index, entries = np.concatenate(rows), np.concatenate(weights)
-    total = np.bincount(row_index, entries, len(around)) + FAR
-    entries /= total[row_index].astype(np.float32)
-    themselves = np.ones(len(in_contact), dtype=np.float32)
-    entries = np.concatenate([entries, themselves])
-    points = np.concatenate([around[row_index], in_contact])
-    places = points, np.concatenate([*columns, order[in_contact]])
-    shape = active.size, len(in_contact)
-    return scipy.sparse.csr_array((entries, places), shape=shape)
-
-
 @dataclass(frozen=True)
 class ClosedGap:
     """Solution of the linear system of the points in contact."""
 
     pressure: Array  # at the points [Pa]
-    displacement: Array  # under this pressure, over the whole grid [m], flattened
     missing: float  # missing pressure over the pressure, both root mean square [-]
     products: int  # products with K and S each
 
@@ -172,10 +128,14 @@ class PointsInContact:
         self._averaged = averaged
         active = np.zeros(response.grid.points, dtype=bool)
         active[where] = True
-        active = active.reshape(response.grid.shape)
         self._lossy_line = is_lossy_line(response)
-        self._extension = _across_gaps(active) if self._lossy_line else _around_contacts(active)
-        self._single = np.zeros(response.grid.points, dtype=np.float32)
+        if len(response.grid.shape) > 1:
+            self._extension = GapExtension.of_map(active.reshape(response.grid.shape), FAR)
+        else:
+            self._extension = GapExtension.of_line(
+                active, None if self._lossy_line else CONTACT_REACH
+            )
+        self._single = np.zeros(response.grid.shape, dtype=np.float32)
         self.products = 0
 
     def missing(self, gap: AnyArray) -> AnyArray:
@@ -183,7 +143,9 @@ class PointsInContact:
         if self._averaged is not None:
             gap = self._averaged(gap)
         gap = (gap - gap.mean(dtype=np.float64)).astype(np.float32, copy=False)
-        pressure = self._applied(self._response.pressure, self._extension @ gap)[self._where]
+        extended = self._on_grid(gap)
+        self._extension.extend(extended.reshape(-1))
+        pressure = self._response.pressure(extended).reshape(-1)[self._where]
         if self._averaged is not None:
             pressure = self._averaged(pressure)
         pressure -= pressure.mean(dtype=np.float64)
@@ -194,25 +156,29 @@ class PointsInContact:
     def displacement(self, pressure: AnyArray) -> AnyArray:
         """Return K p [m] over the whole grid, flattened."""
         self.products += 1
-        # a single array is reused by the next call
-        single = pressure.dtype == np.float32
-        full = self._single if single else np.zeros(self._single.size, dtype=pressure.dtype)
-        full[self._where] = pressure
-        return self._applied(self._response.displacement, full)
+        return self._response.displacement(self._on_grid(pressure)).reshape(-1)
+
+    def _on_grid(self, values: AnyArray) -> AnyArray:
+        """Return values at the points over the grid, zero elsewhere, until the next call."""
+        single = values.dtype == np.float32
+        full = self._single if single else np.zeros(self._single.shape, dtype=values.dtype)
+        full.fill(0.0)
+        full.reshape(-1)[self._where] = values
+        return full
 
     def correction(self, right: Single, target: float, most: int) -> tuple[Single, float]:
         """Return p with |right - Q K_AA p| <= `target`, or the least after `most` products.
 
         The second value is this residual as GMRES estimates it. `right` has unit length.
         """
-        response, rows = self._response, self._extension
+        response = self._response
         if len(response.grid.shape) > 1:
             return gmres(self._image, right, target, most)[:2]
         pressure, residual, products = response.line.close_gap(
             right,
             self._where,
             [response.compliance_single, response.stiffness],
-            (rows.indptr.astype(np.int32), rows.indices.astype(np.int32), rows.data),
+            self._extension,
             (SHORTFALL if self._lossy_line else 1.0, target, most),
         )
         self.products += products
@@ -223,56 +189,58 @@ class PointsInContact:
         image = self.missing(self.displacement(pressure)[self._where])
         return image.astype(np.float32, copy=False)
 
-    def _applied(self, apply: Callable[[AnyArray], AnyArray], full: AnyArray) -> AnyArray:
-        return apply(full.reshape(self._response.grid.shape)).reshape(-1)
-
 
 def close_gap(
     response: Response,
     where: _Index,
-    height: Array,
+    gap: AnyArray,
     start: Array,
-    displacement: Array,
     tolerance: float,
     *,
     check: bool,
     averaged: Averaged | None = None,
+    room: Array | float = 0.0,
 ) -> ClosedGap:
-    """Return the pressure that closes the gap at the points `where`, of the heights `height` [m].
+    """Return the pressure that closes the gap at the points `where`.
 
-    `start` is a pressure there, whose sum is kept, `displacement` what it gives over the whole grid
-    [m], `tolerance` the missing pressure at the end over the pressure, or over what is missing
-    first if the start is zero. With `check` GMRES is not believed at the end. `averaged` takes
-    means over pools; `height` there includes the mean gap.
+    `start` is a pressure there, whose sum is kept, `gap` what it leaves open over the whole grid
+    [m], flattened, up to a constant; what the pressure changes is added to it. `tolerance` is the
+    missing pressure at the end over the pressure, or over what is missing first if the start is
+    zero. With `check` GMRES is not believed at the end. `averaged` takes means over pools, whose
+    mean gaps are the `room` [m].
     """
     points = PointsInContact(response, where, averaged)
     pressure = start.copy()
     size, most = float(np.linalg.norm(pressure)), _SHORTEST
     for run in range(RUNS + 1):
-        residual = points.missing(height - displacement[where])
+        residual = points.missing(room - gap[where])
         norm = float(np.linalg.norm(residual))
         size = size or norm
         if norm <= tolerance * size or run == RUNS or not np.isfinite(norm):
             break
         target, before = max(REDUCTION, 0.5 * tolerance * size / norm), points.products
-        right = (residual / norm).astype(np.float32)
-        correction, reduction = points.correction(right, target, most)
+        residual /= norm
+        correction, reduction = points.correction(
+            residual.astype(np.float32, copy=False), target, most
+        )
         short = points.products - before == most
         if short:
             most = min(2 * most, _LONGEST)
-        pressure += norm * correction
-        pressure += (start.sum() - pressure.sum()) / len(pressure)
         if short and len(where) <= FEW and averaged is None:
-            pressure, reduction = _eliminated(response, where, height, float(start.sum())), 0.0
-        displacement = np.asarray(points.displacement(pressure), dtype=np.float64)
+            change, reduction = _eliminated(response, where, room - gap[where]), 0.0
+        else:
+            change = np.asarray(norm * correction.astype(gap.dtype))
+            change -= change.mean(dtype=np.float64)
+        pressure += change
+        gap += points.displacement(change)
         norm *= reduction
         if norm <= tolerance * size and not check:
             break
-    return ClosedGap(pressure, displacement, norm / size, points.products)
+    return ClosedGap(pressure, norm / size, points.products)
 
 
-def _eliminated(response: Response, where: _Index, height: Array, load: float) -> Array:
-    """Return the pressure by elimination, with the rigid approach and the load as a border."""
+def _eliminated(response: Response, where: _Index, opened: AnyArray) -> Array:
+    """Return the pressure of zero sum that closes a gap; approach and sum border the system."""
     size, shape = len(where), response.grid.shape
     position = np.unravel_index(where, shape)
     distance = [(axis[:, None] - axis) % n for axis, n in zip(position, shape, strict=True)]
@@ -280,7 +248,7 @@ def _eliminated(response: Response, where: _Index, height: Array, load: float) -
     system = np.full((size + 1, size + 1), stiffest)
     system[:size, :size] = response.influence[tuple(distance)]
     system[size, size] = 0.0
-    return np.asarray(np.linalg.solve(system, np.append(height, stiffest * load))[:size])
+    return np.asarray(np.linalg.solve(system, np.append(opened, 0.0))[:size])
 
 
 def solve_grid(
@@ -296,54 +264,57 @@ def solve_grid(
     `start` is a pressure [Pa] with the required mean, positive where contact is expected; `goal`
     the missing pressure over the pressure at which the linear system counts as solved.
     With `pools` the load rests on their water too; `active` then are the points of `start` in
-    contact.
+    contact. Arrays of the size of the grid have its precision, and are as few as can be.
     """
-    flat, shape = height.reshape(-1), height.shape
-    pressure = start.reshape(-1)
-    active = pressure > 0.0 if active is None else active.reshape(-1)
-    displacement = np.asarray(response.displacement(start), dtype=np.float64).reshape(-1)
-    load, stiffest = float(start.sum()), response.smallest_compliance
+    shape, real = height.shape, response.grid.real
+    load, stiffest = float(start.sum(dtype=np.float64)), response.smallest_compliance
+    active = (start > 0.0).reshape(-1) if active is None else active.reshape(-1).copy()
+    loaded = np.flatnonzero(start)
+    pressure = start.reshape(-1)[loaded].astype(real)  # at the points `loaded`, zero elsewhere
+    del start
+    gap = -height.reshape(-1).astype(real, copy=False)
+    finest = CONTACT_TOLERANCE if real == np.float64 else SINGLE_TOLERANCE
+    goal = max(goal, finest)
     sharper = SHARPER if is_lossy_line(response) else 1.0
-    tolerance, products, fewest, waited = sharper * LOOSEST, 1, flat.size + 1, 0
+    tolerance, products, fewest, waited = sharper * LOOSEST, 1, height.size + 1, 0
     for iteration in range(1, MOST_ITERATIONS + 1):
         averaged: Averaged | None = None
         where, room = np.flatnonzero(active), np.zeros(1)
         if pools is not None:
             where = np.flatnonzero(active | pools.under_pressure(active))
             averaged, room = pools.averaging(where, active)
-        # the pressure at the points without tension, scaled to the load; even if there is none
-        positive = np.maximum(pressure[where], 0.0)
-        if averaged is not None:
-            positive = averaged(positive)
-        total = positive.sum()
-        tried = np.zeros(flat.size)
-        tried[where] = load / len(where) if total == 0.0 else positive * (load / total)
-        change = (tried - pressure).astype(np.float32).reshape(shape)
-        displacement += response.displacement(change).reshape(-1)
+        change = _on_grid(loaded, pressure, height.size)
+        tried = _under_load(change[where], load, averaged)
+        # from the last pressure to the one tried; at first all of it, in full precision
+        if iteration == 1:
+            change.fill(0.0)
+        else:
+            change = np.negative(change, out=change).astype(np.float32, copy=False)
+        change[where] += tried
+        gap += response.displacement(change.reshape(shape)).reshape(-1)
+        del change
         closed = close_gap(
             response,
             where,
-            flat[where] + room,
-            tried[where],
-            displacement,
+            gap,
+            tried,
             tolerance,
             check=tolerance <= goal,
             averaged=averaged,
+            room=room,
         )
         products += closed.products + 1
-        pressure = tried
-        pressure[where] = closed.pressure
-        displacement = closed.displacement
-        gap = displacement - flat
-        gap -= gap[where].mean() - room.mean()
-        excess = gap / -stiffest
-        excess[active] = -pressure[active]
+        loaded, pressure = where, closed.pressure
+        approach = float(gap[where].mean(dtype=np.float64) - room.mean())
+        limit = tolerance * math.sqrt(np.mean(pressure**2))
+        wrong, tension = gap < approach - stiffest * limit, -pressure
         if pools is not None:
-            excess[active] += pools.pressures(pressure, active)[pools.label[active]]
-        wrong = excess > tolerance * np.sqrt(np.mean(closed.pressure**2))
-        count = int(wrong.sum())
+            everywhere = _on_grid(loaded, pressure, height.size)
+            tension = pools.pressures(everywhere, active)[pools.label[active]] - everywhere[active]
+        wrong[active] = tension > limit
+        count = int(np.count_nonzero(wrong))
         if pools is not None:
-            following = pools.refilled(pressure, gap, active)
+            following = pools.refilled(everywhere, gap - approach, active)
             count += int((following.filled != pools.filled).sum())
             pools = following
         waited = 0 if count < fewest else waited + 1
@@ -351,16 +322,19 @@ def solve_grid(
         if solved or iteration == MOST_ITERATIONS or waited > GIVING_UP:
             break
         if waited > PATIENCE and wrong.any():
+            excess = (approach - gap) / stiffest
+            excess[active] = tension
             wrong &= excess >= np.median(excess[wrong])
         # tighter with fewer changes, and tenfold where the number of wrong points does not fall
         fewer = count < fewest
         share = sharper * count / len(where)
         wanted = min(tolerance if fewer else 0.1 * tolerance, TIGHTENING * share)
-        tolerance = max(wanted, goal if fewer else min(goal, CONTACT_TOLERANCE))
+        tolerance = max(wanted, goal if fewer else min(goal, finest))
         fewest = min(fewest, count)
-        active = active ^ wrong
+        active ^= wrong
+    gap -= real.type(approach)
     return GridContact(
-        pressure.reshape(shape),
+        _on_grid(loaded, pressure, height.size).reshape(shape),
         gap.reshape(shape),
         active.reshape(shape),
         iteration,
@@ -368,3 +342,21 @@ def solve_grid(
         products=products,
         missing=closed.missing,
     )
+
+
+def _on_grid(where: _Index, values: Array, points: int) -> Array:
+    """Return values at some points over a flattened grid, zero elsewhere."""
+    full = np.zeros(points, dtype=values.dtype)
+    full[where] = values
+    return full
+
+
+def _under_load(pressure: Array, load: float, averaged: Averaged | None) -> Array:
+    """Return the pressure [Pa] without tension, scaled to a load; even if nothing is left."""
+    positive = np.maximum(pressure, 0.0)
+    if averaged is not None:
+        positive = averaged(positive)
+    total = positive.sum(dtype=np.float64)
+    if total == 0.0:
+        return np.full(pressure.shape, load / len(pressure), dtype=pressure.dtype)
+    return np.asarray(positive * pressure.dtype.type(load / total))

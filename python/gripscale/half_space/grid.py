@@ -13,6 +13,8 @@ removes the tilt and bends the rest gently near the borders, where a window woul
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, TypeVar
@@ -32,7 +34,12 @@ _Field = TypeVar("_Field", bound=NDArray[Any])
 
 DEFAULT_STEPS = 4  # steps of the surface in the smallest wave that is kept by default
 FEWEST_STEPS = 2
-MOST_POINTS = 2**22  # points of a grid beyond which no contact is solved unless it is asked for
+MOST_POINTS = 2**22  # points of a line beyond which no contact is solved unless it is asked for
+# Points of a map from which its fields are in single precision: `python -m benchmarks precision`.
+SINGLE_FROM = 2**22
+_PART = 2**20  # waves of a part of a spectrum, about
+# Bytes that a point of a large map takes while it is solved; measured, with room for its surface.
+_BYTES_A_POINT = 75
 
 
 @dataclass(frozen=True)
@@ -51,6 +58,30 @@ class Grid:
     def spacing(self) -> tuple[float, ...]:
         """Distance between points along each direction [m]."""
         return tuple(length / n for length, n in zip(self.lengths, self.shape, strict=True))
+
+    @property
+    def real(self) -> np.dtype[Any]:
+        """Precision of fields."""
+        single = len(self.shape) > 1 and self.points >= SINGLE_FROM
+        return np.dtype(np.float32 if single else np.float64)
+
+    @property
+    def complex(self) -> np.dtype[Any]:
+        """Precision of spectra."""
+        return np.result_type(self.real, np.complex64)
+
+    def parts(self) -> Iterator[tuple[slice, Grid]]:
+        """Yield rows of a spectrum of a map, and the grid with the waves of these rows only.
+
+        Formulas of waves need several arrays of their number: of a part these are small.
+        """
+        if len(self.shape) == 1:
+            yield slice(None), self
+            return
+        rows = max(1, _PART // self.spectrum_shape[1])
+        for first in range(0, self.shape[0], rows):
+            part = slice(first, min(first + rows, self.shape[0]))
+            yield part, _Part(self.shape, self.lengths, part)
 
     @property
     def spectrum_shape(self) -> tuple[int, ...]:
@@ -94,8 +125,9 @@ class Grid:
 
     def slope(self, height: Array) -> Array:
         """Return dh/dx [-] of `height` [m] on the grid."""
-        spectrum = scipy.fft.rfftn(height) * np.where(self.own_opposite, 0.0, 1j * self.along)
-        return np.asarray(scipy.fft.irfftn(spectrum, s=self.shape))
+        spectrum = scipy.fft.rfftn(height)
+        spectrum *= np.where(self.own_opposite, 0.0, 1j * self.along).astype(spectrum.dtype)
+        return from_waves(spectrum, self.shape)
 
     def forward_field(self, half: ComplexArray) -> ComplexArray:
         """Return the complex field of the waves with q_x > 0 from the half spectrum of a real one.
@@ -121,23 +153,63 @@ class Grid:
         return values if last else values[:, None]
 
 
-def resampled(spectrum: ComplexArray, shape: tuple[int, ...], onto: tuple[int, ...]) -> Array:
+def points_in_memory(grid: Grid) -> int:
+    """Return the points that a grid like `grid` may have unless more are asked for."""
+    if len(grid.shape) == 1 or not hasattr(os, "sysconf"):
+        return MOST_POINTS
+    memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    return max(MOST_POINTS, memory // (2 * _BYTES_A_POINT))
+
+
+@dataclass(frozen=True)
+class _Part(Grid):
+    """A grid with the waves of some rows of its spectrum."""
+
+    rows: slice
+
+    @property
+    def spectrum_shape(self) -> tuple[int, ...]:
+        return self.rows.stop - self.rows.start, self.shape[1] // 2 + 1
+
+    def _numbers(self, axis: int) -> Array:
+        values = super()._numbers(axis)
+        return values[self.rows] if axis == 0 else values
+
+
+def from_waves(spectrum: ComplexArray, shape: tuple[int, ...], workers: int | None = None) -> Array:
+    """Return the values of a spectrum, which is overwritten (`irfftn` would copy it)."""
+    for axis in range(spectrum.ndim - 1):
+        spectrum = scipy.fft.ifft(spectrum, axis=axis, overwrite_x=True, workers=workers)
+    return np.asarray(scipy.fft.irfft(spectrum, shape[-1], overwrite_x=True, workers=workers))
+
+
+def resampled(
+    spectrum: ComplexArray,
+    shape: tuple[int, ...],
+    onto: Grid,
+    cut_off: float | None = None,
+    workers: int | None = None,
+) -> Array:
     """Return the values at the points `onto` another grid, exact for the waves both carry.
 
-    `spectrum` is the `scipy.fft.rfftn` of values on a grid of `shape`.
+    `spectrum` is the `scipy.fft.rfftn` of values on a grid of `shape`; a `cut_off` [m] damps it.
     """
-    kept = [min(old, new) for old, new in zip(shape, onto, strict=True)]
-    out = np.zeros((*onto[:-1], onto[-1] // 2 + 1), dtype=np.complex128)
+    kept = [min(old, new) for old, new in zip(shape, onto.shape, strict=True)]
+    out = np.zeros(onto.spectrum_shape, dtype=onto.complex)
     half = (kept[-1] + 1) // 2  # below the highest wave of an even grid, which has no phase
-    if len(onto) == 1:
+    if len(shape) == 1:
         out[:half] = spectrum[:half]
     else:
         side = (kept[0] + 1) // 2
         out[:side, :half] = spectrum[:side, :half]
         if side > 1:
             out[1 - side :, :half] = spectrum[1 - side :, :half]
-    scale = math.prod(onto) / math.prod(shape)
-    return np.asarray(scipy.fft.irfftn(out, s=onto, overwrite_x=True)) * scale
+    if cut_off is not None:
+        for rows, waves in onto.parts():
+            out[rows] *= transmission(waves.wavenumber, cut_off).astype(onto.real, copy=False)
+    values = from_waves(out, onto.shape, workers)
+    values *= math.prod(onto.shape) / math.prod(shape)
+    return values
 
 
 def nearest(values: _Field, shape: tuple[int, ...]) -> _Field:
@@ -154,7 +226,7 @@ def doubled(values: Array) -> Array:
     for axis in range(values.ndim):
         before = (slice(None),) * axis
         shape = [n * (1 + (along == axis)) for along, n in enumerate(values.shape)]
-        new = np.empty(shape)
+        new = np.empty(shape, values.dtype)
         new[(*before, slice(None, None, 2))] = values
         new[(*before, slice(1, None, 2))] = 0.5 * (values + np.roll(values, -1, axis))
         values = new
@@ -192,13 +264,16 @@ class PeriodicHeights:
     # Whether nothing is cut off: the cut-off is four steps of a period taken as it stands.
     whole: bool = False
 
-    def on(self, shape: tuple[int, ...], cut_off: float | None = None) -> Array:
+    def on(
+        self, shape: tuple[int, ...], cut_off: float | None = None, workers: int | None = None
+    ) -> Array:
         """Return the heights [m] at the points of another grid, with a cut-off [m]."""
         shortest = max(cut_off or 0.0, self.smallest_wavelength)
-        passed = self.spectrum
-        if not self.whole or shortest > self.smallest_wavelength:
-            passed = passed * transmission(self.grid.wavenumber, shortest)
-        return resampled(passed, self.grid.shape, shape)
+        damped = not self.whole or shortest > self.smallest_wavelength
+        onto = Grid(shape, self.grid.lengths)
+        return resampled(
+            self.spectrum, self.grid.shape, onto, shortest if damped else None, workers
+        )
 
 
 def surface_axes(surface: Profile | HeightMap) -> list[Array]:
@@ -244,7 +319,7 @@ def periodic_heights(
     return PeriodicHeights(
         grid=grid,
         origin=tuple(float(a[0]) for a in axes),
-        spectrum=np.asarray(scipy.fft.rfftn(z - z.mean())),
+        spectrum=scipy.fft.rfftn(z - z.mean()).astype(grid.complex, copy=False),
         measured=~np.isnan(surface.z),
         smallest_wavelength=smallest,
         whole=periodic and smallest_wavelength is None,

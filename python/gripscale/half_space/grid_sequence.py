@@ -76,14 +76,20 @@ _OPENING = 0.3  # s, over the stiffness of the stiffest wave
 
 def friction_from_traction(grid: Grid, pressure: Array, height: Array) -> float:
     """Return the friction coefficient [-] of a pressure [Pa] on heights [m]."""
-    return float(np.mean(pressure * grid.slope(height)) / pressure.mean())
+    product = grid.slope(height)
+    product *= pressure
+    return float(product.mean(dtype=np.float64) / pressure.mean(dtype=np.float64))
 
 
 def lost_by_harmonic(compliance: ComplexArray, grid: Grid, pressure: Array) -> Array:
     """Return the friction coefficient each harmonic adds [-], over the spectrum of `grid`."""
-    share = np.abs(scipy.fft.rfftn(pressure) / grid.points) ** 2
-    lost = -grid.along * compliance.imag * share * grid.weight
-    return np.asarray(lost / pressure.mean())
+    spectrum = scipy.fft.rfftn(pressure)
+    lost = np.empty(grid.spectrum_shape, dtype=grid.real)
+    for rows, waves in grid.parts():
+        share = np.abs(spectrum[rows] / grid.points) ** 2
+        lost[rows] = -waves.along * compliance[rows].imag * share * grid.weight
+    lost /= pressure.mean(dtype=np.float64)
+    return lost
 
 
 def grid_contact_fraction(active: Mask, gap: Array, loss_angle: float = 0.0) -> float:
@@ -228,6 +234,7 @@ class GridSequence:
     pressure: float
     workers: int
     start: KnownLevels = field(default_factory=dict)  # contacts with another rubber, to start from
+    kept: bool = True  # whether all contacts stay in `solved`, for the next rubber
     solved: dict[Level, LevelContact] = field(default_factory=dict)
     # Contact on other heights of the same lengths, that the first level starts from.
     other: LevelContact | None = None
@@ -238,22 +245,16 @@ class GridSequence:
     def solve(self, level: Level, tolerance: float = CONTACT_TOLERANCE) -> LevelContact:
         """Return the contact on `level`, from its contact in `start` or the level before."""
         self.last = self.start.get(level, self.last or self.other)
-        height = self.heights.on(level.grid.shape, level.cut_off)
+        height = self.heights.on(level.grid.shape, level.cut_off, self.workers)
         response = Response.of(self.body, level.grid, self.workers, self.deadline)
-        following = response.full_contact(height, self.pressure)
-        full = bool(following.min() >= 0.0)
-        if full:
-            everywhere = np.ones(following.shape, dtype=bool)
-            contact = GridContact(
-                following, np.zeros(following.shape), everywhere, 0, settled=True, products=1
-            )
-        else:
-            expected = following if self.last is None else self._expected(response, height)
-            start = loaded(expected, self.pressure)
-            contact = solve_grid(response, height, start, tolerance)
+        contact = self._full(response, height)
+        full = contact is not None
+        if contact is None:
+            # no name for the start: the solver frees it early
+            contact = solve_grid(response, height, self._start(response, height), tolerance)
             if not contact.settled and np.iscomplex(response.compliance).any():
-                contact = self._through_losses(response, height, start, contact)
-        lost = float(lost_by_harmonic(response.compliance, level.grid, contact.pressure).sum())
+                contact = self._through_losses(response, height, contact)
+        lost = lost_by_harmonic(response.compliance, level.grid, contact.pressure)
         record = GridRecord(
             points=level.grid.shape[0],
             cut_off=level.cut_off,
@@ -262,7 +263,7 @@ class GridSequence:
             ),
             border_error=border_error(contact.active),
             friction=friction_from_traction(level.grid, contact.pressure, height),
-            friction_from_dissipation=lost,
+            friction_from_dissipation=float(lost.sum(dtype=np.float64)),
             iterations=contact.iterations,
             products=contact.products,
             settled=contact.settled,
@@ -270,13 +271,24 @@ class GridSequence:
             in_contact=int(contact.active.sum()),
         )
         self.last = LevelContact(level, height, contact, record)
-        self.solved[level] = self.last
+        if self.kept:
+            self.solved[level] = self.last
         return self.last
 
+    def _full(self, response: Response, height: Array) -> GridContact | None:
+        """Return the contact without a gap, if it has no tension."""
+        pressure = response.full_contact(height, self.pressure)
+        if pressure.min() < 0.0:
+            return None
+        everywhere = np.ones(height.shape, dtype=bool)
+        gap = np.zeros(height.shape, dtype=height.dtype)
+        return GridContact(pressure, gap, everywhere, 0, settled=True, products=1)
+
     def _through_losses(
-        self, response: Response, height: Array, start: Array, contact: GridContact
+        self, response: Response, height: Array, contact: GridContact
     ) -> GridContact:
         """Return the contact, reached by raising the loss angle from that of `contact` in steps."""
+        start = self._start(response, height)
         for loss in LOSSES:
             part = response
             if loss != 1.0:
@@ -291,28 +303,38 @@ class GridSequence:
             start = loaded(np.where(contact.active, contact.pressure, 0.0), self.pressure)
         return contact
 
-    def _expected(self, response: Response, height: Array) -> Array:
-        """Return the start p + S dh - s g from the last contact."""
-        assert self.last is not None
+    def _start(self, response: Response, height: Array) -> Array:
+        """Return the start p + S dh - s g from the last contact, under the load; at first S h."""
+        if self.last is None:
+            return loaded(response.full_contact(height, self.pressure), self.pressure)
         last, shape = self.last, height.shape
         twice = shape == tuple(2 * points for points in last.height.shape)
-        pressure, gap = (
-            doubled(values) if twice else nearest(values, shape)
-            for values in (last.contact.pressure, last.contact.gap)
-        )
+
+        def here(values: Array) -> Array:
+            values = values.astype(height.dtype, copy=False)
+            return doubled(values) if twice else nearest(values, shape)
+
+        opening = np.maximum(here(last.contact.gap), 0.0)
+        opening *= _OPENING / response.smallest_compliance
+        expected = here(last.contact.pressure) - opening
+        del opening
         # not the heights of the last grid, doubled: S would press their kinks flat
         if last is self.other:
-            before = resampled(scipy.fft.rfftn(last.height), last.height.shape, shape)
+            spectrum = scipy.fft.rfftn(last.height)
+            before = resampled(spectrum, last.height.shape, response.grid)
         else:
-            before = self.heights.on(shape, last.level.cut_off)
-        opening = _OPENING / response.smallest_compliance * np.maximum(gap, 0.0)
-        return np.asarray(pressure - opening + response.pressure(height - before))
+            before = self.heights.on(shape, last.level.cut_off, self.workers)
+        np.subtract(height, before, out=before)
+        if before.any():
+            expected += response.pressure(before)
+        return loaded(expected, self.pressure)
 
 
 def loaded(pressure: Array, load: float) -> Array:
     """Return `pressure` without tension, scaled to a load [Pa]; uniform if nothing is left."""
     positive = np.maximum(pressure, 0.0)
-    mean = positive.mean()
+    mean = positive.mean(dtype=np.float64)
     if mean == 0.0:
-        return np.full(pressure.shape, load)
-    return np.asarray(positive * (load / mean))
+        return np.full(pressure.shape, load, dtype=pressure.dtype)
+    positive *= load / mean
+    return positive

@@ -16,7 +16,6 @@ from gripscale.conditions.flash_temperature import STONE, ThermalProperties
 from gripscale.core import Array, Checked, InputError, Status, checked, checks, labelled, provenance
 from gripscale.cut_off_exponents import NOT_CONVERGED, CutOffExponents, of_mean
 from gripscale.half_space.conditions import warming_of
-from gripscale.half_space.grid import MOST_POINTS
 from gripscale.half_space.line_to_map import LineUnderLoad, line_under_load, pressure_over_modulus
 from gripscale.half_space.location import contact_trace, with_traces
 from gripscale.half_space.result import SHARES_BY_SLOPE, RoughContact
@@ -208,7 +207,7 @@ class DirectContact(Checked, model.Model):
 
     smallest_wavelength: float | None = checked(checks.positive, unit="m", default=None)
     tolerance: float | None = checked(relative_tolerance, default=0.02)
-    most_points: int = checked(checks.whole, least=1, most=2**40, default=MOST_POINTS)
+    most_points: int | None = checked(checks.whole, least=1, most=2**40, default=None)
     periodic: bool = checked(checks.flag, default=False)
     conditions: Conditions | None = None
     traces: bool = checked(checks.flag, default=False)

@@ -30,7 +30,13 @@ from numpy.typing import NDArray
 from gripscale._kernel import Line
 from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import Array, ComplexArray, InputError, checks
-from gripscale.half_space.grid import Grid, PeriodicHeights, Single, SingleComplex
+from gripscale.half_space.grid import (
+    Grid,
+    PeriodicHeights,
+    Single,
+    SingleComplex,
+    from_waves,
+)
 from gripscale.rubber import Rubber
 from gripscale.rubber.material import plane_strain_modulus_of
 from gripscale.theory import layers as layer_theory
@@ -149,16 +155,16 @@ class HalfSpace:
 
     def compliance(self, grid: Grid) -> ComplexArray:
         """Return K(q) [m/Pa] over the spectrum of `grid`, zero for the mean."""
-        compliance = np.asarray(2.0 / (_without_mean(grid) * self.modulus(grid)))
+        compliance = np.empty(grid.spectrum_shape, dtype=grid.complex)
+        for rows, waves in grid.parts():
+            compliance[rows] = 2.0 / (_without_mean(waves) * self.modulus(waves))
         compliance.flat[0] = 0.0
         return compliance
 
 
 def _without_mean(grid: Grid) -> Array:
     """Return |q| [rad/m], and 1 for the mean, whose compliance is not defined."""
-    number = grid.wavenumber.copy()
-    number.flat[0] = 1.0
-    return number
+    return np.where(grid.wavenumber > 0.0, grid.wavenumber, 1.0)
 
 
 class OutOfTime(Exception):
@@ -193,10 +199,11 @@ class Response:
 
         The mean has no stiffness and gets that of the softest wave.
         """
-        softest = compliance.copy()
-        softest.flat[0] = np.abs(compliance).max()
-        stiffness = (1.0 / softest).astype(np.complex64)
-        return cls(grid, workers, compliance, compliance.astype(np.complex64), stiffness)
+        softest, stiffness = np.abs(compliance).max(), compliance.copy()
+        stiffness.flat[0] = softest
+        np.reciprocal(stiffness, out=stiffness)
+        single = compliance.astype(np.complex64, copy=False)
+        return cls(grid, workers, compliance, single, stiffness.astype(np.complex64, copy=False))
 
     @property
     def transposed(self) -> Response:
@@ -213,26 +220,28 @@ class Response:
         """Displacement under unit pressure at the first point [m/Pa], shape of the grid."""
         return np.asarray(scipy.fft.irfftn(self.compliance, s=self.grid.shape))
 
-    @property
+    @cached_property
     def smallest_compliance(self) -> float:
         """|K| of the stiffest wave of the grid [m/Pa]."""
         return float(1.0 / np.abs(self.stiffness).max())
 
     @cached_property
     def loss_angle(self) -> float:
-        """Loss angle, median of the waves [rad]; positive in a slide towards +x.
+        """Loss angle on a line, median of the waves [rad]; positive in a slide towards +x.
 
-        On a line it is that of four points in a wave.
+        It is that of four points in a wave. Of a map it is not needed, and zero.
         """
+        if len(self.grid.shape) > 1:
+            return 0.0
         return float(-np.median(np.angle(self.compliance.reshape(-1)[1:])))
 
     def displacement(self, pressure: AnyArray) -> AnyArray:
         """Return the displacement [m] under `pressure` [Pa], of zero mean, shape of the grid."""
         if time.monotonic() > self.deadline:
             raise OutOfTime
-        if pressure.dtype != np.float32:
-            return self._filtered(pressure, self.compliance)
-        return self._filtered_single(pressure, self.compliance_single)
+        if pressure.dtype == np.float32:
+            return self._filtered_single(pressure, self.compliance_single)
+        return self._filtered(pressure, self.compliance)
 
     def full_contact(self, height: Array, mean: float) -> Array:
         """Return the pressure [Pa] of mean `mean` that follows `height` [m], tension included."""
@@ -240,7 +249,7 @@ class Response:
         spectrum.flat[0] = 0.0
         np.divide(spectrum, self.compliance, out=spectrum, where=self.compliance != 0.0)
         spectrum.flat[0] = mean * height.size
-        return np.asarray(self._from_waves(spectrum), dtype=np.float64)
+        return from_waves(spectrum, self.grid.shape, self.workers)
 
     def pressure(self, displacement: AnyArray) -> AnyArray:
         """Return the pressure [Pa] that gives `displacement` [m] everywhere, shape of the grid."""
@@ -260,14 +269,7 @@ class Response:
     def _filtered(self, values: AnyArray, transfer: AnyComplexArray) -> AnyArray:
         spectrum = scipy.fft.rfftn(values, workers=self.workers)
         spectrum *= transfer
-        return self._from_waves(spectrum)
-
-    def _from_waves(self, spectrum: AnyComplexArray) -> AnyArray:
-        """Return the values of a spectrum, which is overwritten (`irfftn` would copy it)."""
-        for axis in range(spectrum.ndim - 1):
-            spectrum = scipy.fft.ifft(spectrum, axis=axis, overwrite_x=True, workers=self.workers)
-        points = self.grid.shape[-1]
-        return np.asarray(scipy.fft.irfft(spectrum, points, overwrite_x=True, workers=self.workers))
+        return from_waves(spectrum, self.grid.shape, self.workers)
 
 
 # Change of ln E* or ln B of a layer: K is analytic, and its difference errs by 1e-8.

@@ -109,18 +109,13 @@ class FrictionAdjoint:
         where = np.flatnonzero(contact.active)
         lost = -2.0 * grid.along * response.compliance.imag * scipy.fft.rfftn(contact.pressure)
         right = scipy.fft.irfftn(lost, s=grid.shape).reshape(-1)[where]
-        closed = close_gap(
-            response.transposed,
-            where,
-            right,
-            np.zeros(where.size),
-            np.zeros(grid.points),
-            tolerance,
-            check=True,
-        )
+        gap = np.zeros(grid.points)
+        gap[where] = -right
+        start = np.zeros(where.size)
+        closed = close_gap(response.transposed, where, gap, start, tolerance, check=True)
         multiplier = np.zeros(grid.points)
         multiplier[where] = closed.pressure
-        rigid = float(np.mean(right - closed.displacement[where]))
+        rigid = -float(np.mean(gap[where]))
         field = multiplier.reshape(grid.shape)
         return cls(contact, layer, field, rigid, closed.products, closed.missing)
 

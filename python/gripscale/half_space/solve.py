@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
@@ -20,7 +21,12 @@ from gripscale.conditions.conditions import Conditions, RubberByScale, water_fil
 from gripscale.core import ConvergenceError, InputError, Quantity, Status, checks, worker_count
 from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
-from gripscale.half_space.grid import MOST_POINTS, PeriodicHeights, nearest, periodic_heights
+from gripscale.half_space.grid import (
+    PeriodicHeights,
+    nearest,
+    periodic_heights,
+    points_in_memory,
+)
 from gripscale.half_space.grid_sequence import (
     ERROR_GRIDS,
     GridRecord,
@@ -32,6 +38,7 @@ from gripscale.half_space.grid_sequence import (
     finer,
     levels,
 )
+from gripscale.half_space.kept_grid import KeptGrid
 from gripscale.half_space.response import HalfSpace, OutOfTime, check_magnitudes, half_space
 from gripscale.half_space.result import RoughContact
 from gripscale.half_space.water import with_water
@@ -42,6 +49,8 @@ from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import STEEPEST
 from gripscale.theory.half_plane import GridContact
 from gripscale.theory.layers import Layers
+
+OnGrid = Callable[[GridRecord], None]
 
 FEWEST_IN_CONTACT = 8
 LEAST_FRICTION = 0.01  # friction below which its error is relative to this value
@@ -72,7 +81,7 @@ def solve_rough_contact(
     water: bool | float | str = False,
     tolerance: float | None = 0.02,
     workers: int | None = None,
-    most_points: int = MOST_POINTS,
+    most_points: int | None = None,
     time_limit: float | None = None,
     conditions: Conditions | None = None,
     footprint: Quantity | None = None,
@@ -80,6 +89,8 @@ def solve_rough_contact(
     by_scale: RubberByScale | None = None,
     start: RoughContact | None = None,
     coarse: bool = False,
+    folder: str | Path | None = None,
+    on_grid: OnGrid | None = None,
 ) -> RoughContact:
     """Return contact and friction of a whole surface: small strain, frictionless contact.
 
@@ -130,9 +141,10 @@ def solve_rough_contact(
     workers : int, optional
         Threads of the Fourier transforms of a map; one per core by default.
     most_points : int
-        Points a grid may have. A solution takes about 150 bytes a point (150 MB for 1024 x 1024),
-        and 4 bytes for each point in contact and product of the linear solver, of which it keeps
-        10 to 60, in very lossy rubber 240.
+        Points a grid may have; by default 2^22 of a line, and of a map as many as half of the
+        memory of this machine holds. From 2^22 points on a map is solved in single precision and
+        takes 60 bytes a point, smaller ones 150; and each 4 bytes for each point in contact and
+        product of the linear solver, of which it keeps 10 to 60, in very lossy rubber 240.
     time_limit : float, optional
         Time [s] after which the status is "time limit" and the numbers are those of the last grid
         that was solved. Lines of very lossy rubber take minutes on grids above 131,072 points.
@@ -155,6 +167,11 @@ def solve_rough_contact(
     coarse : bool
         Solve the first grid with all waves only, two points in the smallest: the ratio to that grid
         of `start` is what another rubber or thickness changes.
+    folder : str or Path, optional
+        Folder for the file `grid.npz`, which holds the last solved grid while a solution runs: the
+        same call takes up there what was stopped. Not with softening or heat.
+    on_grid : callable, optional
+        Called after each grid with its `GridRecord`.
     """
     load = checks.positive("pressure", pressure, unit="Pa")
     effects = Conditions() if conditions is None else conditions
@@ -175,7 +192,9 @@ def solve_rough_contact(
             require_measured(solid, heights.smallest_wavelength, body.speed)
     check_magnitudes(body, heights, load)
     points = levels(heights)[-1].grid.points
-    most = checks.whole("most_points", most_points, least=1, most=2**40)
+    most = points_in_memory(heights.grid)
+    if most_points is not None:
+        most = checks.whole("most_points", most_points, least=1, most=2**40)
     if points > most:
         raise InputError(
             f"most_points must be at least {points}, four points in each wave of "
@@ -198,10 +217,15 @@ def solve_rough_contact(
             load,
             threads,
             earlier,
+            kept=iterated,
             other=None if iterated else other,
             deadline=deadline,
         )
-        return _solve_sequence(sequence, most, reach, coarse=coarse, loose=coarse or loose)
+        kept = None if folder is None else KeptGrid.of(folder, sequence)
+        loose |= coarse
+        return _solve_sequence(
+            sequence, most, reach, coarse=coarse, loose=loose, kept=kept, on_grid=on_grid
+        )
 
     if not iterated:
         contact = solve(by_scale, {}, goal).contact
@@ -301,29 +325,41 @@ def _planned(sequence: GridSequence, goal: float, *, coarse: bool) -> list[Level
 
 
 def _solve_sequence(
-    sequence: GridSequence, most: int, goal: float, *, coarse: bool, loose: bool
+    sequence: GridSequence,
+    most: int,
+    goal: float,
+    *,
+    coarse: bool,
+    loose: bool,
+    kept: KeptGrid | None = None,
+    on_grid: OnGrid | None = None,
 ) -> GridSequenceResult:
     """Return the contact with one rubber, on grids refined until the errors meet `goal`."""
     body, heights, load = sequence.body, sequence.heights, sequence.pressure
     plan, in_time = _planned(sequence, goal, coarse=coarse), True
-    grids: list[GridRecord] = []
-    while plan:
-        level = plan.pop(0)
+    grids = [] if kept is None else kept.load(sequence, plan)
+    solved = sequence.last
+    while plan or (solved is not None and not _met(_same_surface(grids), goal)):
+        level = plan.pop(0) if plan or solved is None else finer(solved.level)
+        if solved is not None and level.grid.points > most:
+            break
         try:
             rough = plan or loose
             solved = sequence.solve(level, START_TOLERANCE if rough else CONTACT_TOLERANCE)
         except OutOfTime:
-            if not grids:
-                raise ConvergenceError(
-                    "the time limit ended the direct contact before its first grid was solved"
-                ) from None
             in_time = False
             break
         grids.append(solved.record)
-        following = finer(solved.level)
-        if not plan and not _met(_same_surface(grids), goal) and following.grid.points <= most:
-            plan.append(following)
-
+        if kept is not None:
+            kept.save(solved, grids)
+        if on_grid is not None:
+            on_grid(solved.record)
+    if solved is None:
+        raise ConvergenceError(
+            "the time limit ended the direct contact before its first grid was solved"
+        )
+    if kept is not None and in_time:
+        kept.path.unlink(missing_ok=True)
     contact, record, height = solved.contact, solved.record, solved.height
     status = Status.CONVERGED if _met(_same_surface(grids), goal) else Status.TOLERANCE_NOT_MET
     if not in_time:
@@ -335,7 +371,9 @@ def _solve_sequence(
     elif record.in_contact < FEWEST_IN_CONTACT:
         status = Status.CONTACT_TOO_NARROW
     area_error, friction_error = errors(_same_surface(grids))
-    violation = np.where(contact.active, np.abs(contact.gap), np.maximum(-contact.gap, 0.0))
+    violation = max(
+        -float(contact.gap.min()), float(np.abs(contact.gap[contact.active]).max(initial=0.0))
+    )
     rms = float(np.sqrt(np.mean(height**2)))
     result = RoughContact(
         rubber=body.rubber,
@@ -350,8 +388,8 @@ def _solve_sequence(
         status=status,
         residuals={
             "pressure": contact.missing,
-            "gap": float(violation.max() / rms) if rms > 0.0 else 0.0,
-            "load": abs(float(contact.pressure.mean()) / load - 1.0),
+            "gap": violation / rms if rms > 0.0 else 0.0,
+            "load": abs(float(contact.pressure.mean(dtype=np.float64)) / load - 1.0),
         },
         full_contact=record.full,
         grid=solved.level.grid,

@@ -57,9 +57,9 @@ def with_water(contact: RoughContact, film: float, *, workers: int) -> RoughCont
     step, pools = _under_rising_load(response, contact.height, load, film, LOAD_STEPS)
     numbers = _numbers(response, contact.height, step)
 
-    shape = tuple(n // 2 for n in contact.grid.shape)
-    response = Response.of(contact.body, Grid(shape, contact.grid.lengths), workers)
-    height = resampled(scipy.fft.rfftn(contact.height), contact.grid.shape, shape)
+    half = Grid(tuple(n // 2 for n in contact.grid.shape), contact.grid.lengths)
+    response = Response.of(contact.body, half, workers)
+    height = resampled(scipy.fft.rfftn(contact.height), contact.grid.shape, half)
     start = loaded(response.full_contact(height, load), load)
     before = _numbers(response, height, solve_grid(response, height, start, START_TOLERANCE))
     coarse, _ = _under_rising_load(response, height, load, film, LOAD_STEPS // 2)

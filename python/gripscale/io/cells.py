@@ -14,16 +14,8 @@ Line = tuple[int, str]
 MISSING = {
     *("inf", "-inf", "+inf", "infinity", "-infinity", "nodata", "no_data", "missing", "void"),
     *("invalid", "masked", "overflow", "*", "***", "****", "*****", "- -"),
-    *(
-        "1.#qnan",
-        "-1.#ind",
-        "1.#inf",
-        "-1.#inf",
-        "nan(ind)",
-        "-nan(ind)",
-        "<nodata>",
-        "out of range",
-    ),
+    *("1.#qnan", "-1.#ind", "1.#inf", "-1.#inf", "nan(ind)", "-nan(ind)", "<nodata>"),
+    "out of range",
     *("", "nan", "na", "n/a", "n.a.", "n. a.", "n.v.", "n.b.", "k.a.", "k. a.", "null", "none"),
     *("-", "--", "---", "–", "—", "bad", "#nv", "#n/v", "#na", "#n/a"),
     *("#num!", "#zahl!", "#value!", "#wert!", "#div/0!", "#ref!", "#bezug!", "#name?", "#null!"),

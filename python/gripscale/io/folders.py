@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gripscale.core.errors import FileError
 from gripscale.io.netcdf import write_whole
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def require_writable(folder: Path) -> None:
@@ -52,3 +56,8 @@ def write_text(path: Path, text: str) -> Path:
 def write_bytes(path: Path, content: bytes) -> Path:
     """Write `content` to `path`, completely or not at all."""
     return write_whole(path, lambda part: part.write_bytes(content))
+
+
+def write_csv(table: pd.DataFrame, path: Path) -> Path:
+    """Write a table as CSV: commas, points, UTF-8, all digits, empty cells for missing values."""
+    return write_whole(path, lambda part: table.to_csv(part, index=False, lineterminator="\n"))

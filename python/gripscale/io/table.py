@@ -1,13 +1,11 @@
-"""One table for every result: described once, rendered to the terminal, HTML, CSV and Excel.
+"""One table for every result: described once, rendered to the terminal and HTML.
 
 A column holds its numbers in SI units together with the unit and the digits they are read in. The
-renderers differ in typography only: a missing number is "-" in the terminal, "–" on a page and an
-empty cell in a file; files hold every digit.
+renderers differ in typography only: a missing number is "-" in the terminal, "–" on a page.
 """
 
 from __future__ import annotations
 
-import csv
 import html
 import io
 import itertools
@@ -16,14 +14,12 @@ import re
 import textwrap
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.core import Described, InputError
-from gripscale.io.netcdf import write_whole
+from gripscale.core import Described
 
 if TYPE_CHECKING:
     from rich.console import Console, ConsoleOptions
@@ -90,7 +86,7 @@ class Column(Described):
     """One column of a table."""
 
     name: str
-    """Its name in files, good for a program."""
+    """Its name, good for a program."""
     values: Any = ()
     """Numbers in SI units or texts, one a row; NaN or None where missing. Of shape (rows, 2) the
     two ends of a range."""
@@ -151,28 +147,6 @@ class Column(Described):
         """Return the text behind the number of a row."""
         return self.marks[row] if len(self.marks) else ""
 
-    def raw(self) -> list[tuple[str, list[Any]]]:
-        """Return titles and numbers for a file, in the unit of the column; a range gives two."""
-        values = np.asarray(self.values)
-        if values.dtype.kind == "U":
-            values = np.array(self.values, dtype=object)
-        if values.dtype.kind not in "fiubOS":
-            raise InputError(
-                f"{self.name} must hold numbers or texts to be a column; got {values.dtype}"
-            )
-        unit = f" [{'-' if self.unit == '1' else self.unit}]" if self.unit else ""
-        ends = {"": values} if values.ndim == 1 else {"_low": values[:, 0], "_high": values[:, 1]}
-        return [
-            (f"{self.name}{end}{unit}", [self._raw(value) for value in part.tolist()])
-            for end, part in ends.items()
-        ]
-
-    def _raw(self, value: Any) -> Any:
-        if isinstance(value, float) and math.isnan(value):
-            return None
-        in_si = not isinstance(value, float | int) or (self.size, self.zero) == (1.0, 0.0)
-        return value if in_si else (value - self.zero) / self.size
-
 
 @dataclass(frozen=True, repr=False)
 class Table(Described):
@@ -187,7 +161,6 @@ class Table(Described):
     """Leading columns that every part of a table divided for the terminal begins with."""
     bad: Flags = ()
     strong: Collection[int] = ()
-    rules: Collection[int] = ()
     kind: ClassVar[str] = "table"
 
     def __len__(self) -> int:
@@ -196,17 +169,6 @@ class Table(Described):
     def is_bad(self, column: Column, row: int) -> bool:
         """Return whether a cell must not be trusted."""
         return any(bool(flags[row]) for flags in (self.bad, column.bad) if len(flags))
-
-    # Files.
-
-    @property
-    def titles(self) -> list[str]:
-        """Headings in a file, such as `friction [-]`."""
-        return [title for column in self.columns for title, _ in column.raw()]
-
-    def rows(self) -> Iterator[tuple[Any, ...]]:
-        """Yield rows of numbers and texts, None where one is missing."""
-        yield from zip(*(v for column in self.columns for _, v in column.raw()), strict=True)
 
     # Terminal.
 
@@ -282,8 +244,6 @@ class Table(Described):
             for lines in itertools.zip_longest(*folded, fillvalue=""):
                 pieces = zip(map(_placed, lines, columns, widths), styles, strict=True)
                 yield tuple(part for piece in pieces for part in (piece, gap))[:-1]
-            if row in self.rules:
-                yield ("",)
 
     # Page.
 
@@ -414,15 +374,3 @@ def as_text(*parts: str | Table, width: int = 100) -> str:
         for part in spaced(parts):
             paper.print(wrapped(part, width) if isinstance(part, str) else part)
     return "".join(f"{line.rstrip()}\n" for line in captured.get().splitlines())
-
-
-def write_csv(table: Table, path: Path) -> Path:
-    """Write a table as CSV: commas, points, UTF-8, all digits, empty cells for missing values."""
-
-    def write(part: Path) -> None:
-        with part.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(table.titles)
-            writer.writerows(table.rows())
-
-    return write_whole(path, write)

@@ -1,19 +1,8 @@
 """Tables of numbers in text and Excel files: one set of rules for every instrument's export.
 
-- A sheet of an Excel file (.xlsx) is read as a text whose cells are parted by tabs.
-- UTF-8, UTF-16, GB 18030, Shift-JIS, Windows-1252 or latin-1; any line ends. Control codes mean
-  binary data.
-- Lines that begin with #, % or ! are comments, but for #NV and the like; so is what follows a row
-  behind # and a blank. Titles may stand in a comment.
-- Cells are parted by tabs, semicolons, commas or blanks: by the first of these that makes numbers
-  of all cells of a line. That line is the first row; every later line must have as many cells.
-  Lines of words below the last row do not count, nor do titles that come again, heads of pages,
-  and columns of words, such as dates.
-- The decimal sign is the point or, where commas do not part the cells, the comma; not both.
-  Thousands are parted (1.234,5 or 1,234.5) only where tabs or semicolons part the cells.
-- Empty cells and the words of `MISSING` are missing values.
-- The last line above the rows that names as many columns holds the titles. A unit stands in
-  brackets, behind a slash or a blank, or in a line of units.
+The rules, the same for heights and moduli, are in docs/inputs.md. Cells are parted by the first of
+tabs, semicolons, commas and blanks that makes numbers of all cells of a line: the first row. Every
+later row has as many cells. Titles are in the last line above that names as many columns.
 """
 
 from __future__ import annotations

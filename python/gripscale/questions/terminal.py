@@ -17,7 +17,6 @@ import typer
 from gripscale.core import ConvergenceError, GripscaleError, Words
 
 if TYPE_CHECKING:
-    from pydantic import BaseModel
     from rich.console import Console
     from rich.status import Status
 
@@ -307,12 +306,6 @@ Workers = Annotated[int | None, option("Cores to use; all by default.")]
 Cluster = Annotated[
     str | None, option('"local", or the address of a Dask scheduler: tcp://host:8786.')
 ]
-
-
-def keys_of(context: typer.Context, table: type[BaseModel]) -> dict[str, Any]:
-    """Return the options of a command that are keys of a table of the case, those that are set."""
-    values = {key: context.params.get(key) for key in table.model_fields}
-    return {key: value for key, value in values.items() if value is not None and value is not False}
 
 
 def with_options(text: str, options: Container[str]) -> str:

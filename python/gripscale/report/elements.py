@@ -109,14 +109,6 @@ class Card:
 _MOST_OPEN = 3  # findings that a page or a terminal opens with; further warnings are folded
 
 
-def open_and_folded(notices: Sequence[Finding]) -> tuple[list[Finding], list[Finding]]:
-    """Return what a page opens with, errors and the first few warnings, and the rest."""
-    errors = [notice for notice in notices if notice.severity == Severity.ERROR]
-    warnings = [notice for notice in notices if notice.severity != Severity.ERROR]
-    room = max(0, _MOST_OPEN - len(errors))
-    return errors + warnings[:room], warnings[room:]
-
-
 @dataclass(frozen=True)
 class Page:
     """A whole report."""
@@ -150,8 +142,9 @@ class Page:
     @property
     def warnings(self) -> tuple[list[Finding], list[Finding]]:
         """The first few warnings, below the numbers, and the others, which are folded."""
-        opened, folded = open_and_folded(self.notices)
-        return opened[len(self.errors) :], folded
+        rest = [notice for notice in self.notices if notice.severity != Severity.ERROR]
+        room = max(0, _MOST_OPEN - len(self.errors))
+        return rest[:room], rest[room:]
 
     @property
     def open_chapters(self) -> int:

@@ -58,9 +58,13 @@ def reproduce_paper(
         for line, task in lines.items()
     }
     solved = Bench(Store(Path(output) / PREDICTIONS), workers, client, on_task).solve(labelled)
+    converged: dict[str, Any] = {
+        key: data.isel(scale=np.flatnonzero(np.isfinite(data.running_contact_fraction)))
+        for key, data in solved.items()
+    }
     results: dict[str, Results] = {
         name: {
-            panel: {line: _converged(solved[task.key]) for line, task in lines.items()}
+            panel: {line: converged[task.key] for line, task in lines.items()}
             for panel, lines in panels.items()
         }
         for name, panels in wanted.items()
@@ -77,10 +81,6 @@ def reproduce_paper(
         netcdf.save(drawn_data(sheet).assign_attrs(attrs), Path(output) / f"{name}.nc")
     write_statements(statements, Path(output))
     return statements
-
-
-def _converged(prediction: Any) -> Any:
-    return prediction.isel(scale=np.flatnonzero(np.isfinite(prediction.running_contact_fraction)))
 
 
 def _unsolved(name: str, evidence: Evidence) -> list[Statement]:

@@ -1,29 +1,14 @@
 """Tables of moduli as instruments print them: what their titles mean, and Young's moduli of rows.
 
-Titles are read in English and German, those of frequency and moduli in French and Chinese, too:
-
-| quantity | titles |
-|---|---|
-| temperature | T, Ts, Temp., Temperature, Temperatur, Probentemperatur |
-| frequency | f, freq, Frequency, Frequenz, Angular frequency, Kreisfrequenz, omega, Pulsation |
-| storage | E', G', E_stor, Storage modulus, Speichermodul |
-| loss | E'', G'', E", E_loss, Loss modulus, Verlustmodul |
-| loss_factor | tan delta, tan(d), Loss factor, Verlustfaktor, Damping factor |
-| phase | delta, Phase angle, Loss angle, Phasenwinkel, Verlustwinkel |
-| magnitude | E*, G*, |E*|, Complex modulus, Komplexer Modul |
-| strain | Strain, Shear strain, Strain amplitude, Dehnung, Verformung, Deformation, gamma |
-
-A logarithm (log, log10, lg or ln of one of these, such as log f or log10(E'/Pa)) is raised again,
-and the a_T of a shifted frequency (a_T f) is no part of its title. Two of E', E'', |E*| and tan
-delta, or the angle delta, state the modulus:
+Titles are read in several languages (docs/temperature.md lists the English and German ones). A
+logarithm of one, such as log f or log10(E'/Pa), is raised again, and the a_T of a shifted frequency
+is no part of its title. Two of E', E'', |E*| and tan delta, or the angle delta, state the modulus:
 
     E'' = E' tan d,   E' = E''/tan d,   E' = |E*|/sqrt(1 + tan^2 d)
 
-Each modulus has the unit of its own title. A loss factor may be in %, an angle states its unit.
-An angular frequency without a unit, or in 1/s, is in rad/s. Rows whose frequency or modulus is
-zero or less, up to a tenth of them, count as missing: faults of a measurement, not of the columns.
-
-A shear modulus becomes the Young's modulus of the incompressible solid by E = 3 G.
+An angular frequency without a unit, or in 1/s, is in rad/s. Rows whose frequency or modulus is zero
+or less, up to a tenth of them, count as missing: faults of a measurement, not of the columns. A
+shear modulus becomes the Young's modulus of the incompressible solid by E = 3 G.
 """
 
 from __future__ import annotations
@@ -42,29 +27,21 @@ from gripscale.core.units import UNITS, listed, quantity_in_si, spelled
 from gripscale.io.text_table import ColumnTitle, TextTable
 
 _TITLES = {
-    meaning: re.compile(pattern)
-    for meaning, pattern in {
-        "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor"
-        r"|facteur de (perte|dissipation|amort)|损耗因子|損失正接",
-        "temperature": r"t[eé]mp(?!s\b)|(sample|proben)\s*-?temp|ts$|温度|試料温度",
-        "frequency": r"omega|.*(freq|fr[eé]qu|frecu)|pulsation|częstot|част|주파수"
-        r"|角?频率|角?周波数",
-        "magnitude": r"\|?[egm]\*|.*complex .*modulus|.*komplexer .*modul|复数?模量"
-        r"|.*module? complex",
-        "storage": r"(modul\w* )?[egm]'(?!')|re(al)? ?\([eg]\b|real (part|modulus)"
-        r"|[eg][_ ]?p(rime)?\b|[eg][_ ]?stor|.*\bstor|.*speichermodul"
-        r"|.*elastic component"
-        r"|m[oó]dul[eo] (de |d['’]|di )?(stockage|conserva|a(lm|rm)a[cz]ena|accumul|[eé]lasti)"
-        r"|.*zachowaw|.*opslagmod|.*lagringsmod|.*накопл|저장"
-        r"|(储能|存储|储存)模量|貯蔵.*率",
-        "loss": r"(modul\w* )?[egm]''|im(ag)? ?\([eg]\b|imag\w* (part|modulus)"
-        r"|[eg][_ ]?(pp|double[ _-]?prime)\b|[eg][_ ]?loss|.*\bloss"
-        r"|.*verlustmodul|.*viscous component"
-        r"|.*stratno|.*verliesmod|.*f[öo]rlustmod|.*потерь|손실"
-        r"|m[oó]dul[eo] .*(perte|p[eé]rdi|perda|dissipa|visqueux|viscos)|损耗模量|損失.*率",
-        "strain": r".*strain\b|.*dehn(ung|\.|\b)|[ds]sa\b"
-        r"|.*verformung|.*d[eé]formation|gamma\b|.*scherung|应变",
-    }.items()
+    "loss_factor": r"tan\b|tan[\s_(]*(d|δ)|(loss|damping|dissipation) factor|verlustfaktor"
+    r"|facteur de (perte|dissipation|amort)|损耗因子|損失正接",
+    "temperature": r"t[eé]mp(?!s\b)|(sample|proben)\s*-?temp|ts$|温度|試料温度",
+    "frequency": r"omega|.*(freq|fr[eé]qu|frecu)|pulsation|częstot|част|주파수|角?频率|角?周波数",
+    "magnitude": r"\|?[egm]\*|.*(complex .*modulus|komplexer .*modul|module? complex)|复数?模量",
+    "storage": r"(modul\w* )?[egm]'(?!')|re(al)? ?\([eg]\b|real (part|modulus)"
+    r"|[eg][_ ]?p(rime)?\b|[eg][_ ]?stor|.*\bstor|.*speichermodul|.*elastic component"
+    r"|m[oó]dul[eo] (de |d['’]|di )?(stockage|conserva|a(lm|rm)a[cz]ena|accumul|[eé]lasti)"
+    r"|.*(zachowaw|opslagmod|lagringsmod|накопл)|저장|(储能|存储|储存)模量|貯蔵.*率",
+    "loss": r"(modul\w* )?[egm]''|im(ag)? ?\([eg]\b|imag\w* (part|modulus)"
+    r"|[eg][_ ]?(pp|double[ _-]?prime)\b|[eg][_ ]?loss|.*\bloss|.*verlustmodul"
+    r"|.*(viscous component|stratno|verliesmod|f[öo]rlustmod|потерь)|손실"
+    r"|m[oó]dul[eo] .*(perte|p[eé]rdi|perda|dissipa|visqueux|viscos)|损耗模量|損失.*率",
+    "strain": r".*(strain\b|dehn(ung|\.|\b)|verformung|d[eé]formation|scherung)|[ds]sa\b"
+    r"|gamma\b|应变",
 }
 _KINDS = {
     "E": re.compile(r"(?<![A-Za-z])E(?![A-Za-z])|(?i:young|tensile)"),
@@ -129,7 +106,7 @@ def quantity(name: str) -> str | None:
     low = text.lower()
     if _OTHER.search(low):
         return None
-    return next((meaning for meaning, pattern in _TITLES.items() if pattern.match(low)), None)
+    return next((meaning for meaning, pattern in _TITLES.items() if re.match(pattern, low)), None)
 
 
 def modulus_kind(name: str) -> str | None:
@@ -157,23 +134,24 @@ def with_logarithms(line: str) -> str:
     return _LOGARITHM.sub(word, line)
 
 
+def with_numbers(table: TextTable, at: int, title: ColumnTitle, numbers: Array) -> TextTable:
+    """Return a table with other numbers, and another title, in a column."""
+    cells = (repr(float(number)).replace(".", table.decimal) for number in numbers)
+    rows = [[*row[:at], cell, *row[at + 1 :]] for row, cell in zip(table.rows, cells, strict=True)]
+    columns = [*table.columns[:at], title, *table.columns[at + 1 :]]
+    return replace(table, columns=columns, rows=rows)
+
+
 def raised(table: TextTable) -> TextTable:
     """Return a table with the numbers in place of their logarithms."""
     for at, title in enumerate(table.columns):
         logarithm = _RAISED.fullmatch(title.name)
-        if logarithm is None or quantity(title.name) is None:
-            continue
-        base = math.e if logarithm[1] == "ln" else 10.0
-        exponents = table.numbers(at, "the logarithm of a number", missing=True)
-        with np.errstate(over="ignore"):
-            numbers = base**exponents
-        cells = [repr(float(number)).replace(".", table.decimal) for number in numbers]
-        rows = [
-            [*row[:at], cell, *row[at + 1 :]] for row, cell in zip(table.rows, cells, strict=True)
-        ]
-        columns = [*table.columns]
-        columns[at] = replace(title, name=logarithm[2])
-        table = replace(table, columns=columns, rows=rows)
+        if logarithm is not None and quantity(title.name) is not None:
+            base = math.e if logarithm[1] == "ln" else 10.0
+            exponents = table.numbers(at, "the logarithm of a number", missing=True)
+            with np.errstate(over="ignore"):
+                numbers = base**exponents
+            table = with_numbers(table, at, replace(title, name=logarithm[2]), numbers)
     return table
 
 
@@ -506,10 +484,9 @@ _FEW = 0.1  # share of rows with a value of zero or less that are left out as fa
 def notes_of_faults(table: TextTable, layout: FileLayout) -> list[str]:
     """Return a note of the rows that are left out because a value is zero or less."""
     names = ("frequency", *(name for name in MODULI if name not in RATIOS))
-    columns = {layout.column(table, name) for name in names} - {None}
     faults = np.zeros(len(table.rows), dtype=bool)
-    for column in columns:
-        if column is not None:
+    for name in names:
+        if (column := layout.column(table, name)) is not None:
             faults |= table.numbers(column, "a number", missing=True) <= 0.0
     lines = [str(table.line_numbers[at]) for at in np.flatnonzero(faults)]
     if not lines:

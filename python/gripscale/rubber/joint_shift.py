@@ -1,21 +1,11 @@
 """All sweeps onto one smooth curve at once, with the uncertainty of every shift.
 
 Rows of sweep g are y_k + v_g = F_k(x + s_g) + scatter, with s = log10 a_T, v = log10 b_T and one
-spline F_k a modulus. s, v and the splines are the penalised least squares of all rows together:
-Gauss-Newton in s and v, the splines eliminated (L. Kaufman, BIT 15 (1975) 49,
-doi:10.1007/BF01932995). A row counts by the scatter of its modulus in its sweep and the two beside
-it, so that where only one modulus superposes that one decides, and less if it is far off (P. J.
-Huber, Ann. Math. Stat. 35 (1964) 73, doi:10.1214/aoms/1177703732).
-
-The covariance of s and v is that of the least squares, times (1 + r)/(1 - r) where r is the
-correlation of neighbouring residuals: where a sweep as a whole does not follow the curve, its rows
-are no independent evidence. Neighbours are never taken farther apart than where they still overlap
-a little. A step at this limit is a bound, of sweeps that perhaps do not meet at all: its error is a
-decade.
-
-Smooth curves through scattered points are cubic B-splines with penalised second differences (P. H.
-C. Eilers & B. D. Marx, Stat. Sci. 11 (1996) 89, doi:10.1214/ss/1038425655). The weight of the
-penalty is that of least generalised cross-validation.
+spline F_k a modulus: cubic B-splines with penalised second differences (P. H. C. Eilers & B. D.
+Marx, Stat. Sci. 11 (1996) 89, doi:10.1214/ss/1038425655). s, v and the splines are the penalised
+least squares of all rows together: Gauss-Newton in s and v, the splines eliminated (L. Kaufman, BIT
+15 (1975) 49, doi:10.1007/BF01932995). What a row counts, the covariance, and the limit of steps
+between neighbours are in docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -114,11 +104,7 @@ class Rows:
         return self.x[chosen], self.y[:, chosen]
 
     def step(
-        self,
-        shifts: Array,
-        free: NDArray[np.intp],
-        trust: Array,
-        weights: tuple[float | None, ...],
+        self, shifts: Array, free: NDArray[np.intp], trust: Array, weights: tuple[float | None, ...]
     ) -> GaussNewtonStep:
         """Return the step of the free shifts; the splines are eliminated."""
         s, v = np.split(shifts, 2)

@@ -90,6 +90,9 @@ class MasterCurve(Checked, Pictured, eq=False):
         return float(np.log10(self.frequency[-1] / self.frequency[0]))
 
 
+MODULI_TITLES = ("frequency (Hz)", "storage modulus E' (Pa)", "loss modulus E'' (Pa)")
+
+
 def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     """Write a master curve as CSV in Hz and Pa; return the path.
 
@@ -100,7 +103,7 @@ def write_master_curve(path: str | Path, master: MasterCurve) -> Path:
     lines = [f"# {' '.join(text.split())}" for text in (master.name, master.source) if text]
     if master.reference_temperature is not None:
         lines.append(f"# reference temperature (K): {master.reference_temperature:g}")
-    lines.append("frequency (Hz),storage modulus E' (Pa),loss modulus E'' (Pa)")
+    lines.append(",".join(MODULI_TITLES))
     rows = zip(master.frequency, master.storage, master.loss, strict=True)
     lines += [",".join(repr(float(value)) for value in row) for row in rows]
     return write_text(file_path(path), "\n".join([*lines, ""]))
@@ -198,12 +201,13 @@ def read_master_curve(
 def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:
     """Return the temperature of a column in which all rows have the same [K], or None."""
     column = layout.column(table, "temperature")
-    unit = None if column is None else columns.unit_in(table.columns[column], "temperature")
-    word = None if column is None else table.columns[column].unit
-    if column is not None and word and not any(spelled(word, kind) for kind in UNITS):
+    if column is None:
+        return None
+    title = table.columns[column]
+    if title.unit and not any(spelled(title.unit, kind) for kind in UNITS):
         layout.unit(table, column, "temperature")  # refuses a unit that is not known
-    unit = layout.temperature_unit or unit
-    if column is None or unit is None:
+    unit = layout.temperature_unit or columns.unit_in(title, "temperature")
+    if unit is None:
         return None
     kelvin = quantity_in_si(table.numbers(column, "a number", missing=True), unit, "temperature")
     kelvin = kelvin[np.isfinite(kelvin)]

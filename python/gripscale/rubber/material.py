@@ -3,18 +3,11 @@
     E(t)  = E_inf + sum_i E_i exp(-t/tau_i)
     E*(w) = E_inf + sum_i E_i i w tau_i / (1 + i w tau_i) = E'(w) + i E''(w)
 
-Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3.
-
-Only shear relaxes: G* = E*/3 and the bulk modulus K is constant. E is the modulus of the
-incompressible limit; the few per cent by which a finite K changes it enter through Poisson's ratio
-nu = (3K - 2|G|) / (2 (3K + |G|)).
-
-A master curve fixes E*(w) within its band to about its noise, and beyond its ends less and less.
-The admissible series are extremes: each has the least or the largest E' or E'' at some frequency
-that the data allow. Their envelope is the uncertainty of E*(w); each of them is a rubber, so that
-the same uncertainty of a friction is the spread of its predictions. A plateau counts as measured
-where no admissible series leaves the modulus of the end of the data by more than a fifth within the
-two decades beyond it: only there is a modulus relaxed or glassy.
+Source: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 3. Only shear relaxes:
+G* = E*/3 and the bulk modulus K is constant; E is the modulus of the incompressible limit. The
+admissible series are extremes that fit the same measurement: their envelope is the uncertainty of
+E*(w). A plateau counts as measured where none of them leaves the modulus of the end of the data by
+more than a fifth within the two decades beyond it.
 """
 
 from __future__ import annotations

@@ -1,43 +1,14 @@
 """The linear least-squares problem behind a Prony fit: non-negative moduli on given times.
 
-Minimise over E_inf > 0, E_i >= 0 the relative errors of both moduli together,
+Minimise over E_inf > 0, E_i >= 0, with E_inf + sum E_i <= largest modulus,
 
     sum_rows w^2 [(E'_fit/E' - 1)^2 + weight^2 (E''_fit/E'' - 1)^2]
         + smoothing^2 sum_i (second diff. of h_i)^2 + shrinkage^2 sum_(slow i) h_i^2
 
-where h_i = E_i / m(1/tau_i). Within the band m is the measured E'; beyond an end m goes on with the
-slope that E'' has there (last decade), so that equal h_i continue the spectrum as a power law: a
-curve that ends on a flank goes on rising, one that ends on a plateau dies away. Second differences
-keep a non-negative fit from turning a smooth spectrum into spikes. Beyond the slow end a relaxation
-and E_inf look nearly alike, and the second differences give way to a penalty on h_i itself: the
-data have to ask for a relaxation slower than what was measured.
-
-    E_inf + sum E_i <= largest modulus
-
-by a slack variable. Sources: M. Baumgaertel & H. H. Winter, Rheol. Acta 28 (1989) 511,
-doi:10.1007/BF01332922 (relative errors of E' and E'' together); J. Honerkamp & J. Weese, Continuum
-Mech. Thermodyn. 2 (1990) 17, doi:10.1007/BF01170953 (second differences as regularisation).
-
-The number of terms comes from cross-validation over five folds, each holding out every fifth row;
-the error is the relative error of E' and E'' at the rows held out. It is the smallest number within
-one standard error of the best (T. Hastie, R. Tibshirani, J. Friedman, The Elements of Statistical
-Learning, 2nd ed. 2009, sec. 7.10), but not fewer than 1.25 per decade: for a smooth spectrum,
-elements log-spaced by d (in natural logarithm) make E'' ripple by 2 sech(pi^2/d), 6 % at one per
-decade and 2 % at 1.25 per decade (first Fourier coefficient of the periodic sum of sech). A rubber
-of a few sharp relaxations is no smooth spectrum: elements at other times miss its E'' by up to
-15 %. One candidate therefore has 16 times a decade and hardly any smoothing; non-negative moduli
-leave few of them.
-
-A row is an outlier if its storage or its loss modulus leaves the local trend of its neighbours by
-more than `threshold` times the typical scatter, both
-
-- in the data themselves (log-log straight line through the neighbours), and
-- in the data divided by a Maxwell fit (so that curvature of a smooth spectrum is no outlier).
-
-The line is the median of pairwise slopes (P. K. Sen, J. Am. Stat. Assoc. 63 (1968) 1379,
-doi:10.1080/01621459.1968.10480934); the scatter is 1.4826 times the median distance from it.
-The fit alone would not do: measured E' and E'' are often not Kramers-Kronig consistent, and the
-joint fit then misses both by more than their scatter.
+where h_i = E_i / m(1/tau_i), m the measured E', continued beyond an end with the slope of E''
+there. Sources: M. Baumgaertel & H. H. Winter, Rheol. Acta 28 (1989) 511, doi:10.1007/BF01332922;
+J. Honerkamp & J. Weese, Continuum Mech. Thermodyn. 2 (1990) 17, doi:10.1007/BF01170953. Why so, how
+the number of terms is chosen, and which rows are outliers is in docs/derivations.md.
 """
 
 from __future__ import annotations

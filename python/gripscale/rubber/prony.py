@@ -1,24 +1,14 @@
 """From a master curve to a Prony series, with what the data leave open and a report on both.
 
 Relaxation times are log-spaced over the measured band and two decades beyond its ends. Moduli are
-the non-negative least squares of `maxwell_fit`.
-
-The other series that fit are extremes: how far E*(w) may go before the data object. With A z = b
-the equations of the fit in units of the scatter, and f(z) one of E', E'' at one frequency, an
-extreme is the z >= 0 with the largest (or least) f(z) for which
+the non-negative least squares of `maxwell_fit`. The other series that fit are extremes: the z >= 0
+with the largest (or least) E' or E'' at a frequency for which
 
     |A z - b|^2 <= min |A z - b|^2 + 9,
 
-three standard deviations of f alone (profile likelihood; D. J. Venzon & S. H. Moolgavkar, Appl.
-Stat. 37 (1988) 87, doi:10.2307/2347496). f is held at a value by one heavy row, and the value is
-moved until the limit is met. The smoothing is so weak that it cannot rule out any spectrum the
-data allow by more than a standard deviation; what bounds the extremes is that moduli are not
-negative, relaxation times lie within two decades of the band, and the glassy modulus leaves
-Poisson's ratio positive.
-
-A Prony series in a table of relaxation times and moduli, such as tau [s] and E_i [MPa].
-The modulus of a relaxation time of inf is the equilibrium modulus. Shear moduli are taken three
-times, as everywhere.
+A z = b being the fit in units of the scatter (profile likelihood; D. J. Venzon & S. H. Moolgavkar,
+Appl. Stat. 37 (1988) 87, doi:10.2307/2347496): docs/derivations.md. In a table of relaxation times
+and moduli, the modulus at inf is the equilibrium modulus, and shear moduli are taken three times.
 """
 
 from __future__ import annotations
@@ -32,15 +22,8 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import (
-    Array,
-    FileError,
-    GripscaleError,
-    InputError,
-    Quantity,
-    RubberWarning,
-    checks,
-)
+from gripscale.core import Array, Quantity, checks
+from gripscale.core.errors import FileError, GripscaleError, InputError, RubberWarning
 from gripscale.core.units import quantity_in_si, spelled
 from gripscale.io.text_table import TextTable, is_excel, read_bytes, read_table
 from gripscale.rubber import maxwell_fit
@@ -50,7 +33,7 @@ from gripscale.rubber.columns import FileLayout
 from gripscale.rubber.master_curve import MasterCurve
 from gripscale.rubber.material import BULK_MODULUS, Rubber
 from gripscale.rubber.maxwell_fit import Curve, MaxwellSpectrum, Prior
-from gripscale.rubber.prony_report import PronyFit, likely_reading, root_mean_square
+from gripscale.rubber.prony_report import PronyFit, SwappedModuli, root_mean_square
 
 _RISE = 9.0  # allowed rise of the sum of squares in units of the scatter
 EXTREME_SMOOTHING = 1.0
@@ -227,8 +210,8 @@ def fit_prony_report(
     beyond = _option("extrapolate_decades", extrapolate_decades, _MOST_DECADES)
     smoothing = _option("smoothing", smoothing, _MOST_WEIGHT)
     bulk = checks.positive("bulk_modulus", bulk_modulus, unit="Pa")
-    swapped = report.swapped_moduli(master)
-    if swapped.certain and not likely_reading(master, swapped):
+    swapped = SwappedModuli(master)
+    if swapped.certain and not swapped.reading:
         raise InputError(str(swapped))
     curve = Curve(master.angular_frequency, master.storage, master.loss)
     # Outliers are found with one fixed fit, so that they do not depend on the series wanted.
@@ -267,10 +250,10 @@ def fit_prony_report(
     problem = maxwell_fit.FitProblem(rows, spectrum.times, used)
     rubber = problem.applied_to(rubber)
     fit_report = report.report_prony(master, problem, screening, candidates, rubber)
-    doubts = tuple(report.moduli_doubts(master, swapped, screening.storage_scatter))
-    if swapped.likely and not likely_reading(master, swapped):
-        fit_report = replace(fit_report, findings=(str(swapped), *fit_report.findings))
-    return rubber, replace(fit_report, doubts=doubts)
+    doubts = tuple(swapped.doubts(screening.storage_scatter))
+    exchanged = (str(swapped),) if swapped.likely and not swapped.reading else ()
+    findings = (*exchanged, *fit_report.findings)
+    return rubber, replace(fit_report, findings=findings, doubts=doubts)
 
 
 def _option(name: str, value: float, most: float) -> float:

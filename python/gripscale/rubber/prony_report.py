@@ -1,21 +1,10 @@
 """How well a Prony series fits its master curve, and what is doubtful about it.
 
-Local misfits are means over nine neighbouring rows, whose own scatter is a third of a row's. Where
-even the best non-negative series misses them, the measured E' and E'' are not those of one linear
-solid (the Kramers-Kronig relation ties each to the other): vertical shifts left out, strain
-amplitudes that differ between sets, or a non-linear filler network are the usual causes.
-
-Swapped moduli: a linear solid that relaxes has E' = E_inf + sum E_i x^2/(1 + x^2) and E'' = sum E_i
-x/(1 + x^2), with x = w tau_i and no negative modulus (Ferry, Viscoelastic Properties of Polymers,
-3rd ed. (1980), ch. 3). The best such series is fitted to the two curves as they are and the other
-way round. Rubbers miss the first by their scatter; swapped, E' would fall beyond the transition
-while E'' rises, or E'' exceed E' many times on a plateau, which no such series does.
-
-A curve is in doubt if the nearest linear solid misses it by a factor of `math.exp(0.35)` = 1.42 in
-the root mean square of E' and E''. Measured and synthetic rubbers with ten per cent of noise have
-at most 0.16, a curve whose E'' is three times too large or too small at every row has 0.35 to 0.5.
-Where E'' read as another quantity, or in another unit, makes a linear solid of the same curve, that
-is the likely cause.
+Local misfits are means over nine neighbouring rows. Where even the best non-negative series misses
+them, the measured E' and E'' are not those of one linear solid (Kramers-Kronig). Swapped moduli
+are found by fitting the best series to the two curves as they are and the other way round. A curve
+is in doubt if the nearest linear solid misses it by a factor of `math.exp(0.35)` = 1.42 in the root
+mean square; measured and synthetic rubbers have at most 0.16. docs/derivations.md has the reasons.
 """
 
 from __future__ import annotations
@@ -23,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -92,41 +82,6 @@ _BEYOND = 2.0  # decades of relaxation times beyond both ends: all that a band c
 _OVER_MEASURED = 100.0  # limit of the sum of all moduli over the largest measured: none in practice
 
 
-@dataclass(frozen=True)
-class SwappedModuli:
-    """Root mean square log misfit [-] of the best series to E' and E''."""
-
-    as_given: float  # to the moduli as they are
-    swapped: float  # to the moduli the other way round
-
-    @property
-    def certain(self) -> bool:
-        """Whether the two are swapped for sure."""
-        return self.as_given > max(_CERTAIN, _CERTAIN_RATIO * self.swapped)
-
-    @property
-    def likely(self) -> bool:
-        """Whether it looks as if they were."""
-        return self.as_given > max(_LIKELY, _LIKELY_RATIO * self.swapped)
-
-    def __str__(self) -> str:
-        return (
-            "storage and loss modulus look exchanged: the nearest linear solid misses them by a "
-            f"factor of {math.exp(self.as_given):.2f} in this order, and by "
-            f"{math.exp(self.swapped):.2f} in the other; look at the titles of the file, or name "
-            "its columns (columns)"
-        )
-
-
-def swapped_moduli(master: MasterCurve) -> SwappedModuli:
-    """Return how well a linear solid has the moduli of `master` as they are, and swapped."""
-    omega = master.angular_frequency
-    return SwappedModuli(
-        misfit(Curve(omega, master.storage, master.loss)),
-        misfit(Curve(omega, master.loss, master.storage)),
-    )
-
-
 def misfit(curve: Curve) -> float:
     """Return the root mean square log misfit [-] of the best linear solid to E' and E''."""
     decades = math.log10(curve.omega[-1] / curve.omega[0])
@@ -148,58 +103,90 @@ _SOFTEST, _STIFFEST = 1e4, 2e10
 _GLASS = 1e9  # smallest E' [Pa] of a curve that never leaves the glass: 1 to 3 GPa of polymers
 
 
-def moduli_doubts(master: MasterCurve, swapped: SwappedModuli, scatter: float) -> Iterator[Finding]:
-    """Yield why moduli may be those of no rubber; `scatter` is that of E' about its neighbours."""
-    softest, stiffest = float(master.storage.min()), float(master.storage.max())
-    if softest > _GLASS or not _SOFTEST <= stiffest <= _STIFFEST:
-        end, value = ("smallest", softest) if softest > _GLASS else ("largest", stiffest)
+class SwappedModuli:
+    """Whether E' and E'' of a master curve are those of a linear solid, exchanged, or read wrongly.
+
+    Root mean square log misfits [-] are those of the best series.
+    """
+
+    def __init__(self, master: MasterCurve) -> None:
+        self.master, omega = master, master.angular_frequency
+        self.as_given = misfit(Curve(omega, master.storage, master.loss))
+        self.swapped = misfit(Curve(omega, master.loss, master.storage))
+
+    @property
+    def certain(self) -> bool:
+        """Whether the two are swapped for sure."""
+        return self.as_given > max(_CERTAIN, _CERTAIN_RATIO * self.swapped)
+
+    @property
+    def likely(self) -> bool:
+        """Whether it looks as if they were."""
+        return self.as_given > max(_LIKELY, _LIKELY_RATIO * self.swapped)
+
+    @cached_property
+    def reading(self) -> str:
+        """What E'' looks like, if a linear solid has it so; empty if it looks exchanged."""
+        omega, storage, loss = self.master.angular_frequency, self.master.storage, self.master.loss
+        readings = [("like one of a loss factor in %", 0.01 * loss)]
+        units = sorted(set(UNITS["modulus"].values()))
+        for unit in [
+            *units,
+            *(3.0 * unit for unit in units),
+        ]:  # shear moduli were taken three times
+            readings.append(("like the loss factor (tan delta)", storage * loss / unit))
+        degrees = self.master.loss_factor
+        if degrees.max() < 90.0:
+            words = "like one of a phase angle in degrees, taken for the loss factor"
+            readings.append((words, storage * np.tan(np.radians(degrees))))
+        for ratio in (1e3, 1e6, 1e9):
+            readings.append((f"{ratio:g} times too large", loss / ratio))
+            readings.append((f"{ratio:g} times too small", loss * ratio))
+        best, words = min((misfit(Curve(omega, storage, read)), words) for words, read in readings)
+        return words if best < min(_SOLID, _BETTER * self.swapped) else ""
+
+    def __str__(self) -> str:
+        return (
+            "storage and loss modulus look exchanged: the nearest linear solid misses them by a "
+            f"factor of {math.exp(self.as_given):.2f} in this order, and by "
+            f"{math.exp(self.swapped):.2f} in the other; look at the titles of the file, or name "
+            "its columns (columns)"
+        )
+
+    def doubts(self, scatter: float) -> Iterator[Finding]:
+        """Yield why moduli may be those of no rubber; E' has a `scatter` about its neighbours."""
+        softest, stiffest = float(self.master.storage.min()), float(self.master.storage.max())
+        if softest > _GLASS or not _SOFTEST <= stiffest <= _STIFFEST:
+            end, value = ("smallest", softest) if softest > _GLASS else ("largest", stiffest)
+            yield doubt(
+                f"The {end} E', {value / 1e6:.3g} MPa, is that of no rubber: is the unit of the "
+                "moduli right (",
+                CaseKey("modulus_unit"),
+                ")?",
+                topic=Topic.RUBBER,
+            )
+        if self.as_given <= _NO_SOLID:
+            return
+        cause = "E'' may be another quantity, or in another unit"
+        if scatter > _SCATTER:
+            cause = (
+                f"rows of nearly one frequency differ by {scatter:.0%}, as of sweeps at several "
+                "temperatures in one table"
+            )
+        elif self.reading:
+            cause = f"E'' looks {self.reading}"
+        elif self.likely:
+            cause = "storage and loss modulus look exchanged"
+        elif np.mean(self.master.loss > self.master.storage) > 0.5:
+            cause = "E'' is larger than E' in most rows"
         yield doubt(
-            f"The {end} E', {value / 1e6:.3g} MPa, is that of no rubber: is the unit of the "
-            "moduli right (",
-            CaseKey("modulus_unit"),
-            ")?",
+            "E' and E'' do not belong to one rubber: the nearest linear solid misses them by a "
+            f"factor of {math.exp(self.as_given):.2g}; {cause}; look at the titles and units of "
+            "the file, or name its columns (",
+            CaseKey("columns"),
+            ").",
             topic=Topic.RUBBER,
         )
-    if swapped.as_given <= _NO_SOLID:
-        return
-    cause = "E'' may be another quantity, or in another unit"
-    if scatter > _SCATTER:
-        cause = (
-            f"rows of nearly one frequency differ by {scatter:.0%}, as of sweeps at several "
-            "temperatures in one table"
-        )
-    elif reading := likely_reading(master, swapped):
-        cause = f"E'' looks {reading}"
-    elif swapped.likely:
-        cause = "storage and loss modulus look exchanged"
-    elif np.mean(master.loss > master.storage) > 0.5:
-        cause = "E'' is larger than E' in most rows"
-    yield doubt(
-        "E' and E'' do not belong to one rubber: the nearest linear solid misses them by a "
-        f"factor of {math.exp(swapped.as_given):.2g}; {cause}; look at the titles and units of "
-        "the file, or name its columns (",
-        CaseKey("columns"),
-        ").",
-        topic=Topic.RUBBER,
-    )
-
-
-def likely_reading(master: MasterCurve, swapped: SwappedModuli) -> str:
-    """Return what E'' looks like, if a linear solid has it so; empty if it looks exchanged."""
-    omega, storage, loss = master.angular_frequency, master.storage, master.loss
-    readings = [("like one of a loss factor in %", 0.01 * loss)]
-    units = sorted(set(UNITS["modulus"].values()))
-    for unit in [*units, *(3.0 * unit for unit in units)]:  # a shear modulus was taken three times
-        readings.append(("like the loss factor (tan delta)", storage * loss / unit))
-    degrees = master.loss_factor
-    if degrees.max() < 90.0:
-        words = "like one of a phase angle in degrees, taken for the loss factor"
-        readings.append((words, storage * np.tan(np.radians(degrees))))
-    for ratio in (1e3, 1e6, 1e9):
-        readings.append((f"{ratio:g} times too large", loss / ratio))
-        readings.append((f"{ratio:g} times too small", loss * ratio))
-    best, words = min((misfit(Curve(omega, storage, read)), words) for words, read in readings)
-    return words if best < min(_SOLID, _BETTER * swapped.swapped) else ""
 
 
 def fit_warnings(

@@ -1,21 +1,13 @@
 """Time-temperature shift: what another temperature does to a linear viscoelastic modulus.
 
     E*(w, T) = E*(a_T w, T_ref) / b_T
-
-A colder rubber is slower: a_T > 1 below T_ref, and relaxation times at T are a_T times those at
-T_ref. Referred to any third temperature T_0,
-
-    log a(T -> T_ref) = log a(T -> T_0) - log a(T_ref -> T_0),   b likewise,
-
-so that shifts one after the other are one shift. The laws:
-
     WLF        log10 a_T = -c1 (T - T_0) / (c2 + T - T_0)
     Arrhenius  log10 a_T = H / (R ln 10) (1/T - 1/T_0)
 
-WLF holds above the glass transition and has a pole at T_0 - c2. Referred to another temperature T_1
-it has c2' = c2 + T_1 - T_0 and c1' = c1 c2 / c2'. Sources: J. D. Ferry, Viscoelastic Properties of
-Polymers, 3rd ed. (1980), ch. 11; M. L. Williams, R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77
-(1955) 3701, doi:10.1021/ja01619a008.
+A colder rubber is slower: a_T > 1 below T_ref, and relaxation times at T are a_T times those at
+T_ref. Shifts one after the other are one shift. WLF holds above the glass transition and has a pole
+at T_0 - c2. Sources: J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. (1980), ch. 11; M.
+L. Williams, R. F. Landel & J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701, doi:10.1021/ja01619a008.
 """
 
 from __future__ import annotations

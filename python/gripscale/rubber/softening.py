@@ -3,36 +3,11 @@
     E'(w) -> f(e) E'(w),      E''(w) -> g(e) E''(w)
 
 with e the amplitude of a uniaxial strain. A shear strain of amplitude s stores as much energy in an
-incompressible solid as e = s / sqrt(3): G s^2 = E e^2. Kraus' law:
-
-    G'(s)  = G'_inf + (G'_0 - G'_inf) / (1 + (s/s_c)^(2m))
-    G''(s) = G''_inf + 2 (G''_m - G''_inf) (s/s_c)^m / (1 + (s/s_c)^(2m))
-
-Source: G. Kraus, J. Appl. Polym. Sci.: Appl. Polym. Symp. 39 (1984) 75. The exponent m is about
-0.5 for carbon black.
-
-The finite-strain block needs E_inf and E_i, and with f and g apart no series has f E' and g E'' at
-all frequencies. One that has them where a wave excites the rubber does: multipliers x_i >= 0 of all
-moduli minimise
-
-    sum_w w_1/w ((E'_x/(f E') - 1)^2 + (E''_x/(g E'') - 1)^2)
-        + smoothing^2 sum_i (x_i+1 - x_i)^2 + keeping^2 sum_i (x_i - f)^2
-
-over the frequencies w of the wave, w_1 its lowest. Slow terms, which carry E' and lose nothing
-there, follow f; E_inf keeps at least a third of f of it. The misfit of the series is stated.
-
-It is taken from strain sweeps (`gripscale.rubber.strain_sweeps`). Where nothing says whether these
-are in tension or shear, a strain is taken half-way, e = s / 3^(1/4), a factor of 1.32 from either.
-
-Softening of a typical tread: of a filled rubber whose strain sweeps were not measured.
-    ln f = m_f(e, T) + d s_f(e),      ln g = m_g(e, T) + d s_g(e)
-
-with m the mean of treads, s their scatter and d the deviation of the rubber from the mean. Both
-logarithms move together: from 0.5 % of strain on their correlation between compounds is above 0.98.
-The treads are S100, S120, S140 (1 Hz; 0, 10, 30 and 50 C) and R60 (one temperature, taken as 30 C;
-up to 15 % of strain). Four compounds are few: s is that of the 90 % interval of a further one.
-`studies/typical_tread.py` computes the numbers from `examples/data/friction`. Whether the sweeps
-are in tension or in shear is not stated there.
+incompressible solid as e = s / sqrt(3): G s^2 = E e^2. Where nothing says which it is, a strain is
+taken half-way, e = s / 3^(1/4). Laws are that of G. Kraus, J. Appl. Polym. Sci.: Appl. Polym. Symp.
+39 (1984) 75, tables of strain sweeps, and the mean of four published treads
+(`studies/typical_tread.py`). docs/derivations.md has the equations, and how a series follows f and
+g where a wave excites the rubber.
 """
 
 from __future__ import annotations
@@ -214,9 +189,6 @@ class SofteningTable(Checked):
     Beyond the largest strain the last moduli are held and flagged; between two temperatures the
     factors are interpolated linearly, beyond them those of the nearest are held and flagged. Raises
     `InputError` if a value cannot be used, lengths differ, or `measured_at` lies outside a sweep.
-
-    With one of four temperatures left out, three silica treads miss f and g by 10 and 11 % rms, by
-    17 % with the nearest sweep in place of the interpolation.
     """
 
     kind: ClassVar[str] = "table"

@@ -16,7 +16,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.core import Array, Checked, Quantity, Vector, checked, checks
+from gripscale.core import Array, Checked, Vector, checked, checks
 from gripscale.core.errors import FileError, GripscaleError, unstated
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.text_table import TextTable, file_paths
@@ -102,10 +102,7 @@ def read_strain_sweeps(
     *,
     amplitude: str | None = None,
     deformation: Deformation | None = None,
-    temperature: Quantity | None = None,
     frequency: float | None = None,
-    name: str | None = None,
-    source: str = "",
     **options: Any,
 ) -> list[StrainSweep]:
     """Read strain sweeps at one or several temperatures and frequencies from text, CSV or Excel.
@@ -117,7 +114,7 @@ def read_strain_sweeps(
 
     Parameters
     ----------
-    path, name, source, **options
+    path, **options
         As in `read_sweeps`, temperatures in the names of several files, too; the options have
         `strain_unit` and `modulus`, which ratios to the moduli at small strain do not need.
     amplitude : {"single", "peak-to-peak"}, optional
@@ -125,8 +122,8 @@ def read_strain_sweeps(
         SSA). The peak-to-peak amplitude is halved.
     deformation : {"tension", "shear"}, optional
         What the strain is. Titles and shear moduli may say so; Young's moduli do not.
-    temperature, frequency : float, optional
-        Temperature [K] and frequency [Hz], if no column states them; None if nothing does.
+    frequency : float, optional
+        Frequency [Hz], if no column states it; None if nothing does.
     """
     paths, layout = file_paths(path), FileLayout(**options)
     if deformation is not None:
@@ -135,10 +132,9 @@ def read_strain_sweeps(
     for file in paths:
         for block in read_blocks(file, layout, temperature_unit=layout.temperature_unit):
             block = with_named_temperature(block, file.stem, layout) if len(paths) > 1 else block
-            title = file.stem if name is None else name
-            for sweep in _sweeps_in(block, layout, amplitude, (temperature, frequency)):
+            for sweep in _sweeps_in(block, layout, amplitude, frequency):
                 kind = sweep.deformation if deformation is None else deformation
-                sweeps.append(replace(sweep, deformation=kind, name=title, source=source))
+                sweeps.append(replace(sweep, deformation=kind, name=file.stem))
     return sweeps
 
 
@@ -155,19 +151,14 @@ def holds_strain_sweeps(path: str | Path, **layout: Any) -> bool:
 
 
 def _sweeps_in(
-    block: Block,
-    layout: FileLayout,
-    amplitude: str | None,
-    conditions: tuple[Quantity | None, float | None],
+    block: Block, layout: FileLayout, amplitude: str | None, frequency: float | None
 ) -> Iterator[StrainSweep]:
-    """Yield the sweeps of a table; `conditions` are the caller's temperature and frequency."""
-    table, (temperature, frequency) = block.table, conditions
+    """Yield the sweeps of a table; `frequency` is the caller's."""
+    table = block.table
     strain, assumed = _single_amplitude(table, layout, amplitude)
     moduli = young_moduli(table, _for_ratios(table, layout))
     kelvin, hertz = np.full((2, len(strain)), np.nan)
-    if temperature is not None:
-        kelvin[:] = checks.positive("temperature", temperature, unit="K")
-    elif block.states_temperature(layout):
+    if block.states_temperature(layout):
         kelvin = row_temperatures(block, layout, None)
     if frequency is not None:
         hertz[:] = checks.positive("frequency", frequency, unit="Hz")

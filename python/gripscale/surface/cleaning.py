@@ -1,16 +1,9 @@
 """Cleaning of measured profiles and maps: crop, dropouts, borders, spikes, trend or form.
 
 Each step is reported. Missing heights stay missing: statistics skip them, nothing is interpolated.
-
-A spike goes out and back within a few samples. It is a run of at most three samples that stands off
-the nearest height on both sides of it, to the same side and by a slope of 3 or more. An edge of a
-stone stands off on one side only, and stays. Of lines of synthetic surfaces with spikes of one to
-three samples this rule leaves area and friction within 8 % of the lines without them
-(`tests/half_space/test_spikes.py`).
-
-ISO 13473-1:2019, section 7.5, takes both neighbours of every steep step. That serves its mean
-profile depth (`gripscale.surface.texture`). For friction it takes the edges of stones, 4 % of the
-points of a coarse road, and leaves the middle of a spike three samples wide.
+A spike goes out and back within a few samples: a run of at most three that stands off the nearest
+height on both sides of it, to the same side and by a slope of 3 or more. An edge of a stone stands
+off on one side only, and stays; ISO 13473-1:2019, section 7.5, takes it, too (docs/derivations.md).
 """
 
 from __future__ import annotations
@@ -25,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.core import Array, Described, InputError, Mask, checks, in_mm
-from gripscale.surface.long_waves import long_waves, mean_square
+from gripscale.surface.low_pass import long_waves, mean_square
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")
@@ -120,7 +113,7 @@ def clean(
     detrend : {"linear", "mean", "none"}, optional
         Trend to subtract, fitted to the valid heights.
     longest_wavelength : float, optional
-        Cut-off [m] beyond which waves are taken out, see `gripscale.surface.long_waves`; None keeps
+        Cut-off [m] beyond which waves are taken out, see `gripscale.surface.low_pass`; None keeps
         them.
     """
     checks.instance("profile", profile, Profile)
@@ -221,12 +214,8 @@ def _runs(z: Array, points: int, rise: float) -> NDArray[np.intp]:
 def mark_steep_steps(profile: Profile, *, slope: float = 3.0) -> tuple[Profile, StepReport]:
     """Mark both sides of steep steps as missing, by the rule of ISO 13473-1:2019, section 7.5.
 
-    Neighbours whose heights differ by |z[i+1] - z[i]| >= slope * step are a spike, and both become
-    missing: the rule runs forwards and backwards along the profile, because the two heights alone
-    cannot say which one is false. One pass is complete, since it makes no new neighbours.
-
-    The standard then interpolates. Here the gaps stay, and heights on both sides of a gap still
-    count in statistics at larger lags.
+    Neighbours whose heights differ by |z[i+1] - z[i]| >= slope * step are a spike: the two heights
+    alone cannot say which one is false. The standard then interpolates; here the gaps stay.
     """
     limit = checks.positive("spike_slope", slope) * profile.step
     z = profile.z.copy()
@@ -428,8 +417,7 @@ def _without_spikes(
 
 
 def _in_turn(
-    steps: Sequence[Callable[[_Heights], tuple[_Heights, StepReport]]],
-    measured: _Heights,
+    steps: Sequence[Callable[[_Heights], tuple[_Heights, StepReport]]], measured: _Heights
 ) -> tuple[_Heights, CleaningReport]:
     reports = []
     for step in steps:

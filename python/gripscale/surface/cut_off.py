@@ -2,28 +2,10 @@
 
     h'_line(q)^2    = int_0^q k^2 C_1(k) dk                  waves along the lines
     h'_surface(q)^2 = 2 pi int_0^q k^3 C(k) dk               waves of any direction
+    h'(q)^2         = m + b q_m^(2-2H) ((q/q_m)^(2-2H) - 1)/(2 - 2H)    beyond the measured q_m
 
-The slope of the surface is the root mean square of its gradient's length, that of a line the slope
-along it. Both grow without bound as shorter waves are counted in, so each is a number only together
-with a wavelength. Of a surface that ends at q the first is sqrt(2) times the second. Of a line
-measured to shorter waves it is less, because short waves are also crossed at an angle: profiles are
-first turned into their isotropic surface (`gripscale.surface.spectrum`). A map needs no such step.
-
-Beyond the shortest wave the measurement resolves, q_m, the spectra may be continued as power laws
-fitted to the last decade before it, as for a self-affine surface (h'^2 = m there):
-
-    h'(q)^2 = m + b q_m^(2-2H) ((q/q_m)^(2-2H) - 1)/(2 - 2H)
-
-The roughness of a surface goes on far below what a profile shows, and each octave adds friction
-and takes contact area: every prediction rests on the choice of the cut-off. Rules in use are
-
-- a length: of dust, of a film of water, of the damage that sliding does to the rubber;
-- an rms slope, 1.3 or about 1: the wavelength down to which the rms slope of the surface adds up
-  to it (B. Lorenz, Y. R. Oh, S. K. Nam, S. H. Jeon, B. N. J. Persson, J. Chem. Phys. 142 (2015)
-  194701, doi:10.1063/1.4919221); beyond, the strain is taken to be too large for the rubber to
-  last. A. Genovese, F. Farroni, A. Papangelo, M. Ciavarella, Lubricants 7 (2019) 85,
-  doi:10.3390/lubricants7100085, discuss how arbitrary it is;
-- the instrument: the shortest wavelength that the measurement resolves.
+A rule is a length, an rms slope (B. Lorenz et al., J. Chem. Phys. 142 (2015) 194701,
+doi:10.1063/1.4919221) or the instrument: docs/cut-off.md.
 """
 
 from __future__ import annotations

@@ -1,26 +1,12 @@
 """Whether a road has a direction: profiles along and across sliding, or the texture of a map.
 
 The step from lines to their surface takes an isotropic one (`gripscale.half_space.line_to_map`). On
-ridges it errs, by the ratio of slopes along and across the sliding direction,
+ridges it errs by `AREA_OVER_TRUTH`, a function of the ratio of slopes along and across,
 
-    rho = (C_along(l) / C_across(l))^(1/2),   l half the cut-off,
+    rho = (C_along(l) / C_across(l))^(1/2),   l half the cut-off.
 
-from the height difference correlations C. `AREA_OVER_TRUTH` holds how much: Gaussian waves 1.5, 2,
-3 and 6 times as long one way, four maps each, 3 bar and 0.3 m/s
-(`python -m tests.verification.known_surfaces --ridges`). Frictions err by less than 20 %.
-
-A map tells it by its texture aspect ratio (`gripscale.surface.direction`).
-
-Autocorrelation of a map: how long its texture is, and which way it runs.
-The autocorrelation of the heights z over their plane, without wrapping round, is
-
-    f(t) = < z(r) z(r + t) > / < z^2 >,
-
-each < > over the pairs of points that are there. The autocorrelation length Sal is the shortest way
-from the middle to where f falls to 0.2, the texture aspect ratio Str that length over the longest;
-both are straight ways on which f is larger (ISO 25178-2:2021). The texture direction Std is the
-angle to x of the ridges: across the direction in which the power spectrum, summed from the middle
-outwards and over some 15 degrees, is largest.
+A map tells it by its autocorrelation, f(t) = < z(r) z(r + t) > / < z^2 >: the lengths Sal and Str
+and the direction Std of ISO 25178-2:2021. docs/derivations.md has both.
 """
 
 from __future__ import annotations
@@ -49,20 +35,12 @@ _SMOOTHING = np.hanning(33)[1:-1]
 _LONGEST_PART = 0.5
 
 
-class TextureLengths(NamedTuple):
-    """Shortest and longest way from the middle of an autocorrelation to where it falls to 0.2."""
+def texture_lengths(surface: HeightMap) -> tuple[float, float]:
+    """Return autocorrelation length Sal [m] and texture aspect ratio Str [-]; NaN of a flat map.
 
-    shortest: float  # Sal [m]
-    longest: float  # [m]; half the map where it does not fall that far
-
-    @property
-    def aspect_ratio(self) -> float:
-        """Str [-]: 1 without a direction."""
-        return self.shortest / self.longest
-
-
-def texture_lengths(surface: HeightMap) -> TextureLengths:
-    """Return the autocorrelation lengths of a map; NaN where it is flat."""
+    Sal is the shortest way from the middle of the autocorrelation to where it falls to 0.2, Str
+    that over the longest one, or half the map where it does not fall that far: 1 without direction.
+    """
     from scipy.ndimage import map_coordinates  # slow to import
 
     z, (dx, dy) = _level(surface), surface.step
@@ -70,7 +48,7 @@ def texture_lengths(surface: HeightMap) -> TextureLengths:
     # without wrapping round: with as many zeros beyond either end
     correlation = np.fft.irfft2(np.abs(np.fft.rfft2(z, [2 * nx, 2 * ny])) ** 2, [2 * nx, 2 * ny])
     if not correlation[0, 0] > 0.0:
-        return TextureLengths(math.nan, math.nan)
+        return math.nan, math.nan
     away = np.linspace(0.0, min((nx // 2 - 1) * dx, (ny // 2 - 1) * dy), 2 * max(nx, ny))
     pairs = np.outer(*(n - np.abs(np.fft.fftfreq(2 * n, 0.5 / n)) for n in (nx, ny)))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -82,7 +60,7 @@ def texture_lengths(surface: HeightMap) -> TextureLengths:
         first = int(np.argmax(values < _FALLEN)) or away.size - 1
         pair = slice(first, first - 2, -1)  # where it stays above, the last point
         lengths.append(np.interp(_FALLEN, values[pair], away[pair]))
-    return TextureLengths(float(min(lengths)), float(max(lengths)))
+    return float(min(lengths)), float(min(lengths)) / float(max(lengths))
 
 
 def texture_direction(surface: HeightMap) -> float:
@@ -163,7 +141,7 @@ def direction_of_map(surface: HeightMap) -> Finding | None:
     """Return that lines of a map do not stand for it, where its texture has a direction."""
     every = 1 + max(surface.z.shape) // _POINTS
     x, y, z = surface.x[::every], surface.y[::every], surface.z[::every, ::every]
-    aspect = texture_lengths(replace(surface, x=x, y=y, z=z) if every > 1 else surface).aspect_ratio
+    _, aspect = texture_lengths(replace(surface, x=x, y=y, z=z) if every > 1 else surface)
     if not aspect < _NO_DIRECTION:
         return None
     text = (

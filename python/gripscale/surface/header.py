@@ -128,10 +128,7 @@ def _both(
     along, across = along or x_unit, across or x_unit
     if not (spelled(along, "length") and spelled(across, "length") and min(dx, dy) > 0.0):
         return None
-    return (
-        quantity_in_si(dx, str(along), "length"),
-        quantity_in_si(dy, str(across), "length"),
-    )
+    return (quantity_in_si(dx, str(along), "length"), quantity_in_si(dy, str(across), "length"))
 
 
 def titled_lines(lines: list[Line]) -> list[Line]:

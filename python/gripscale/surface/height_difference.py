@@ -1,22 +1,11 @@
 """The height difference correlation of measured profiles, its plateau and its power law.
 
     C_z(l) = < (z(x + l) - z(x))^2 >                                        [LW eq. 5]
+    C_z(l) = xi_perp^2 (l / xi_par)^(2 H)  below xi_par, xi_perp^2 above     [LW eq. 6]
 
-averaged over all pairs of points a lag l apart in which both heights are valid. Rubber touches the
-upper part of a surface only; where that differs from the valleys, C_z of the upper part alone is
-nearer to what the rubber meets (`top_height_fraction`).
-
-Beyond the longest wavelength of a surface, heights a lag apart are unrelated and C_z is twice the
-variance: this is its plateau. It begins at the first lag at which C_z reaches 90 % of its own mean
-over all larger lags. A curve that still rises stays far below that mean; a curve on its plateau
-scatters about it, and a measured plateau, which is finite, drifts by as much as a tenth.
-
-A self-affine surface has a power law up to a cut-off, and the plateau above it:
-
-    C_z(l) = xi_perp^2 (l / xi_par)^(6 - 2 D)   below the cut-off xi_par,
-    C_z(l) = xi_perp^2                          above it,                   [LW eq. 6]
-
-with the fractal dimension D of the surface and the Hurst exponent H = 3 - D, so that 6 - 2D = 2H.
+averaged over all pairs of points a lag l apart in which both heights are valid. The plateau begins
+at the first lag at which C_z reaches 90 % of its own mean over all larger lags: a curve that still
+rises stays far below that mean, and a measured plateau drifts by as much as a tenth.
 
 [LW] Lind & Wangenheim, ASME IMECE2014-37998, eq. 6 after Klueppel & Heinrich, Rubber Chem. Technol.
 73 (2000) 578.
@@ -106,14 +95,8 @@ def height_difference(
     but keeps full relative accuracy at small lags, where C_z is many decades below its plateau
     and a transform's rounding error is not.
 
-    The band is a delete-one-block jackknife of log C_z (Efron & Stein 1981,
-    doi:10.1214/aos/1176345462): the profile is cut into 16 contiguous blocks, pairs go
-    to the block of their first point, C_z is found anew without each block, and the spread of
-    log C_z times Student's t for 95 % gives the band. Heights of one asperity are not independent,
-    but blocks longer than the correlation length are nearly so: the band is to be trusted at lags
-    well below the block length (length / 16), and is too narrow above it, where
-    neighbouring blocks share heights. Of more profiles than blocks, such as the lines of a map, as
-    many neighbours as there are to each block go together: lines side by side are not independent.
+    The band is a delete-one-block jackknife of log C_z over 16 blocks: to be trusted at lags well
+    below the block length (length / 16), too narrow above it (docs/derivations.md).
 
     Lags have at least 16 pairs. The band is NaN where the blocks do not determine it. Raises
     `InputError` if the steps differ, `top_height_fraction` is not above 0 and at most 1, `max_lag`
@@ -307,6 +290,7 @@ def log_weights(lag: Array) -> Array:
 
 _FEWEST_LAGS = 4  # lags a power law must cover
 _SHORTEST_RANGE = 0.5  # and decades
+_STRAIGHT = 0.02  # largest rms departure from a power law [decades of C_z]
 
 
 class SelfAffineFit(Checked):
@@ -343,13 +327,13 @@ class SelfAffineFit(Checked):
         return np.asarray(self.xi_perpendicular**2 * below ** (2.0 * self.hurst))
 
 
-def fit_self_affine(hdc: HeightDifference, *, tolerance: float = 0.02) -> SelfAffineFit:
+def fit_self_affine(hdc: HeightDifference) -> SelfAffineFit:
     """Find the power law and the plateau of a height difference correlation.
 
     The range of the power law is the widest range of lags below the plateau over which a straight
-    line in log C_z departs by no more than `tolerance` rms. If none has half a decade, the
-    straightest range of that width is taken, and `residual` exceeds `tolerance`: the surface is
-    then not self-affine. Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or
+    line in log C_z departs by no more than 0.02 decades rms. If none has half a decade, the
+    straightest range of that width is taken, and `residual` exceeds this: the surface is then not
+    self-affine. Raises `InputError` if C_z vanishes somewhere, does not reach a plateau or
     does not rise before it.
 
         >>> f"{gs.fit_self_affine(gs.height_difference(road)).hurst:.2f}"
@@ -359,11 +343,8 @@ def fit_self_affine(hdc: HeightDifference, *, tolerance: float = 0.02) -> SelfAf
     ----------
     hdc : HeightDifference
         The measured curve; it must reach its plateau.
-    tolerance : float, optional
-        Largest rms departure from the power law, in decades of C_z.
     """
     checks.instance("hdc", hdc, HeightDifference)
-    checks.positive("tolerance", tolerance)
     require_positive(hdc)
     plateau = find_plateau(hdc)
     if plateau is None:
@@ -386,7 +367,7 @@ def fit_self_affine(hdc: HeightDifference, *, tolerance: float = 0.02) -> SelfAf
             f"got {lag.size} lags up to {lag[-1]:.4g} m"
         )
     residuals = [_line(lag[i:j], value[i:j])[2] for i, j in ranges]
-    straight = [r for r, residual in zip(ranges, residuals, strict=True) if residual <= tolerance]
+    straight = [r for r, residual in zip(ranges, residuals, strict=True) if residual <= _STRAIGHT]
     first, last = (
         max(straight, key=lambda r: float(np.log10(lag[r[1] - 1] / lag[r[0]])))
         if straight

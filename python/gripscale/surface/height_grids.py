@@ -1,28 +1,18 @@
-"""Maps on a grid below a header of pairs: surface data format, grid of ESRI, field of Gwyddion.
+"""Maps as numbers of a grid below a header of pairs, or as triangles.
 
-The surface data format (.sdf), ISO 25178-71, lists counts profile by profile:
-
-aISO-1.0            version
-    NumPoints   = 512   points along x of each profile
-    NumProfiles = 256   profiles along y
-    Xscale      = 1e-6  distance of points [m], Yscale that of profiles
-    Zscale      = 1e-9  height of one count [m]
-    *                   the heights follow
-    *                   end; what follows is no part of the map
-
-A grid of ESRI (.asc) lists heights row by row from north to south, in units that it does not state:
-
-    ncols 400           points along x of each row, nrows that of rows
-    cellsize 0.2        distance of points; or dx and dy
-    NODATA_value -9999  a missing height
-
-A simple field of Gwyddion (.gsf) holds 4-byte numbers, row by row, behind its header and one to
-four empty bytes (http://gwyddion.net/documentation/user-guide-en/gsf.html):
-
-    XRes = 400          points along x of each row, YRes that of rows
-    XReal = 1e-3        length along x [XYUnits], YReal that along y
+| format | points along x, y | steps | heights |
+|---|---|---|---|
+| .sdf (ISO 25178) | NumPoints, NumProfiles | Xscale, Yscale [m] | counts of Zscale [m], between * |
+| .asc, ESRI | ncols, nrows | cellsize, or dx and dy | north to south; NODATA_value is missing |
+| .gsf, Gwyddion | XRes, YRes | XReal, YReal over them | 4-byte numbers behind 1 to 4 empty bytes |
 
 Names are taken in any case, with =, a colon or blanks before their value. BAD is a missing height.
+The field is that of http://gwyddion.net/documentation/user-guide-en/gsf.html.
+
+Triangles (.stl) stand as text, facet ... vertex x y z ... endfacet, or as numbers: 80 bytes, their
+count, then 50 bytes each. Seen from above none may cover another one. Vertices on an even grid are
+its points; other meshes are interpolated at steps of sqrt(2 A), A the median area seen from above,
+as two triangles make a square of a grid. No unit is stated, and holes are missing heights.
 """
 
 from __future__ import annotations
@@ -35,6 +25,7 @@ import numpy as np
 
 from gripscale.core import Array, FileError, checks
 from gripscale.core.wording import shortened
+from gripscale.surface.profile import even_grid
 
 _LONGEST_HEADER = 2**16
 _PAIR = re.compile(r"^\s*([A-Za-z_]\w*)\s*[=:\s]\s*(.*?)\s*$")
@@ -43,19 +34,28 @@ _BINARY, _TEXT = (b"bISO", b"bBCR"), (b"aISO", b"aBCR")
 _MOST_POINTS = 10**9  # points along an axis beyond which a header is taken as damaged
 
 
-def is_esri_grid(raw: bytes) -> bool:
+def _is_esri_grid(raw: bytes) -> bool:
     """Return whether a file is a grid of ESRI in text, by its first word."""
     return _ESRI.match(raw) is not None
 
 
-def is_sdf_text(path: Path, raw: bytes) -> bool:
+def _is_sdf_text(path: Path, raw: bytes) -> bool:
     """Return whether a file is in the surface data format as text: by its first word or suffix."""
     return raw.lstrip().startswith(_TEXT) or (
         path.suffix.lower() == ".sdf" and not raw.startswith(_BINARY)
     )
 
 
-def simple_field_header(raw: bytes) -> dict[str, str]:
+def named_units(path: Path, raw: bytes) -> dict[str, str] | None:
+    """Return `xyunits` and `zunits` as far as a grid or a mesh states them; None: it is neither."""
+    if is_stl(path, raw):
+        return {}
+    if _is_sdf_text(path, raw):
+        return {"xyunits": "m", "zunits": "m"}
+    return _simple_field_header(raw) or ({} if _is_esri_grid(raw) else None)
+
+
+def _simple_field_header(raw: bytes) -> dict[str, str]:
     """Return the header of a simple field of Gwyddion by name in small letters; else empty."""
     if not raw.startswith(b"Gwyddion Simple Field"):
         return {}
@@ -81,13 +81,16 @@ def _simple_field(path: Path, raw: bytes, header: dict[str, str]) -> tuple[Array
 def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
     """Return x, y and heights of shape (points along x, profiles), NaN where missing.
 
-    They are in m of the surface data format, in the units of the file of other grids. Raises
-    `FileError` if the header lacks a number, or there are not as many heights as it states.
+    They are in m of the surface data format, in the units of the file of others. Raises `FileError`
+    if the header lacks a number, there are not as many heights as it states, the file holds no
+    triangles, or some cover others seen from above.
     """
-    if field := simple_field_header(raw):
+    if is_stl(path, raw):
+        return _mesh(path, raw)
+    if field := _simple_field_header(raw):
         return _simple_field(path, raw, field)
     header, start = _header(raw[:_LONGEST_HEADER].decode("latin-1"))
-    esri = is_esri_grid(raw)
+    esri = _is_esri_grid(raw)
 
     def number(name: str, default: str = "") -> float:
         text = header.get(name.lower(), default)
@@ -140,3 +143,85 @@ def _header(head: str) -> tuple[dict[str, str], int]:
             return header, start + (len(line) if line.strip() == "*" else 0)
         start += len(line)
     return header, start
+
+
+_VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
+_HEAD = 84  # bytes before the first triangle of a binary file
+_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+# Distance of coordinates, in the size of the mesh, that single precision cannot tell apart.
+_ROUNDING = 1e-6
+_OVERLAP = 1.01  # area of the triangles over that of their rectangle beyond which some cover others
+_MOST_POINTS = 10**8
+
+
+def is_stl(path: Path, raw: bytes) -> bool:
+    """Return whether a file holds triangles: by its suffix, as text by its first words, too."""
+    return path.suffix.lower() == ".stl" or (
+        raw[:512].lstrip().startswith(b"solid") and b"facet" in raw[:1024]
+    )
+
+
+def _mesh(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
+    """Return x, y and heights of shape (nx, ny) in the unit of the file, NaN in holes."""
+    corners = _corners(path, raw)
+    rounding = np.ptp(corners, axis=(0, 1)).max() * _ROUNDING
+    first, second = ((corners[:, at] - corners[:, 0])[:, :2].T for at in (1, 2))
+    area = 0.5 * (first[0] * second[1] - first[1] * second[0])
+    counted, corner = np.unique(
+        np.rint(corners.reshape(-1, 3) / rounding), axis=0, return_inverse=True
+    )
+    points, triangles = counted * rounding, corner.reshape(-1, 3)
+    low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
+    seen = np.abs(area) > _ROUNDING * np.median(np.abs(area))
+    if (
+        len(np.unique(counted[:, :2], axis=0)) < len(counted)
+        or len(np.unique(np.sign(area[seen]))) != 1
+        or np.abs(area).sum() > _OVERLAP * np.prod(high - low)
+    ):
+        raise FileError(
+            f"{path}: expected a surface with one height at each point (x, y); got triangles that "
+            "cover others, or face up and down: a wall, an overhang or a closed body. Export the "
+            "upper face alone, with z as its height"
+        )
+    axes = [np.unique(distances) for distances in points[:, :2].T]
+    grids = [even_grid(axis) for axis in axes]
+    if len(points) == axes[0].size * axes[1].size and all(g and not g.left_out for g in grids):
+        return axes[0], axes[1], points[:, 2].reshape(axes[0].size, axes[1].size)
+    step = float(np.sqrt(2.0 * np.median(np.abs(area[seen]))))
+    return _interpolated(path, points, triangles[seen], step)
+
+
+def _corners(path: Path, raw: bytes) -> Array:
+    """Return the corners of the triangles, shape (triangles, 3, 3)."""
+    count = int.from_bytes(raw[_HEAD - 4 : _HEAD], "little")
+    try:
+        if len(raw) == _HEAD + _TRIANGLE.itemsize * count:
+            corners = np.frombuffer(raw, _TRIANGLE, offset=_HEAD)["corners"].astype(float)
+        else:
+            corners = np.array(_VERTEX.findall(raw)).astype(float).reshape(-1, 3, 3)
+    except ValueError:
+        corners = np.empty((0, 3, 3))
+    if not len(corners) or not np.isfinite(corners).all():
+        raise FileError(f"{path}: expected triangles of three vertices, each of three numbers")
+    return corners
+
+
+def _interpolated(
+    path: Path, points: Array, triangles: Array, step: float
+) -> tuple[Array, Array, Array]:
+    """Return axes in steps and the heights of triangles there."""
+    from matplotlib.tri import LinearTriInterpolator, Triangulation
+
+    axes = []
+    for low, high in zip(points.min(axis=0)[:2], points.max(axis=0)[:2], strict=True):
+        count = np.floor((high - low) / step * (1.0 - _ROUNDING))
+        axes.append(0.5 * (low + high) + step * (np.arange(count + 1.0) - 0.5 * count))
+    x, y = axes
+    if x.size * y.size > _MOST_POINTS:
+        raise FileError(f"{path}: expected triangles of a like size; got {x.size} x {y.size} steps")
+    try:
+        mesh = Triangulation(points[:, 0], points[:, 1], triangles)
+        heights = LinearTriInterpolator(mesh, points[:, 2])(*np.meshgrid(x, y, indexing="ij"))
+    except (RuntimeError, ValueError) as error:
+        raise FileError(f"{path}: expected triangles side by side seen from above") from error
+    return x, y, np.ma.filled(heights, np.nan)

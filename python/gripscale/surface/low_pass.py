@@ -1,27 +1,17 @@
-"""The roughness that rubber meets: flanks it cannot follow, and the Gaussian cut-off.
+"""The roughness that rubber meets: without steep flanks, waves too short and waves too long.
 
-All models of measured heights take them in this order, and so do correlation, spectra and slopes
-of measured lines and maps. Texture by standards takes the heights as they are.
+    e(r) = max_r' (z(r') - s |r - r'|)                          the envelope without slopes above s
+    T(q) = exp(-ln 2 (q / q_c)^2),    q_c = 2 pi / lambda_c     half of a wave of the cut-off
 
-The envelope of the heights z without slopes above s is the smallest surface above them that rubber
-can follow (E. J. McShane, Bull. Amer. Math. Soc. 40 (1934) 837,
-doi:10.1090/S0002-9904-1934-05978-0),
+The envelope is that of E. J. McShane, Bull. Amer. Math. Soc. 40 (1934) 837,
+doi:10.1090/S0002-9904-1934-05978-0; the Gaussian that of ISO 16610-21 and 16610-61. All models of
+measured heights take them in this order, and so do correlation, spectra and slopes; texture by
+standards takes the heights as they are.
 
-    e(r) = max_r' (z(r') - s |r - r'|),
-
-the upper envelope of cones on all points. A surface of rubber that follows a flank of slope s is
-stretched by up to sqrt(1 + s^2). The envelope keeps every summit, and every face below that slope.
-
-The cut-off is that of surface metrology, ISO 16610-21 for lines and ISO 16610-61 for maps: a
-Gaussian that transmits half the amplitude of a wave of the cut-off length lambda_c,
-
-    T(q) = exp(-ln 2 (q / q_c)^2),    q_c = 2 pi / lambda_c,
-
-1/16 of a wave of half that length and 0.84 of twice of it. A sharp cut of the spectrum overshoots
-beside a step by 9 % of its height, whatever the cut-off (J. W. Gibbs, Nature 59 (1899) 606): rubber
-sits on the false crest. A Gaussian does not overshoot. Tiles with grooves of 1 mm by 0.5 mm and a
-cut-off of 0.4 mm get an area of 0.14 with a sharp cut, 0.73 with the Gaussian, and 0.75 with their
-edges rounded by 50 um in place of a cut (`tests/half_space/test_steps.py`).
+Waves longer than a footprint do not press into the rubber, the block rides over them: a line
+through the heights below a block of length L leaves a quarter of the mean square of waves of 1.5 L,
+as the Gaussian does at its cut-off. By default they are left out where they hold most of the mean
+square height, because the correlation and its waves are then theirs: docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -177,3 +167,54 @@ def low_pass(line: Profile, cut_off: float) -> Profile:
     z = np.fft.irfft(spectrum * transmission(number, cut), points) * (points / len(line))
     x = line.x[0] + np.linspace(0.0, period, points, endpoint=False)
     return Profile(x, z, line.name, source=line.source)
+
+
+PER_FOOTPRINT = 1.5  # cut-off over the length of the block
+# share of the mean square height above which the long waves decide the correlation
+MOST_SHARE = 0.5
+
+
+def long_waves(profile: Profile, longest: float) -> Array:
+    """Return the waves beyond the cut-off `longest` [m], shape (points,); none of shorter lines."""
+    from scipy import fft
+
+    cut = checks.positive("longest_wavelength", longest, unit="m")
+    points, step = len(profile), profile.step
+    if profile.length <= cut:
+        return np.zeros(points)
+    length = fft.next_fast_len(points + math.ceil(cut / step), real=True)
+    q = 2.0 * np.pi / (length * step) * np.arange(length // 2 + 1, dtype=float)
+    gaussian = transmission(q, cut)
+    # of the weights w(u): transforms of w, u w and u^2 w
+    width = 2.0 * math.log(2.0) * (cut / (2.0 * np.pi)) ** 2
+    kernels = gaussian, -1j * width * q * gaussian, width * (1.0 - width * q**2) * gaussian
+
+    def smoothed(values: Array, moment: int) -> Array:
+        transform = fft.rfft(values, length) * kernels[moment]
+        return np.asarray(fft.irfft(transform, length)[:points])
+
+    measured = np.isfinite(profile.z)
+    weight, heights = measured.astype(float), np.where(measured, profile.z, 0.0)
+    w0, w1, w2 = (smoothed(weight, moment) for moment in range(3))
+    z0, z1 = (smoothed(heights, moment) for moment in range(2))
+    w0 = np.maximum(w0, np.finfo(float).eps)  # no weight within wide gaps
+    centre, mean = w1 / w0, z0 / w0
+    # a floor of the variance: about a single point the line is level
+    slope = (z1 / w0 - centre * mean) / np.maximum(w2 / w0 - centre**2, 1e-6 * width)
+    return np.asarray(mean - slope * centre)
+
+
+def mean_square(profile: Profile, heights: Array) -> float:
+    """Return the mean square of heights [m^2] about their mean where the profile has some."""
+    return float(np.var(heights[np.isfinite(profile.z)]))
+
+
+def longest_held(profiles: Sequence[Profile], footprint: float) -> float | None:
+    """Return the longest wavelength that a footprint [m] holds.
+
+    None unless longer waves hold most of the mean square height of profiles.
+    """
+    longest = PER_FOOTPRINT * footprint
+    beyond = sum(mean_square(line, long_waves(line, longest)) for line in profiles)
+    every = sum(mean_square(line, line.z) for line in profiles)
+    return longest if beyond > MOST_SHARE * every else None

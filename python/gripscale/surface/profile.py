@@ -43,11 +43,10 @@ _LARGEST_NUMBER = 1e12
 
 @dataclass(frozen=True, eq=False)
 class EvenGrid:
-    """The numbers of points on an even grid, and their largest distance from it in steps."""
+    """The numbers of points on an even grid."""
 
     number: NDArray[np.int64]
     step: float
-    departure: float
 
     @property
     def size(self) -> int:
@@ -95,7 +94,7 @@ def even_grid(x: Array, resolution: float = 0.0) -> EvenGrid | None:
         departure = float(np.abs(x - mean_x - step * centred).max())
         printed = 1.01 * resolution if resolution <= _COARSEST_PRINT * step else 0.0
         if departure <= max(GRID_TOLERANCE * step, printed) + rounding:
-            return EvenGrid(number, step, departure / step)
+            return EvenGrid(number, step)
     return None
 
 

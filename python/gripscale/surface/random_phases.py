@@ -20,8 +20,7 @@ from numpy.typing import ArrayLike
 
 from gripscale.core import Array, Finding, InputError, Severity, Topic, checked, checks, in_mm
 from gripscale.surface.height_difference import HeightDifference
-from gripscale.surface.long_waves import MOST_SHARE, PER_FOOTPRINT
-from gripscale.surface.low_pass import transmission
+from gripscale.surface.low_pass import MOST_SHARE, PER_FOOTPRINT, transmission
 from gripscale.surface.profile import MOST_PROFILE_POINTS, Profile
 from gripscale.surface.spectrum import ArealSpectrum
 
@@ -75,7 +74,7 @@ class Spectrum(ArealSpectrum, eq=False):
         return HeightDifference(lags, value, resolution_limit=2.0 * np.pi / last)
 
     def without_long_waves(self, longest: float) -> Spectrum:
-        """Return it without the waves beyond the cut-off `longest` [m] (`surface.long_waves`)."""
+        """Return it without the waves beyond the cut-off `longest` [m] (`surface.low_pass`)."""
         kept = 1.0 - transmission(self.wavenumber, longest)
         return replace(self, density=self.density * kept**2)
 

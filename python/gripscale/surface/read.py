@@ -10,7 +10,7 @@ import io
 import math
 import os
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,38 +18,14 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from gripscale.core import (
-    Array,
-    FileError,
-    GripscaleError,
-    InputError,
-    about_file,
-    checks,
-    unstated,
-    using_extra,
-)
+from gripscale.core import Array, FileError, GripscaleError, InputError, checks
+from gripscale.core.errors import about_file, unstated, using_extra
 from gripscale.core.units import quantity_in_si
+from gripscale.io import text_table
 from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
-from gripscale.io.text_table import (
-    OLD_OFFICE,
-    file_path,
-    is_excel,
-    is_text,
-    read_bytes,
-    read_lines,
-    read_once,
-    read_sheets,
-    read_text,
-)
-from gripscale.surface.height_grids import (
-    is_esri_grid,
-    is_sdf_text,
-    read_height_grid,
-    simple_field_header,
-)
+from gripscale.surface import height_grids
 from gripscale.surface.profile import HeightMap, Profile, line_label
 from gripscale.surface.text_files import NO_HEIGHT, length_unit, read_text_map, read_text_profile
-from gripscale.surface.triangles import is_stl, read_stl
 
 # Deflate, the densest packing of all formats, packs at most 1032 bytes into one.
 _MOST_POINTS_PER_BYTE = 1032
@@ -65,16 +41,6 @@ class HeightField:
     # Shortest wavelength [m] free of the instrument's artifacts, if the file states it.
     reliable: float | None = None
 
-    def profile(self, path: Path, direction: str, line: int) -> Profile:
-        """Return one line along a direction as a profile."""
-        along = self.x if direction == "x" else self.y
-        heights = self.heights[:, line] if direction == "x" else self.heights[line, :]
-        name, source = path.stem, str(path)
-        if self.y is not None:
-            name, source = (line_label(text, line, direction) for text in (name, source))
-        with about_file(source):
-            return Profile(np.asarray(along), heights, name, source, self.reliable)
-
 
 def read_instrument_file(
     path: Path,
@@ -89,7 +55,7 @@ def read_instrument_file(
     Raises `FileError` if SurfaceTopography is not installed or cannot read the file, or the file
     has no heights or no lateral size; `InputError` if an argument is wrong or contradicts the file.
     """
-    raw = read_bytes(path)
+    raw = text_table.read_bytes(path)
     if not raw.strip():
         raise FileError(f"{path}: expected a surface; got an empty file")
     if raw.startswith(_ARRAY):
@@ -97,15 +63,14 @@ def read_instrument_file(
         z_unit = length_unit(path, "the file", None, "z_unit", z_unit)
         z = quantity_in_si(z, z_unit, "length")
         return HeightField(z, axis, others[0] if others else None)
-    stl, sdf, gsf = is_stl(path, raw), is_sdf_text(path, raw), simple_field_header(raw)
-    if stl or sdf or gsf or is_esri_grid(raw):
+    units = height_grids.named_units(path, raw)
+    if units is not None:
         if step is not None:
             raise InputError(f"step must be left out; {path} states the size of its surface")
-        units = {"xyunits": "m", "zunits": "m"} if sdf else gsf
         x_unit = length_unit(path, "the file", units.get("xyunits"), "x_unit", x_unit)
-        z_unit = z_unit or (x_unit if stl else None)
+        z_unit = z_unit or (x_unit if height_grids.is_stl(path, raw) else None)
         z_unit = length_unit(path, "the file", units.get("zunits"), "z_unit", z_unit)
-        along, across, field = (read_stl if stl else read_height_grid)(path, raw)
+        along, across, field = height_grids.read_height_grid(path, raw)
         x, y = (quantity_in_si(axis, x_unit, "length") for axis in (along, across))
         return HeightField(quantity_in_si(field, z_unit, "length"), x, y)
     # Its readers warn about pictures, missing dates and the like, none of which is the caller's.
@@ -302,7 +267,7 @@ def read_profile(
         spacing = None if steps is None else steps[0]
         options: dict[str, Any] = {"x_unit": x_unit, "z_unit": z_unit}
         options |= {"sheet": sheet, "channel": channel}
-        profile = read_once(
+        profile = text_table.read_once(
             ("profile", file, repr((spacing, options))),
             lambda: read_text_profile(file, **options, step=spacing),
         )
@@ -318,7 +283,14 @@ def read_profile(
     number = lines // 2
     if line is not None:
         number = checks.whole(f"line of {file}", line, least=0, most=lines - 1)
-    return upwards(field.profile(file, direction, number), z_axis)
+    along = field.x if direction == "x" else field.y
+    heights = field.heights[:, number] if direction == "x" else field.heights[number, :]
+    name, source = file.stem, str(file)
+    if field.y is not None:
+        name, source = (line_label(text, number, direction) for text in (name, source))
+    with about_file(source):
+        whole = Profile(np.asarray(along), heights, name, source, field.reliable)
+    return upwards(whole, z_axis)
 
 
 _AnySurface = TypeVar("_AnySurface", Profile, HeightMap)
@@ -340,7 +312,7 @@ def _checked_path(
     for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
         if unit is not None:
             quantity_in_si(1.0, unit, "length", name)
-    return file_path(path)
+    return text_table.file_path(path)
 
 
 def _steps(
@@ -366,17 +338,17 @@ def is_text_surface(path: Path, reader: str = "auto") -> bool:
     """Return whether gripscale reads a file as text: by its content, of .asc by its first line."""
     if reader != "auto":
         return reader == "text"
-    if is_excel(path):
-        return not set(read_sheets(path)) >= _SHEETS_OF_AN_INSTRUMENT
-    raw, suffix = read_bytes(path), path.suffix.lower()
-    if not is_text(raw) or is_stl(path, raw) or is_sdf_text(path, raw) or is_esri_grid(raw):
-        return raw.startswith(OLD_OFFICE)  # which the reader of text names
-    return suffix != ".asc" or is_row(read_text(path).lstrip().partition("\n")[0])
+    if text_table.is_excel(path):
+        return not set(text_table.read_sheets(path)) >= _SHEETS_OF_AN_INSTRUMENT
+    raw, suffix = text_table.read_bytes(path), path.suffix.lower()
+    if not text_table.is_text(raw) or height_grids.named_units(path, raw) is not None:
+        return raw.startswith(text_table.OLD_OFFICE)  # which the reader of text names
+    return suffix != ".asc" or is_row(text_table.read_text(path).lstrip().partition("\n")[0])
 
 
 def _holds_three_columns(path: Path) -> bool:
     """Return whether the first row of a text has three cells or more."""
-    first = next((text for _, text in read_lines(path) if is_row(text)), "")
+    first = next((text for _, text in text_table.read_lines(path) if is_row(text)), "")
     cells = (cells_of(first, separator) for separator in SEPARATORS)
     return any(is_row_of(row) and len(row) > 2 for row in cells)
 
@@ -417,18 +389,18 @@ def read_map(
         table of text do.
     """
     file = _checked_path(path, x_unit, z_unit, reader)
-    options = {"x_unit": x_unit, "z_unit": z_unit, "step": _steps(step, x_unit)}
+    options: dict[str, Any] = {"x_unit": x_unit, "z_unit": z_unit, "step": _steps(step, x_unit)}
+
+    def read() -> HeightMap:
+        if is_text_surface(file, reader):
+            return read_text_map(file, **options)
+        field = read_instrument_file(file, channel=channel, **options)
+        if field.y is None:
+            raise FileError(
+                f"{file}: expected a map; got a line, which gripscale.read_profile reads"
+            )
+        with about_file(file):
+            return HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)
+
     key = "map", file, repr((reader, channel, options))
-    return upwards(read_once(key, lambda: _map_of(file, reader, channel, options)), z_axis)
-
-
-def _map_of(
-    file: Path, reader: str, channel: str | int | None, options: Mapping[str, Any]
-) -> HeightMap:
-    if is_text_surface(file, reader):
-        return read_text_map(file, **options)
-    field = read_instrument_file(file, channel=channel, **options)
-    if field.y is None:
-        raise FileError(f"{file}: expected a map; got a line, which gripscale.read_profile reads")
-    with about_file(file):
-        return HeightMap(field.x, field.y, field.heights, file.stem, str(file), field.reliable)
+    return upwards(text_table.read_once(key, read), z_axis)

@@ -1,22 +1,10 @@
 """Heights where none were measured: equal steps and filled gaps.
 
-Between unequal steps by straight lines between neighbours,
-
-    z(x) = z_i + (z_(i+1) - z_i) (x - x_i) / (x_(i+1) - x_i),   x_i <= x <= x_(i+1)
-
-The error is at most h^2 max|z''| / 8 over a distance h of neighbours (C. de Boor, A Practical Guide
-to Splines (1978), ch. III): of a sine of wavelength L, 5 (h/L)^2 of its amplitude.
-
-In gaps by a membrane,
-
-    (z[i-1, j] - 2 z[i, j] + z[i+1, j]) / dx^2 + (z[i, j-1] - 2 z[i, j] + z[i, j+1]) / dy^2 = 0
-
-at every missing point, with the measured heights around it fixed and without slope across the
-border of the surface: Laplace's equation in five points (R. J. LeVeque, Finite Difference Methods
-for Ordinary and Partial Differential Equations (2007), ch. 3, doi:10.1137/1.9780898717839). On a
-line that is linear interpolation, with the nearest height at the ends. By the maximum principle no
-filled height lies above the highest or below the lowest around its gap: a gap makes no asperity of
-its own.
+Between unequal steps by straight lines between neighbours, with an error of at most
+h^2 max|z''| / 8 over a distance h of neighbours (C. de Boor, A Practical Guide to Splines (1978),
+ch. III). In gaps by a membrane, Laplace's equation in five points (R. J. LeVeque, Finite Difference
+Methods (2007), ch. 3, doi:10.1137/1.9780898717839): no filled height lies above the highest or
+below the lowest around its gap, so that a gap makes no asperity of its own (docs/derivations.md).
 """
 
 from __future__ import annotations

@@ -2,49 +2,13 @@
 
 Wave i has lambda_{i+1} = lambda_i / s_lambda and A_{i+1} = A_i / s_A; the unknowns are the first
 wave (lambda_1, A_1) and the two factors. The fit minimises the rms difference of log10 C_z, decades
-of lag counting alike (Lind & Wangenheim, ASME IMECE2014-37998). Which lags count, and how:
-
-**Large lags.** C_z of a sine falls back to zero at each whole wavelength. A road does not repeat:
-its long waves fill a band of wavelengths and its C_z stays on the plateau, twice the variance of
-the heights. So beyond lambda_1 / 4 the first wave enters the fit by its mean over phases, A_1^2,
-the value it reaches there:
+of lag counting alike (Lind & Wangenheim, ASME IMECE2014-37998). A road does not repeat: beyond a
+quarter of its length the first wave enters by its mean over phases,
 
     C_fit(l) = A_1^2 g(l / lambda_1) + sum_{i > 1} A_i^2 (1 - cos(2 pi l / lambda_i)),
     g(u) = 1 - cos(2 pi u) for u < 1/4, else 1.
 
-The waves then carry the variance of the road, about sum A_i^2 / 2. (Following the cosine to its
-top at lambda_1 / 2 instead would halve the variance of the first wave.) Lags up to four times the
-one where the plateau begins count: without them a first wave several times too large fits the rise
-as well, and at still larger lags C_z scatters for want of independent heights. To fit the curve of
-a few pure sines, which does fall back, give `largest_lag` = lambda_1 / 4.
-
-The first wave rises as l^2, faster than a rough surface, which makes the amplitudes of the smaller
-waves fall faster: of profiles of exponent H, log s_A / log s_lambda comes out 0.04 above H = 0.8,
-0.13 above 0.9 and 0.24 above 0.95, so that they matter little there (docs/method.md, sec. 1).
-
-**Small lags.** Any profile has |z(x + m l) - z(x)| <= the sum of its m differences over l, hence
-C_z(m l) <= m^2 C_z(l). Spike removal marks both points of steep neighbours as missing, so steep
-flanks count at lags that span the gap but not at smaller ones: C_z then breaks this rule, and no
-sum of waves can follow. Lags before the first one that keeps the rule do not count by default.
-
-**The end of the stack.** Each wave represents a band of wavelengths, from its own over
-sqrt(s_lambda) to its own times sqrt(s_lambda). A last wave of the wavelength l therefore brings in
-roughness down to l / sqrt(s_lambda), and the slope of the stack is larger than that of a profile
-without the waves shorter than l. `cut_off` states where the roughness ends: the last wave is then
-cut_off sqrt(s_lambda). The measured C_z holds the shorter waves too, so that three more of them, by
-the same factors, count in the fit and are left out of the stack. Lags below cut_off / 4, which they
-decide, do not count. Where s_wavelength is given, whole waves end at cut_off or above it: the stack
-holds its own cut-off. `smallest_wavelength` states the last wave itself, as Lind & Wangenheim do.
-
-**Other stacks.** C_z is smooth and known within its band only. Stacks with other numbers of waves
-and other factors follow it as well. The curve determines their common properties; where they
-differ, the stack is a choice. With r the rms difference from the curve in decades, b the rms half
-width of its band over the same lags, and r_0 the least r of all stacks tried, a stack is as good if
-
-    r^2 <= r_0^2 + b^2.
-
-The search tries 2 to 12 waves from first wavelengths half to twice the fitted one down to the same
-last wave or cut-off, and fits all other unknowns.
+docs/derivations.md says which lags count, where a stack ends, and which stacks are as good.
 """
 
 from __future__ import annotations

@@ -1,17 +1,13 @@
 """A surface as superposed sine waves, and the search for the waves closest to a curve.
 
 Wave i is A_i cos(2 pi x / lambda_i), A_i being half its height from valley to peak. Waves of
-unrelated phase add in the height difference correlation:
+unrelated phase add in the height difference correlation,
 
-    C_z(l) = sum_i A_i^2 (1 - cos(2 pi l / lambda_i))
+    C_z(l) = sum_i A_i^2 (1 - cos(2 pi l / lambda_i)),
 
-since < (cos(k(x+l)) - cos(kx))^2 > = 1 - cos(kl) over x. Usually both lengths shrink by constant
-magnification factors, lambda_{i+1} = lambda_i / s_lambda and A_{i+1} = A_i / s_A.
-Lind & Wangenheim, ASME IMECE2014-37998.
-
-**The search.** The unknowns are natural logarithms of the first wavelength and amplitude and of the
-two magnification factors; each may be fixed, and the factors may be tied to each other or to a
-smallest wavelength. Least squares start from a fixed grid, so that equal input gives equal output.
+and usually both lengths shrink by constant magnification factors, lambda_{i+1} = lambda_i /
+s_lambda and A_{i+1} = A_i / s_A (Lind & Wangenheim, ASME IMECE2014-37998). The search starts from a
+fixed grid, so that equal input gives equal output.
 """
 
 from __future__ import annotations

@@ -2,28 +2,12 @@
 
     <z^2> = int_0^inf C_1(q) dq                       line, one-sided, C_1 [m^3]
     <z^2> = 2 pi int_0^inf q C(q) dq                  surface, mean over directions, C [m^4]
-    <|grad z|^2> = 2 pi int_0^inf q^3 C(q) dq
+    C_1(k) = 4 int_k^inf q C(q) dq / sqrt(q^2 - k^2)  lines of a surface (Abel)
 
-The conventions are those of B. N. J. Persson et al., J. Phys.: Condens. Matter 17 (2005) R1,
+in the conventions of B. N. J. Persson et al., J. Phys.: Condens. Matter 17 (2005) R1,
 doi:10.1088/0953-8984/17/1/R01. The mean square gradient of an isotropic surface is twice the mean
-square slope of its lines: every number here says which of the two it is.
-
-Spectra are measured with windows w of a line, or of a map whose plane waves are averaged over rings
-< > (P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70, doi:10.1109/TAU.1967.1161901), F
-being the discrete Fourier transform:
-
-    C_1(q) = 2 / (2 pi)   |F{w z}|^2 step / sum(w^2)             for q > 0
-    C(q)   = 1 / (2 pi)^2 < |F{w z}|^2 > step_x step_y / sum(w^2)
-
-A line crosses a wave of wavenumber q at an angle phi and sees one of q cos(phi), so that
-
-    C_1(k) = 4 int_k^inf q C(q) dq / sqrt(q^2 - k^2)
-    C(q)   = -1/(2 pi) int_q^inf C_1'(k) dk / sqrt(k^2 - q^2)
-
-The first is Abel's integral equation, the second its solution (R. N. Bracewell, The Fourier
-Transform and Its Applications, 3rd ed. (2000), ch. 13; for surfaces P. R. Nayak, J. Lubr.
-Technol. 93 (1971) 398, doi:10.1115/1.3451608). The solution needs the derivative of a measured,
-scattered curve. Instead, `areal_spectrum` solves the first equation by least squares with C >= 0.
+square slope of its lines: every number here says which of the two it is. How spectra are measured
+and why Abel's equation is solved by least squares is in docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -320,7 +304,7 @@ _TAIL_POINTS = 4  # last points of a spectrum whose power law is continued
 _SLOWEST_FALL = 1.0  # least exponent of C_1 beyond them: with less the variance would be infinite
 
 
-def areal_spectrum(spectrum: ProfileSpectrum, *, per_decade: int = _PER_DECADE) -> ArealSpectrum:
+def areal_spectrum(spectrum: ProfileSpectrum) -> ArealSpectrum:
     """Return the spectrum of the isotropic surface whose lines have a measured one.
 
     The Abel equation is solved for the C >= 0 at the averaged wavenumbers that fits C_1 there best,
@@ -331,14 +315,12 @@ def areal_spectrum(spectrum: ProfileSpectrum, *, per_decade: int = _PER_DECADE) 
     Parameters
     ----------
     spectrum : ProfileSpectrum
-        Of lines in any direction.
-    per_decade : int
-        Wavenumbers a decade to which the spectrum is averaged first.
+        Of lines in any direction; it is averaged to ten wavenumbers a decade first.
     """
     from scipy.optimize import nnls
 
     checks.instance("spectrum", spectrum, ProfileSpectrum)
-    mean = spectrum.averaged(per_decade)
+    mean = spectrum.averaged()
     q, density = mean.wavenumber, mean.density
     if q.size < _TAIL_POINTS or not (density >= checks.LEAST).all():
         raise InputError(

@@ -4,22 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
-from gripscale.core import (
-    CaseKey,
-    Described,
-    Finding,
-    InputError,
-    Severity,
-    Topic,
-    Words,
-    in_mm,
-)
+from gripscale.core import CaseKey, Described, InputError, Words, about_file, in_mm
+from gripscale.core.finding import Finding, Severity, Topic
 from gripscale.surface import plausibility
 from gripscale.surface.cleaning import CleaningReport, clean, subtract_long_waves
 from gripscale.surface.cut_off import (
@@ -32,7 +25,6 @@ from gripscale.surface.cut_off import (
 from gripscale.surface.direction import direction_of_map, direction_of_profiles
 from gripscale.surface.height_difference import HeightDifference, SelfAffineFit, height_difference
 from gripscale.surface.low_pass import followed, followed_lines
-from gripscale.surface.noise import noise_finding
 from gripscale.surface.profile import HeightMap, Profile
 from gripscale.surface.random_phases import Spectrum
 from gripscale.surface.sine_fit import fit_sines
@@ -113,8 +105,13 @@ class Measured(Described):
 
         Raises `InputError` if an argument is wrong, or a step leaves too few points or heights.
         """
-        cleaned, reports = zip(*(clean(line, **cleaning) for line in profiles), strict=True)
-        measured = cls.of_pairs(list(zip(profiles, cleaned, strict=True)), reports)
+        pairs, reports = [], []
+        for line in profiles:
+            with about_file(line.source, InputError) if line.source else nullcontext():
+                cleaned, report = clean(line, **cleaning)
+            pairs.append((line, cleaned))
+            reports.append(report)
+        measured = cls.of_pairs(pairs, reports)
         return replace(measured, longest=cleaning.get("longest_wavelength"))
 
     def without_long_waves(self, longest: float) -> Measured:
@@ -318,7 +315,9 @@ class Surface(Described):
         lines, whole = self.measured.cleaned, self.measured.map
         across = None if whole is None else whole.step[1]
         # thirty lines of a map show its noise
-        finding = noise_finding(lines[:: 1 + len(lines) // 30], self.cutoff_wavelength, across)
+        finding = plausibility.noise_finding(
+            lines[:: 1 + len(lines) // 30], self.cutoff_wavelength, across
+        )
         return () if finding is None else (finding,)
 
     @property

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -29,13 +30,10 @@ def self_affine_profile(
 
         C_z(l) = xi_perp^2 (1 - exp(-(l / xi_par)^(2H))),
 
-    which has the two asymptotes of [LW eq. 6] (the power law and the plateau meet at xi_par) with a
-    smooth bend between: a sharp bend is no covariance of a line for H > 1/2. The profile is drawn
-    exactly, by circulant embedding (C. R. Dietrich & G. N. Newsam, SIAM J. Sci. Comput. 18 (1997)
-    1088, doi:10.1137/S1064827592240555). [LW] Lind & Wangenheim, ASME IMECE2014-37998.
-
-    Its heights lie about zero, with the variance xi_perp^2/2 in the mean over seeds. Raises
-    `InputError` if an argument is out of range.
+    with a smooth bend: a sharp one is no covariance of a line for H > 1/2. It is drawn exactly, by
+    circulant embedding (C. R. Dietrich & G. N. Newsam, SIAM J. Sci. Comput. 18 (1997) 1088,
+    doi:10.1137/S1064827592240555), with heights about zero, of the variance xi_perp^2/2 in the
+    mean over seeds. Raises `InputError` if an argument is out of range.
 
     Parameters
     ----------
@@ -73,46 +71,25 @@ def self_affine_profile(
     return Profile(x, drawn[: x.size], name=f"self-affine, H = {hurst:g}", source=f"seed {seed}")
 
 
-@dataclass(frozen=True)
-class Statistics:
-    """Self-affine statistics [m] of a synthetic surface, its sampling and its waves."""
-
-    hurst: float
-    xi_parallel: float
-    xi_perpendicular: float
-    length: float
-    step: float
-    seed: int
-    waves: int
-    smallest_wavelength: float
-
-
-# Synthetic surfaces by name. Numbers are of the order of a dense asphalt; none was measured.
-SYNTHETIC_SURFACES = {
-    "synthetic_dense_asphalt": Statistics(
-        hurst=0.8,
-        xi_parallel=2e-3,
-        xi_perpendicular=0.6e-3,
-        length=1.6,
-        step=37.5e-6,
-        seed=2014,
-        waves=7,
-        smallest_wavelength=0.1e-3,
-    )
+# Arguments of `self_affine_profile` by the name of a surface, of the order of a dense asphalt; none
+# was measured.
+SYNTHETIC_SURFACES: dict[str, dict[str, Any]] = {
+    "synthetic_dense_asphalt": {
+        "hurst": 0.8,
+        "xi_parallel": 2e-3,
+        "xi_perpendicular": 0.6e-3,
+        "length": 1.6,
+        "step": 37.5e-6,
+        "seed": 2014,
+    }
 }
-
-
-def synthetic_profile(name: str) -> Profile:
-    """Return the profile of a synthetic surface."""
-    s = SYNTHETIC_SURFACES[name]
-    return self_affine_profile(s.hurst, s.xi_parallel, s.xi_perpendicular, s.length, s.step, s.seed)
+_WAVES, _SMALLEST_WAVELENGTH = 7, 0.1e-3
 
 
 def with_profile(name: str) -> Surface:
     """Return a synthetic surface as if its profile had been measured, with as many waves."""
-    surface = synthetic_surface(name)
-    fit = {**surface.fit, "scales": SYNTHETIC_SURFACES[name].waves}
-    return replace(surface, fit=fit, measured=Measured.of([synthetic_profile(name)]))
+    surface, profile = synthetic_surface(name), self_affine_profile(**SYNTHETIC_SURFACES[name])
+    return replace(surface, fit={**surface.fit, "scales": _WAVES}, measured=Measured.of([profile]))
 
 
 @lru_cache(maxsize=4)
@@ -120,13 +97,13 @@ def synthetic_surface(name: str) -> Surface:
     """Return a synthetic surface, with its statistics as its source."""
     s = SYNTHETIC_SURFACES[name]
     # the stated statistics are those of the profile with all its flanks
-    correlation = height_difference(synthetic_profile(name), steepest=math.inf)
-    sines = fit_sines(correlation, scales=s.waves, smallest_wavelength=s.smallest_wavelength)
+    correlation = height_difference(self_affine_profile(**s), steepest=math.inf)
+    sines = fit_sines(correlation, scales=_WAVES, smallest_wavelength=_SMALLEST_WAVELENGTH)
     source = (
-        f"{name}: synthetic, self-affine, H = {s.hurst:g}, "
-        f"xi_parallel = {s.xi_parallel * 1e3:g} mm, "
-        f"xi_perpendicular = {s.xi_perpendicular * 1e3:g} mm, "
-        f"{s.length:g} m in steps of {s.step * 1e6:g} um, seed {s.seed}"
+        f"{name}: synthetic, self-affine, H = {s['hurst']:g}, "
+        f"xi_parallel = {s['xi_parallel'] * 1e3:g} mm, "
+        f"xi_perpendicular = {s['xi_perpendicular'] * 1e3:g} mm, "
+        f"{s['length']:g} m in steps of {s['step'] * 1e6:g} um, seed {s['seed']}"
     )
     fit = {"smallest_wavelength": float(sines.wavelength[-1])}
     return Surface(sines, source, correlation, fit)

@@ -1,27 +1,17 @@
 """Profiles and maps from text files, with stated units and codes for missing heights.
 
 A profile stands in two columns with units, in rows of either direction, in one column of heights
-whose step is stated, or in the layout of the CAPTIF stationary laser profilometer: point number,
-distance and height, parted by tabs, below a line "*****DATA*****" and a title line that names
-millimetres. CAPTIF's point numbers are not consecutive (they jump and repeat where scans are
-joined), while the distance column goes on at a constant step printed to three decimals: the step is
-therefore that of the distance column.
-
-A map stands in a table of heights or in points (x, y, z). A table is an image: its rows run along
-y, its columns along x, and it has no steps. Points may come in any order.
-
-Missing heights are rows or points left out, empty cells, or codes such as -9999. A number is such a
-code only if it is in use as one and lies ten times farther from all other heights than they lie
-from each other: no texture has a height like that.
-
-Units are stated by the file or by the caller, never guessed.
+whose step is stated, or in CAPTIF's layout, whose point numbers jump where scans are joined: the
+step is that of the distance column. A map stands in a table of heights, an image whose rows run
+along y, or in points (x, y, z) in any order. Units are stated by the file or by the caller, never
+guessed. Missing heights are rows left out, empty cells, or codes such as -9999: numbers in use as
+one that lie ten times farther from all other heights than they lie from each other.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -261,21 +251,18 @@ def read_text_profile(
     """
     lines = titled_lines(read_lines(path, sheet=sheet))
     column, header = column_in(path, lines, kinds=("length",)), read_header(lines)
+    table = column or _read_table(path, lines, "rows with two columns of numbers")
     pair = None if step is None else (step, step)
-    if column is not None:
-        steps = _stated_steps(path, pair, header.steps(max(2, len(column.rows))))
-        if steps is None:
-            before = "expected two columns, distance and height; got one column of numbers: give "
-            after = ', the distance between its points, such as "0.1 mm"'
-            raise unstated(f"{path}: {before}", "step", after, kind=FileError)
-        unit = _column_unit(column, 0, "z_unit", z_unit, header.z_unit)
-        printed, notes = _heights(column, 0, unit)
-        x, z = steps[0] * np.arange(printed.size), quantity_in_si(printed, unit, "length")
-        return _profile(path, np.asarray(x, float), z, notes, depth_doubts(column, 0))
-    table = _read_table(path, lines, "rows with two columns of numbers")
     steps = _stated_steps(path, pair, header.steps(max(2, len(table.rows))))
     spacing, by_header = (None, False) if steps is None else (steps[0], step is None)
-    x_column, z_column = _profile_columns(table, channel, spacing, by_header=by_header)
+    if column is None:
+        x_column, z_column = _profile_columns(table, channel, spacing, by_header=by_header)
+    elif steps is None:
+        before = "expected two columns, distance and height; got one column of numbers: give "
+        after = ', the distance between its points, such as "0.1 mm"'
+        raise unstated(f"{path}: {before}", "step", after, kind=FileError)
+    else:
+        x_column, z_column = None, 0
     if x_column is not None:
         x_unit = _column_unit(table, x_column, "x_unit", x_unit, header.x_unit)
     z_unit = _column_unit(table, z_column, "z_unit", z_unit, header.z_unit)
@@ -317,16 +304,26 @@ _BRIDGE = 4.0  # mean steps over which a straight line is drawn: of points at ra
 def _even_grid(
     table: TextTable, x_column: int, z_column: int, x: Array, numbers: list[int]
 ) -> EvenGrid | None:
-    """Return the grid of the distances, or None for uneven ones that rise throughout."""
+    """Return the grid of the distances, or None for uneven ones that rise throughout.
+
+    Raises `FileError` for others, which says if those of the other column are in equal steps.
+    """
     try:
-        with _unless_exchanged(table, x_column, z_column):
-            return printed_grid(table, x_column, x, numbers)
+        return printed_grid(table, x_column, x, numbers)
     except FileError as error:
+        z = table.numbers(z_column, "a height", missing=True)
+        if even_grid(z if z[0] < z[-1] else z[::-1], table.resolution(z_column)) is not None:
+            titles = "exchange their titles" if table.titles else "write titles above them"
+            raise FileError(
+                f"{table.path}: columns {x_column + 1} and {z_column + 1} look exchanged: expected "
+                f"distances in column {x_column + 1}, but column {z_column + 1} goes in equal "
+                f"steps; {titles}, such as 'x [mm]' for distances and 'z [mm]' for heights",
+                missing="titles",
+            ) from error
         steps = np.diff(x)
-        uneven = steps.min() > 0.0 and steps.mean() <= _MOST_UNEVEN * np.median(steps)
-        if error.missing or not uneven:
-            raise
-        return None
+        if steps.min() > 0.0 and steps.mean() <= _MOST_UNEVEN * np.median(steps):
+            return None
+        raise
 
 
 def _resampled(
@@ -361,25 +358,6 @@ def depth_doubts(table: TextTable, column: int) -> tuple[Finding, ...]:
     text = f"column {column + 1}, titled {checks.short_repr(title)}, is taken as height, up: "
     cure = Words(down, " turns it over, ", up, " confirms it.")
     return (doubt(text, cure, topic=Topic.SURFACE),)
-
-
-@contextmanager
-def _unless_exchanged(table: TextTable, x_column: int, z_column: int) -> Iterator[None]:
-    """Let an error about distances say if those of the other column are in equal steps."""
-    try:
-        yield
-    except FileError as error:
-        z = table.numbers(z_column, "a height", missing=True)
-        grid = even_grid(z if z[0] < z[-1] else z[::-1], table.resolution(z_column))
-        if grid is None:
-            raise
-        titles = "exchange their titles" if table.titles else "write titles above them"
-        raise FileError(
-            f"{table.path}: columns {x_column + 1} and {z_column + 1} look exchanged: expected "
-            f"distances in column {x_column + 1}, but column {z_column + 1} goes in equal steps; "
-            f"{titles}, such as 'x [mm]' for distances and 'z [mm]' for heights",
-            missing="titles",
-        ) from error
 
 
 def _heights(table: TextTable, column: int, unit: str) -> tuple[Array, list[str]]:

@@ -1,40 +1,13 @@
 """Texture of profiles and maps, in the numbers of the standards.
 
-Heights z stand over the least-squares line or plane of the measured points. With averages < > over
-the N measured points,
+Heights over the least-squares line or plane of the measured points: ISO 21920-2:2021 for profiles,
+ISO 25178-2:2021 for maps, by the names of `TEXTURE_NUMBERS`. Slopes are those between neighbours;
+a missing height has no weight, and neither has a slope that needs it. The mean profile depth is
+that of ISO 13473-1:2019, the g-factor that of ISO 13473-2:2002, and third-octave levels are
 
-    rms height        Pq, Sq    sqrt <z^2>
-    mean deviation    Pa, Sa    <|z|>
-    skewness          Psk, Ssk  <z^3> / Pq^3
-    kurtosis          Pku, Sku  <z^4> / Pq^4
-    rms slope         Pdq       sqrt <(dz/dx)^2>
-    rms gradient      Sdq       sqrt <|grad z|^2>
-    developed area    Sdr       <sqrt(1 + |grad z|^2)> - 1
-
-(ISO 21920-2:2021 for profiles, over the whole profile; behind a filter of long waves the standard
-writes R for P; ISO 25178-2:2021 for maps). Slopes are those between neighbours. A map's cell has a
-gradient at each corner, that of the triangle with both neighbours: their mean is the mean over both
-ways to divide the cell into two triangles. A missing height has no weight, and neither has a slope
-that needs it.
-
-The mean profile depth is that of ISO 13473-1:2019. Missing heights are interpolated, heights
-averaged over 0.5 mm, waves below 2.4 mm taken out (second-order Butterworth filter, forwards and
-backwards, annex D), segments of 100 mm cut and the least-squares line of each subtracted. The
-segment depth is the mean of the highest points of its two halves over its mean height; the mean
-profile depth is the mean of the segment depths. Steep steps are
-taken out first by the rule of the standard, whatever rule cleaned the profile.
-
-The g-factor (ISO 13473-2:2002; ISO 10844:2021, annex B) is the share of the heights of a segment
-above the middle between its highest and lowest point, without the filter, mean of the segments:
-large where stones form a plateau with gaps between them, small where single stones stand out.
-
-Third-octave texture levels of profiles, as road engineers state their spectra.
     L = 10 log10( <z^2> in the band / a^2 ),    a = 1 um
 
-(ISO 13473-4:2024). The bands are those of the spatial frequency, ten a decade: from 10^(-1/20) to
-10^(1/20) times the middle one. The spectrum is that of whole profiles, each about its straight line
-behind a Hann window, and mean over the profiles. Bands go from the shortest wavelength that the
-measurement resolves to a twelfth of its length.
+by ISO 13473-4:2024. The steps of each are in docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -111,8 +84,7 @@ def texture(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Dataset:
             "developed_area_ratio": _mean(np.sqrt(1.0 + squares) - 1.0),
         }
         lengths = texture_lengths(surface)
-        values["autocorrelation_length"] = lengths.shortest
-        values["texture_aspect_ratio"] = lengths.aspect_ratio
+        values["autocorrelation_length"], values["texture_aspect_ratio"] = lengths
         values["texture_direction"] = texture_direction(surface)
     else:
         lines = profile_list(surface)
@@ -291,6 +263,5 @@ def texture_levels(surface: Profile | Sequence[Profile] | HeightMap) -> xr.Datas
     about = {"units": "dB", "long_name": "third-octave texture level re 1 um, ISO 13473-4"}
     lengths = {"units": "m", "long_name": "texture wavelength"}
     return xr.Dataset(
-        {"level": ("wavelength", level, about)},
-        {"wavelength": ("wavelength", nominal, lengths)},
+        {"level": ("wavelength", level, about)}, {"wavelength": ("wavelength", nominal, lengths)}
     )

@@ -1,17 +1,11 @@
 """A rubber half-plane that fills a rigid sine completely: pressure and friction in closed form.
 
-Geometry: plane strain, wave z = A cos(k x), k = 2 pi/lambda, small slope, no adhesion; the rubber
-slides over it with speed v, so that every point is excited at w = k v.
+With A cos(k x), k = 2 pi/lambda, the plane strain modulus M at w = k v and the mean pressure p,
 
-Nomenclature: M = E/(1-nu^2) the plane strain modulus, complex at w; p mean pressure; mu friction.
+    p_full = k A |M(w)| / 2,    mu = k^2 A^2 Im M(w) / (4 p)  for p >= p_full
 
-    p_full = k A |M(w)| / 2
-    mu     = k^2 A^2 Im M(w) / (4 p)      for p >= p_full
-
-Source: one Fourier component of the half-plane, u_q = -2 p_q / (|q| M(q v)) (K. L. Johnson, Contact
-Mechanics, 1985, sec. 13.2, doi:10.1017/CBO9781139171731), with the elastic modulus replaced by the
-complex one as in B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626. The
-pressure then is p + k A |M| / 2 cos(k x + phase), which must not be negative.
+K. L. Johnson, Contact Mechanics (1985), sec. 13.2, doi:10.1017/CBO9781139171731, with the complex
+modulus as in B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626.
 """
 
 from __future__ import annotations
@@ -27,15 +21,10 @@ def plane_strain_modulus(youngs_modulus: complex, poisson_ratio: float) -> compl
     Raises `InputError` unless -1 < nu <= 0.5.
     """
     modulus = checks.complex_number("youngs_modulus", youngs_modulus, unit="Pa")
-    return modulus / (1.0 - poisson(poisson_ratio) ** 2)
-
-
-def poisson(value: float) -> float:
-    """Return Poisson's ratio [-]; raise `InputError` unless it is above -1 and at most 0.5."""
-    ratio = checks.number("poisson_ratio", value)
+    ratio = checks.number("poisson_ratio", poisson_ratio)
     if not -1.0 < ratio <= 0.5:
         raise InputError(f"poisson_ratio must be above -1 and at most 0.5; got {ratio:g}")
-    return ratio
+    return modulus / (1.0 - ratio**2)
 
 
 def full_contact_pressure(

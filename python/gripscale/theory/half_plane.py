@@ -1,33 +1,13 @@
 """One wave by small-strain theory: steady sliding of a viscoelastic half-plane.
 
-Geometry: plane strain, frictionless, small slope; rigid wave w = A cos(k x) at rest,
-k = 2 pi/lambda, crest at x = 0; the rubber lies above and slides over it towards +x with speed v.
-A harmonic exp(i m k x) at rest in this frame excites the rubber at the angular frequency m k v, so
+Harmonic m of the pressure p over the rigid wave w = A cos(k x) raises the surface by
 
     u_m = 2 p_m / (m k M(m k v)),        M = E*/(1-nu^2) = 4 G* (3K + G*) / (3K + 4 G*)
+    mu  = mean(p dw/dx) / mean(p) = (4 / mean(p)) sum_m |p_m|^2 Im M(m k v) / |M(m k v)|^2
 
-K. L. Johnson, Contact Mechanics (1985), sec. 13.2, doi:10.1017/CBO9781139171731, with the complex
-modulus in place of the elastic one (correspondence principle). Friction opposes the sliding:
-
-    mu = mean(p dw/dx) / mean(p)                            from the contact traction
-    mu = (4 / mean(p)) sum_m |p_m|^2 Im M(m k v) / |M(m k v)|^2    from the energy lost
-
-A model independent of the finite-strain block, right where slopes are small. A mean pressure and a
-mean shear only shift a linear half-plane, so the load time has no effect.
-
-The contact is solved by boundary elements in dimensionless form: abscissa theta = k x in [-pi, pi),
-heights over the amplitude, pressures over the mean pressure. The pressure is piecewise linear on N
-equal elements; harmonic m of the pressure raises the surface by c(m) times itself (c complex: the
-surface lags behind). With hat functions, whose Fourier coefficients are sinc^2(m/N), a nodal
-pressure p_j gives at node i
-
-    u_i = d + sum_j K_(i-j) p_j,   K_j = (1/N) sum_(m != 0) c(m) sinc^2(m/N) exp(i m theta_j)
-
-and contact requires gap = u - w >= 0, p >= 0, gap p = 0 at every node, mean p = 1. Viscosity makes
-K unsymmetric, but its symmetric part is positive definite, so the solution is unique (R. W. Cottle,
-J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, sec. 3.1). The active set is
-found by block pivoting, with single nodes where blocks make no progress (J. J. Judice & F. M.
-Pires, Comput. Oper. Res. 21 (1994) 587, doi:10.1016/0305-0548(94)90106-6).
+K. L. Johnson, Contact Mechanics (1985), sec. 13.2, doi:10.1017/CBO9781139171731. Boundary elements
+over theta = k x with a piecewise linear pressure, and an active set by block pivoting (J. J. Judice
+& F. M. Pires, Comput. Oper. Res. 21 (1994) 587, doi:10.1016/0305-0548(94)90106-6): docs/method.md.
 """
 
 from __future__ import annotations
@@ -188,9 +168,6 @@ class HalfPlane(Checked):
 
     points: int = checked(checks.whole, least=16, most=8192, default=1024)
     """Nodes per wavelength, 16 to 8192; a multiple of a power of two is solved fastest."""
-    poisson_ratio: float | None = checked(lambda _, value: elastic.poisson(value), default=None)
-    """Constant Poisson's ratio, E* then being Young's modulus; by default shear relaxes at constant
-    bulk modulus and Poisson's ratio follows the frequency."""
     most_iterations: int = checked(checks.whole, least=1, most=100_000, default=200)
     """Active-set iterations allowed on each grid."""
 
@@ -225,14 +202,10 @@ class HalfPlane(Checked):
             """Return M [Pa] of the harmonics."""
             rubber, omega = problem.rubber, number * frequency
             young = rubber.complex_modulus(omega)
-            if self.poisson_ratio is None:
-                value = plane_strain_modulus_of(young, rubber.bulk_modulus)
-                compression = layers.shear_and_compression(young, rubber.bulk_modulus)[1]
-            else:
-                value = young * elastic.plane_strain_modulus(1.0, self.poisson_ratio)
-                compression = np.full(young.shape, 1.0 - 2.0 * self.poisson_ratio, dtype=complex)
+            value = plane_strain_modulus_of(young, rubber.bulk_modulus)
             if problem.thickness is None:
                 return value
+            compression = layers.shear_and_compression(young, rubber.bulk_modulus)[1]
             depth = k * number * problem.thickness
             return np.asarray(value / layers.thickness_factor(depth, compression)[0])
 
@@ -290,7 +263,6 @@ class HalfPlane(Checked):
                 "points_in_contact": in_contact,
                 "contact_edges": [(start / k, end / k) for start, end in edges],
                 "full_contact": full,
-                **({} if self.poisson_ratio is None else {"poisson_ratio": self.poisson_ratio}),
             },
         )
 
@@ -304,7 +276,6 @@ def solve_half_plane(
     speed: Quantity,
     load_time: Quantity = float("inf"),
     points: int = HalfPlane.points,
-    poisson_ratio: float | None = None,
     most_iterations: int = HalfPlane.most_iterations,
 ) -> ScaleResult:
     """Return contact and friction of one wave by small-strain theory.
@@ -327,10 +298,10 @@ def solve_half_plane(
         Sliding speed [m/s]; zero is the relaxed, elastic contact.
     load_time : float
         How long the load has lasted [s]; recorded, without effect in small strain.
-    points, poisson_ratio, most_iterations
+    points, most_iterations
         See `HalfPlane`.
     """
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
     if problem.load.speed == 0.0:
         require_load_bearing(rubber, problem.load.pressure, math.inf)
-    return HalfPlane(points, poisson_ratio, most_iterations).solve(problem)
+    return HalfPlane(points, most_iterations).solve(problem)

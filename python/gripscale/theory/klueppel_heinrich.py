@@ -1,25 +1,10 @@
 """The theory of Klueppel and Heinrich: hysteresis friction by the loss under a self-affine surface.
 
     mu     = 1/2 delta/(p_0 v) int dw w E''(w) S(w),     w = 2 pi v/lambda from xi_par to lambda_min
-    delta  = b z_p
     S(w)   = S_0 (w/w_min)^(-(2H + 1)),   S_0 = H xi_perp^2/(2 pi v xi_par),   w_min = 2 pi v/xi_par
 
-M. Klueppel & G. Heinrich, Rubber Chem. Technol. 73 (2000) 578, doi:10.5254/1.3547607: a layer of
-mean thickness delta, b times the mean penetration depth z_p, is strained at random as the rubber
-passes the surface.
-
-The integral and delta = b z_p are as the literature quotes them; the paper itself could not be
-consulted. The integral is dimensionless only if S is the spectrum of a strain [s]. Here S is the
-one-sided spectrum of the heights over xi_par^2,
-
-    int_(w_min)^inf S dw = (xi_perp^2/2)/xi_par^2,      xi_perp^2/2 the variance of the heights,
-
-which fixes S_0. Another reference length changes mu by a factor that does not depend on load or
-speed and is part of b. The theory's own rules for z_p (Greenwood & Williamson) and for lambda_min
-(the energy criterion of A. Le Gal & M. Klueppel, J. Phys.: Condens. Matter 20 (2008) 015007,
-doi:10.1088/0953-8984/20/01/015007) have constants that could not be confirmed: the caller gives
-both lengths. lambda_min is the end of the integral, not a filter of the heights: what it leaves out
-is part of b. The theory has no contact area.
+with delta = b z_p. M. Klueppel & G. Heinrich, Rubber Chem. Technol. 73 (2000) 578,
+doi:10.5254/1.3547607. What could not be confirmed and the caller states: docs/theories.md.
 """
 
 from __future__ import annotations

@@ -1,33 +1,14 @@
 """Rubber of finite thickness on a rigid base, in one layer or in several: its compliance K(q).
 
-Geometry: layers of infinite extent, bonded to one another and to a rigid base; a harmonic pressure
-p exp(i q . r) without shear on the free surface lifts it by u = K(q) p. Plane strain for a line; a
-map has the same K(|q|). Letters: G shear modulus, nu Poisson's ratio, both complex at the frequency
-of the wave; d thickness, s = |q| d.
-
-One layer, over the half-space of the same rubber:
+A harmonic pressure p exp(i q . r) without shear lifts the free surface by u = K(q) p. One layer of
+thickness d, with s = |q| d, shear modulus G and Poisson's ratio nu, complex at the frequency:
 
     K = (1 - nu) / (G |q|) F,    F = N / D,
-    N = (3 - 4 nu) sinh 2s - 2s,    D = (3 - 4 nu) cosh 2s + 2 s^2 + 5 - 12 nu + 8 nu^2.
+    N = (3 - 4 nu) sinh 2s - 2s,    D = (3 - 4 nu) cosh 2s + 2 s^2 + 5 - 12 nu + 8 nu^2
 
-Source: M. Hannah, Q. J. Mech. Appl. Math. 4 (1951) 94; F. Bentall & K. L. Johnson, Int. J. Mech.
-Sci. 10 (1968) 637, of elastic layers, with complex moduli in place of theirs. N and D are
-multiplied by exp(-2s), and sinh 2s - 2s is a series where s is small: no overflow and no
-cancellation. F is 1 for thick and 2 s^3 / 3 for thin incompressible layers; a thin compressible one
-has K = d / (oedometric modulus).
-
-Several layers: in each, displacements (i U, W) and tractions (i T, P) on a plane are four solutions
-of Navier's equations, exp(z) and exp(-z) with a constant and a linear factor, z = |q| times height.
-They give the stiffness of the layer in blocks, of its lower and its upper face,
-
-    (t_l, t_u) = (A, B; C, E) (u_l, u_u),    S <- E - C (A + S)^-1 B,
-
-upwards from S = E of the lowest layer; K = (S^-1)_WW. Source: E. Kausel & J. M. Roesset, Stiffness
-matrices for layered soils, Bull. Seismol. Soc. Am. 71 (1981) 1743, at rest. Exponentials are one at
-the face where a solution is largest.
-
-A layer loses Im(u* . t) at its upper face less that at its lower face: the losses of all layers sum
-to Im K |p|^2.
+M. Hannah, Q. J. Mech. Appl. Math. 4 (1951) 94; F. Bentall & K. L. Johnson, Int. J. Mech. Sci. 10
+(1968) 637. N and D are multiplied by exp(-2s). Several layers join by the stiffness of their faces:
+E. Kausel & J. M. Roesset, Bull. Seismol. Soc. Am. 71 (1981) 1743, at rest; see docs/method.md.
 """
 
 from __future__ import annotations

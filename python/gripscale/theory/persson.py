@@ -1,28 +1,13 @@
 """Persson's theory: contact area and hysteresis friction of a randomly rough surface.
 
     G(q) = 1/8 int_q0^q dk k^3 C(k) int_0^2pi dphi |M(k v cos phi)|^2 / p_0^2
-    P(q) = erf(1/(2 sqrt G(q)))                                    A/A_0 seen down to q
-    S(q) = gamma + (1 - gamma) P(q)^2
+    P(q) = erf(1/(2 sqrt G(q))),    S(q) = gamma + (1 - gamma) P(q)^2
     mu   = 1/2 int_q0^q1 dq q^3 C(q) S(q) P(q) int_0^2pi dphi cos phi Im M(q v cos phi) / p_0
 
-with the areal spectrum C, M = E*/(1 - nu^2), of rubber of finite thickness 2 / (q K(q)) as in
-`gripscale.theory.layers`, and sliding along phi = 0. Source: B. N. J. Persson,
-J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626; the factor S, for the smaller deformation
-inside asperity contacts, M. Scaraggi & B. N. J. Persson, J. Phys.: Condens. Matter 27 (2015)
-105102, doi:10.1088/0953-8984/27/10/105102, which finds gamma about 1/2.
-
-Softening multiplies M' and M'' of waves q by f and g at the strain of all waves down to q, half
-their rms gradient: the convention of the theory.
-
-A cut-off multiplies C by the square of what its Gaussian transmits
-(`gripscale.surface.low_pass.transmission`); results along the wavelength are those of cut-offs
-there. Without one the surface ends with its spectrum, and the waves down to each wavelength count
-in full.
-
-Exact limits: full contact (P = 1) is the sum of all waves, each with its closed form; light elastic
-contact is A/A_0 = sqrt(8/pi) p_0/(M h'), with h' the rms gradient of the surface, from G = (M
-h'/p_0)^2/8 and erf(x) = 2 x/sqrt(pi). The running integrals use the trapezoidal rule on grids
-refined until a tolerance is met. `TheoryResult` is the base of the results of all theories.
+B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626; S: M. Scaraggi & B. N. J.
+Persson, J. Phys.: Condens. Matter 27 (2015) 105102, doi:10.1088/0953-8984/27/10/105102. Cut-off,
+softening and limits: docs/theories.md. M is 2 / (q K(q)) of `gripscale.theory.layers` where the
+rubber has a thickness. `TheoryResult` is the base of the results of all theories.
 """
 
 from __future__ import annotations

@@ -19,12 +19,12 @@ _T = TypeVar("_T")
 
 @lru_cache(maxsize=1)
 def default_settings() -> Mapping[str, float]:
-    """Return every constant of the solver with its default, by name."""
+    """Return the settings of the solver with their defaults, by name."""
     return {name: value for name, value, _ in _kernel.default_settings()}
 
 
 def describe_settings() -> str:
-    """Return name, default and meaning of every constant of the solver, one a line."""
+    """Return name, default and meaning of every setting of the solver, one a line."""
     listed = _kernel.default_settings()
     return "\n".join(f"{name} = {value:g}: {text}" for name, value, text in listed)
 

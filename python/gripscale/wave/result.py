@@ -1,16 +1,18 @@
 """Contact and friction of one wave, with the evidence for them, as an object and as a Dataset.
 
-Both directions of the conversion use the same tables: `FIELDS`, the numbers of a `ScaleResult`;
-`DERIVED`, numbers that follow from these and are written for the reader; and `DETAILS`, numbers
-that only some solvers have. Arrays along the waves are padded with NaN.
+Both directions of the conversion use `numbers.csv`: fields, the numbers of a `ScaleResult`; derived
+ones, which follow from these and are written for the reader; and details, which only some solvers
+have. Arrays along the waves are padded with NaN.
 """
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib.resources import files
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -218,121 +220,27 @@ class ScaleResult(Pictured):
 LW = "Lind & Wangenheim 2014, IMECE2014-37998"
 CHAIN = "gripscale chain"
 SOLVER = "gripscale solver of one wave"
-_WAVES = "input: sine waves of the surface"
-RUBBER = "input: rubber, at the fundamental frequency"
 
 
-class Field(NamedTuple):
-    """A number per wave: its name in the Dataset, unit, meaning, source, and attribute."""
+class Number(NamedTuple):
+    """A number of a wave: its name in a Dataset, and the attribute or path of a `ScaleResult`."""
 
+    kind: str
     name: str
+    attribute: str
     unit: str
     long_name: str
-    source: str = SOLVER
-    other_name: str = ""
-
-    @property
-    def attribute(self) -> str:
-        """Name of the attribute of `ScaleResult`, or its path."""
-        return self.other_name or self.name
+    source: str
 
     def variable(self, values: Any) -> xr.Variable:
         """Return `values` over the waves as a labelled variable."""
         return labelled("scale", values, self.unit, self.long_name, self.source)
 
 
-# Numbers of a `ScaleResult`, written and read.
-FIELDS = (
-    Field("wavelength", "m", "wavelength", _WAVES),
-    Field("amplitude", "m", "amplitude, half peak-to-valley", _WAVES),
-    Field("pressure_received", "Pa", "mean pressure on the wave", f"{LW}, equation 1"),
-    Field("sliding_speed", "m/s", "sliding speed", "input: load", "speed"),
-    Field("load_time", "s", "time the wave is loaded", CHAIN),
-    Field("contact_fraction", "1", "contact length over wavelength"),
-    Field("friction", "1", "friction coefficient from the contact traction"),
-    Field(
-        "friction_from_dissipation", "1", "friction coefficient from the energy lost in the rubber"
-    ),
-    Field("contact_fraction_error", "1", "estimated error of the contact fraction"),
-    Field("friction_error", "1", "estimated error of the friction coefficient"),
-    Field("friction_bound", "1", "largest difference of the two frictions of a converged wave"),
-    Field("min_stretch", "1", "smallest principal stretch"),
-    Field("max_stretch", "1", "largest principal stretch"),
-    Field("newton_iterations", "1", "Newton iterations"),
-    Field("residual", "1", "residual force over applied force"),
-)
-
-# Numbers that follow from the fields: written, not read.
-DERIVED = (
-    Field("contact_length", "m", "contact length on the mean plane"),
-    Field("slope", "1", "largest slope, 2 pi amplitude/wavelength", CHAIN),
-    Field("angular_frequency", "rad/s", "fundamental excitation, 2 pi speed/wavelength", CHAIN),
-    Field("modulus", "Pa", "absolute complex Young's modulus", RUBBER),
-    Field("loss_factor", "1", "loss factor", RUBBER),
-    Field(
-        "outside_band",
-        "1",
-        "1 where the wave excites the rubber outside the measured frequencies",
-        RUBBER,
-    ),
-    Field(
-        "decades_below_band",
-        "1",
-        "decades by which the slowest excitation is below the measured frequencies",
-        RUBBER,
-        "extrapolation.below",
-    ),
-    Field(
-        "decades_above_band",
-        "1",
-        "decades by which the fastest excitation is above the measured frequencies",
-        RUBBER,
-        "extrapolation.above",
-    ),
-    Field("friction_mismatch", "1", "relative difference of the two friction coefficients", CHAIN),
-)
-
-# Numbers that only some solvers or conditions have.
-DETAILS = (
-    Field("load_steps", "1", "load steps"),
-    Field("load_reached", "1", "share of the pressure that was reached"),
-    Field("indentation", "m", "approach of wave and block"),
-    Field("columns", "1", "elements along the block"),
-    Field("coarser_columns", "1", "columns of the mesh that the errors are judged by, 0 for none"),
-    Field("rows", "1", "elements across the block"),
-    Field("depth", "1", "height of the block in wavelengths"),
-    Field("element_order", "1", "order of the elements"),
-    Field("points", "1", "points along the wave"),
-    Field("points_in_contact", "1", "points in contact"),
-    Field("full_contact", "1", "1 where the contact is full"),
-    Field("poisson_ratio", "1", "constant Poisson's ratio"),
-    Field("passes", "1", "solutions until rubber, strains and heat agreed"),
-    Field("strain", "1", "uniaxial strain amplitude of the softening", CHAIN),
-    Field("storage_modulus_ratio", "1", "softened over measured storage modulus", CHAIN),
-    Field("loss_modulus_ratio", "1", "softened over measured loss modulus", CHAIN),
-    Field("series_misfit", "1", "relative misfit of the softened series at the wave", CHAIN),
-    Field(
-        "strain_extrapolated",
-        "1",
-        "1 where the strain lies beyond the sweep of the softening",
-        CHAIN,
-    ),
-    Field("temperature", "K", "temperature of the rubber where the wave loses energy", CHAIN),
-    Field(
-        "flash_temperature_rise_uniform", "K", "rise by the heat of all waves, spread evenly", CHAIN
-    ),
-    Field(
-        "flash_temperature_rise_larger_waves", "K", "rise in the contact of the larger waves", CHAIN
-    ),
-    Field("flash_temperature_rise_own", "K", "rise by the heat pattern of the wave", CHAIN),
-    Field("contact_temperature", "K", "temperature in the contact of the wave", CHAIN),
-    Field(
-        "temperature_extrapolated",
-        "1",
-        "1 where the temperature lies beyond the range of the shift",
-        CHAIN,
-    ),
-)
+_TABLE = csv.reader(files(__package__).joinpath("numbers.csv").read_text("utf-8").splitlines())
+_NUMBERS = [Number(*row) for row in _TABLE]
+_KINDS = ("field", "derived", "detail")
+FIELDS, DERIVED, DETAILS = ([n for n in _NUMBERS if n.kind == kind] for kind in _KINDS)
 
 
 def waves_to_dataset(results: Sequence[ScaleResult]) -> xr.Dataset:

@@ -3,14 +3,13 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::contact::complementarity_problem::{
-    ApproximateInverse, Compliance, ComplementarityProblem, Contact,
+    ApproximateInverse, ComplementarityProblem, Compliance, Contact,
 };
 use crate::contact::linear_complementarity::solve;
 use crate::linear::{Factor, Matrix};
 use crate::settings::Settings;
-use crate::test_fields::serial;
+use crate::tests::fixture::{cases, serial};
 use proptest::prelude::*;
-use proptest::test_runner::FileFailurePersistence;
 
 /// A smooth, slightly unsymmetric compliance as contact has: decaying with distance.
 fn compliance(n: usize, skew: f64) -> Matrix<f64> {
@@ -64,11 +63,7 @@ impl Compliance for Dense<'_> {
 
 /// With any number of nodes factored, and none.
 fn solved(c: &Matrix<f64>, free: &[f64], load: f64, start: &[bool]) -> [Contact; 2] {
-    let problem = ComplementarityProblem {
-        compliance: &Dense(c),
-        free_gap: free,
-        load,
-    };
+    let problem = ComplementarityProblem { compliance: &Dense(c), free_gap: free, load };
     [512.0, 0.0].map(|most| {
         let settings = Settings::new([("factored_contacts", most)]).unwrap();
         let executor = serial();
@@ -94,11 +89,7 @@ fn fulfils(c: &Matrix<f64>, free: &[f64], load: f64, contact: &Contact) -> bool 
             let open = !contact.active_set[i];
             contact.force[i] >= -1e-9 * scale
                 && gap >= -1e-9 * scale
-                && (if open {
-                    contact.force[i] == 0.0
-                } else {
-                    gap.abs() < 1e-9 * scale
-                })
+                && (if open { contact.force[i] == 0.0 } else { gap.abs() < 1e-9 * scale })
         })
 }
 
@@ -125,11 +116,8 @@ fn brute_force(c: &Matrix<f64>, free: &[f64], load: f64) -> Vec<f64> {
         if !Factor::new(&matrix).solve(&mut right) {
             continue;
         }
-        let mut contact = Contact {
-            force: vec![0.0; n],
-            approach: right[m],
-            active_set: vec![false; n],
-        };
+        let mut contact =
+            Contact { force: vec![0.0; n], approach: right[m], active_set: vec![false; n] };
         for (&i, &f) in set.iter().zip(&right) {
             contact.force[i] = f;
             contact.active_set[i] = true;
@@ -141,17 +129,10 @@ fn brute_force(c: &Matrix<f64>, free: &[f64], load: f64) -> Vec<f64> {
     approaches
 }
 
-/// Inputs that failed once stand beside the other tests of the kernel.
-fn cases(count: u32) -> ProptestConfig {
-    let file = "rust/proptest-regressions/complementarity.txt";
-    ProptestConfig {
-        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(file))),
-        ..ProptestConfig::with_cases(count)
-    }
-}
+const FAILED: &str = "rust/proptest-regressions/complementarity.txt";
 
 proptest! {
-    #![proptest_config(cases(256))]
+    #![proptest_config(cases(256, FAILED))]
 
     #[test]
     fn the_answer_is_that_of_trying_every_set(
@@ -183,7 +164,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(cases(40))]
+    #![proptest_config(cases(40, FAILED))]
 
     #[test]
     fn a_very_lossy_wave_under_any_load_from_any_start(

@@ -6,7 +6,7 @@ use crate::contact::profile::Heights;
 use crate::error::KernelError;
 use crate::problem::Profile;
 
-use crate::case::{noise, Case};
+use crate::tests::fixture::{noise, Case};
 
 fn sampled(count: usize, height: impl Fn(f64) -> f64) -> Heights {
     let at = |i: usize| height(i as f64 / count as f64);
@@ -63,10 +63,7 @@ fn the_function_goes_through_its_samples() {
 fn the_range_bounds_the_heights_and_is_reached() {
     let heights = Heights::sine(0.3).unwrap();
     let (lowest, highest) = heights.range();
-    assert_eq!(
-        (lowest, highest),
-        (heights.height(0.5), heights.height(0.0))
-    );
+    assert_eq!((lowest, highest), (heights.height(0.5), heights.height(0.0)));
     assert_eq!(heights.half_range(), 0.3);
     assert!((0..100).all(|i| (lowest..=highest).contains(&heights.height(0.01 * f64::from(i)))));
 }
@@ -76,9 +73,7 @@ fn the_range_bounds_the_heights_and_is_reached() {
 fn the_range_of_sampled_heights_is_that_of_the_function() {
     let heights = Heights::sampled(&rough(16)).unwrap();
     let all = (0..100_000).map(|i| heights.height(1e-5 * f64::from(i)));
-    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), h| {
-        (low.min(h), high.max(h))
-    });
+    let (low, high) = all.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
     let (lowest, highest) = heights.range();
     assert!(lowest <= low && low - lowest < 1e-8);
     assert!(highest >= high && highest - high < 1e-8);
@@ -105,26 +100,6 @@ fn full_contact_of_sampled_heights() {
     assert!((double.full_contact_pressure() / (4.0 * PI * 0.2) - 1.0).abs() < 1e-12);
 }
 
-/// Everything a block finds on a sampled sine is what it finds on the sine, to round-off that the
-/// condition of the problem enlarges.
-#[test]
-fn a_sampled_sine_is_the_sine() {
-    for (order, speed) in [(1, 0.0), (1, 0.2), (2, 0.0), (2, 0.2)] {
-        let mut case = Case::elastic(0.12, 0.5);
-        (case.moduli, case.relaxation_times) = (vec![2.0], vec![0.5]);
-        (case.order, case.speed) = (order, speed);
-        let sine = case.solve(None).unwrap().finest.outcome;
-        case.heights = Some(
-            (0..12)
-                .map(|i| 0.12 * (TAU * i as f64 / 12.0).cos())
-                .collect(),
-        );
-        let sampled = case.solve(None).unwrap().finest.outcome;
-        assert!((sampled.contact_fraction - sine.contact_fraction).abs() < 1e-9);
-        assert!((sampled.friction - sine.friction).abs() < 1e-9);
-    }
-}
-
 #[test]
 fn what_is_no_profile_is_refused() {
     let refusal = |samples: &[f64]| Heights::sampled(samples).unwrap_err().to_string();
@@ -142,11 +117,7 @@ fn what_is_no_profile_is_refused() {
 #[test]
 fn a_mesh_too_coarse_for_the_smallest_wave_is_refused() {
     let mut case = Case::elastic(0.1, 0.5);
-    case.heights = Some(
-        (0..64)
-            .map(|i| 0.01 * (TAU * i as f64 / 8.0).cos())
-            .collect(),
-    );
+    case.heights = Some((0..64).map(|i| 0.01 * (TAU * i as f64 / 8.0).cos()).collect());
     (case.columns, case.rows) = (46, 8);
     let text = case.solve(None).unwrap_err().to_string();
     let expected = "columns must be at least 48 to follow the smallest wave of the heights; got 46";
@@ -169,13 +140,7 @@ fn a_start_on_other_heights_is_refused_briefly() {
     assert!(case.run(&[], Some(&start)).is_ok());
     case.heights = wave(-1.0);
     let error = case.run(&[], Some(&start)).unwrap_err();
-    assert!(matches!(
-        error,
-        KernelError::OtherStart {
-            name: "profile",
-            ..
-        }
-    ));
+    assert!(matches!(error, KernelError::OtherStart { name: "profile", .. }));
     assert!(error.to_string().len() < 400);
     assert!(Profile::new(0.0, Heights::sine(1.0).unwrap()).is_err());
 }

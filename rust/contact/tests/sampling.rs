@@ -51,7 +51,8 @@ fn slopes_are_the_derivatives_of_heights() {
         let mesh = mesh(order);
         let at = |x| SampledProfile::new(&heights, sampling, &mesh, x);
         let slope = at(abscissae(&mesh)).slope;
-        let entry = |a: usize, b: usize| slope.row(a).filter(|(c, _)| *c == b).map(|(_, v)| v).sum();
+        let entry =
+            |a: usize, b: usize| slope.row(a).filter(|(c, _)| *c == b).map(|(_, v)| v).sum();
         let error = largest_error(&mesh, entry, |x| at(x).height);
         assert!(error < 1e-7, "{sampling:?} {order}: {error}");
     }

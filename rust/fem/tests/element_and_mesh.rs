@@ -6,7 +6,7 @@ use crate::material::energy::{Energy, NeoHookean};
 use crate::material::maxwell::Maxwell;
 use crate::material::sliding_history::SlidingHistory;
 
-use crate::test_fields::{balance_volumes, mesh};
+use crate::tests::fixture::{balance_volumes, mesh};
 
 #[test]
 fn shape_functions_sum_to_one_and_their_slopes_to_zero() {
@@ -48,9 +48,8 @@ fn pressure_modes_are_orthogonal_with_the_stated_mass() {
     let element = Element::new(2, 0.3, 0.4);
     for m in 0..3 {
         for n in 0..3 {
-            let product: f64 = (0..9)
-                .map(|q| element.weight[q] * element.mode[q][m] * element.mode[q][n])
-                .sum();
+            let product: f64 =
+                (0..9).map(|q| element.weight[q] * element.mode[q][m] * element.mode[q][n]).sum();
             let expected = if m == n { element.mode_mass[m] } else { 0.0 };
             assert!((product - expected).abs() < 1e-15);
         }
@@ -69,11 +68,7 @@ fn rows_grow_away_from_the_contact_and_fill_the_depth() {
 /// Patch test: simple shear and stretch, u = (a z, b z), leaves every inner layer in balance.
 #[test]
 fn an_affine_deformation_is_in_equilibrium() {
-    let maxwell = Maxwell {
-        equilibrium: 1.0,
-        moduli: vec![4.0],
-        times: vec![0.1],
-    };
+    let maxwell = Maxwell { equilibrium: 1.0, moduli: vec![4.0], times: vec![0.1] };
     for order in [1, 2] {
         let mesh = mesh(8, 5, 1.5, order);
         let memory = Memory::Sliding(SlidingHistory::new(mesh.columns, &maxwell, 0.3));
@@ -106,9 +101,7 @@ fn an_affine_deformation_is_in_equilibrium() {
         }
         let inner = mesh.layer_size()..(mesh.layers() - 1) * mesh.layer_size();
         let worst = total[inner].iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-        let surface = total[..mesh.layer_size()]
-            .iter()
-            .fold(0.0_f64, |m, f| m.max(f.abs()));
+        let surface = total[..mesh.layer_size()].iter().fold(0.0_f64, |m, f| m.max(f.abs()));
         // Round-off of forces of the order of the surface forces.
         assert!(worst < 1e-13 * surface.max(1.0), "{worst} of {surface}");
         assert!(surface > 0.1);

@@ -1,8 +1,8 @@
 //! The Jacobian that is applied and never formed, against sums over points and against finite
 //! differences, and its average along the rows against itself where all columns are alike.
 
-use crate::fem::block::{Block, Field, Memory, RowState};
 use crate::fem::averaged_jacobian::AveragedJacobian;
+use crate::fem::block::{Block, Field, Memory, RowState};
 use crate::fem::jacobian::Jacobian;
 use crate::fem::mesh::Mesh;
 use crate::material::energy::Energy;
@@ -11,17 +11,13 @@ use crate::material::maxwell::Maxwell;
 use crate::material::sliding_history::SlidingHistory;
 use crate::material::stress::{memory_slope, tangent};
 
-use crate::case::{noise};
 use crate::material::tests::material_point::remembered_slope;
 use crate::material::tests::sliding_history::weights;
-use crate::test_fields::{energy, mesh, serial};
+use crate::tests::fixture::noise;
+use crate::tests::fixture::{energy, mesh, serial};
 
 fn memory(mesh: &Mesh, slides: bool) -> Memory {
-    let maxwell = Maxwell {
-        equilibrium: 1.0,
-        moduli: vec![2.0, 6.0],
-        times: vec![0.05, 0.4],
-    };
+    let maxwell = Maxwell { equilibrium: 1.0, moduli: vec![2.0, 6.0], times: vec![0.05, 0.4] };
     match slides {
         true => Memory::Sliding(SlidingHistory::new(mesh.columns, &maxwell, 0.7)),
         false => Memory::Relaxed,
@@ -29,13 +25,7 @@ fn memory(mesh: &Mesh, slides: bool) -> Memory {
 }
 
 fn block<'a>(mesh: &'a Mesh, memory: &'a Memory, energy: Energy) -> Block<'a> {
-    Block {
-        mesh,
-        energy,
-        equilibrium: 1.0,
-        memory,
-        bulk_modulus: 30.0,
-    }
+    Block { mesh, energy, equilibrium: 1.0, memory, bulk_modulus: 30.0 }
 }
 
 fn states(block: &Block<'_>, field: &Field) -> Vec<RowState> {
@@ -181,10 +171,7 @@ fn residual(block: &Block<'_>, field: &Field) -> Vec<f64> {
     for (row, state) in states(block, field).iter().enumerate() {
         let forces = block.row_forces(row, field, state);
         let at = row * mesh.order * mesh.layer_size();
-        out[at..]
-            .iter_mut()
-            .zip(forces)
-            .for_each(|(sum, force)| *sum += force);
+        out[at..].iter_mut().zip(forces).for_each(|(sum, force)| *sum += force);
         all.extend(block.row_volumes(row, field, state));
     }
     out.extend(all);
@@ -253,17 +240,10 @@ fn a_uniform_state_is_solved_at_once() {
         let surface = average.reduce(&right, &mut work);
         average.expand(&surface, &mut solution, &mut work);
         let mut back = vec![0.0; right.len()];
-        jacobian.product(
-            &solution,
-            &mut back,
-            &mut jacobian.workspace(serial().threads),
-        );
+        jacobian.product(&solution, &mut back, &mut jacobian.workspace(serial().threads));
         for i in 0..right.len() {
             let error = (back[i] - right[i]).abs();
-            assert!(
-                error < 1e-10,
-                "order {order}, sliding {slides}, unknown {i}: {error}"
-            );
+            assert!(error < 1e-10, "order {order}, sliding {slides}, unknown {i}: {error}");
         }
     }
 }

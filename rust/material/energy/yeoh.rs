@@ -30,10 +30,7 @@ impl StrainEnergy for Yeoh {
 
     fn slopes(&self, [i1, _]: Invariants) -> [f64; 2] {
         let i = i1 - 3.0;
-        [
-            0.5 * (1.0 + 2.0 * self.second * i + 3.0 * self.third * i * i),
-            0.0,
-        ]
+        [0.5 * (1.0 + 2.0 * self.second * i + 3.0 * self.third * i * i), 0.0]
     }
 
     fn curvatures(&self, [i1, _]: Invariants) -> [f64; 3] {

@@ -4,14 +4,10 @@ use std::f64::consts::TAU;
 
 use crate::fem::block::{Block, Memory};
 use crate::material::dissipation::Dissipation;
-use crate::material::kinematics::{
-    contract, isochoric, remembered, Gradient, Symmetric,
-};
+use crate::material::kinematics::{contract, isochoric, remembered, Gradient, Symmetric};
 use crate::material::maxwell::{decaying_moments, recurrence, Maxwell};
-use crate::settings::Settings;
 
-use crate::case::{noise, Case};
-use crate::test_fields::{energy, mesh, serial};
+use crate::tests::fixture::{energy, mesh, noise, serial, Case};
 
 /// From networks that forget within a column to ones that hardly relax in a passage.
 fn rubber() -> Maxwell {
@@ -65,21 +61,15 @@ fn a_harmonic_loses_by_the_loss_modulus() {
     assert!(eight_columns < 7e-3, "{eight_columns}");
     maxwell.moduli.truncate(3);
     maxwell.times.truncate(3);
-    let (coarse, fine) = (
-        error(&maxwell, 32, 1.0).abs(),
-        error(&maxwell, 64, 1.0).abs(),
-    );
+    let (coarse, fine) = (error(&maxwell, 32, 1.0).abs(), error(&maxwell, 64, 1.0).abs());
     assert!(coarse < 1e-5 && fine < coarse / 8.0, "{coarse} {fine}");
 }
 
 /// The states A_i from column to column, for Y linear in between, lose G_i/2 (A_i : Cbar - 3) / tau_i.
 #[test]
 fn the_loss_is_that_of_the_networks_states() {
-    let maxwell = Maxwell {
-        equilibrium: 1.0,
-        moduli: vec![2.0, 5.0, 3.0],
-        times: vec![0.02, 0.15, 4.0],
-    };
+    let maxwell =
+        Maxwell { equilibrium: 1.0, moduli: vec![2.0, 5.0, 3.0], times: vec![0.02, 0.15, 4.0] };
     let difference = |n: usize| {
         let gradients: Vec<Gradient> = (0..n).map(|e| gradient(e as f64 / n as f64)).collect();
         let y: Vec<Symmetric> = gradients.iter().map(remembered).collect();
@@ -100,10 +90,7 @@ fn the_loss_is_that_of_the_networks_states() {
         lost(&Dissipation::new(n, &maxwell), &f) / expected - 1.0
     };
     let (coarse, fine) = (difference(64), difference(128));
-    assert!(
-        coarse.abs() < 0.02 && fine.abs() < 0.3 * coarse.abs(),
-        "{coarse} {fine}"
-    );
+    assert!(coarse.abs() < 0.02 && fine.abs() < 0.3 * coarse.abs(), "{coarse} {fine}");
 }
 
 /// Large strain along a line, not quite incompressible.
@@ -133,11 +120,7 @@ fn a_field_without_structure_loses_energy() {
             assert_eq!(since[0], 0.0);
             assert!(since[1..].iter().all(|&f| f > 0.0), "{since:?}");
             for time in [1e-9, 1e-3, 0.1, 10.0, 1e9] {
-                let maxwell = Maxwell {
-                    equilibrium: 1.0,
-                    moduli: vec![1.0],
-                    times: vec![time],
-                };
+                let maxwell = Maxwell { equilibrium: 1.0, moduli: vec![1.0], times: vec![time] };
                 assert!(lost(&Dissipation::new(12, &maxwell), &since) > 0.0);
             }
         }
@@ -174,10 +157,7 @@ fn small_strains_keep_their_digits() {
     for (m, since) in since.into_iter().enumerate().skip(1) {
         // y12 = -c12: the mean of (c12(x) - c12(x - m))^2 = slope^2 (1 - cos).
         let expected = slope * slope * (1.0 - angle(m).cos());
-        assert!(
-            (since / expected - 1.0).abs() < 1e-6,
-            "{m}: {since} {expected}"
-        );
+        assert!((since / expected - 1.0).abs() < 1e-6, "{m}: {since} {expected}");
     }
 }
 
@@ -185,19 +165,12 @@ fn small_strains_keep_their_digits() {
 /// follow: the frictions are a third apart, and not of different sign or size.
 #[test]
 fn friction_from_dissipation_stays_of_the_size_of_friction() {
-    let mut case = Case::elastic(0.6, 2.0);
-    case.speed = 1.0;
-    (case.columns, case.rows) = (32, 8);
-    case.settings = Settings::new([("finest_columns", 32.0)]).unwrap();
-    case.moduli = (0..8).map(|i| 0.6 * 2.0_f64.powi(i)).collect();
-    case.relaxation_times = (0..8).map(|i| 10.0_f64.powi(-i)).collect();
-    case.load_time = 5.0;
-    let outcome = case.solve(None).unwrap().finest.outcome;
+    let networks = (0..8).map(|i| (0.6 * 2.0_f64.powi(i), 10.0_f64.powi(-i)));
+    let case = Case::elastic(0.6, 2.0).sliding(1.0, &networks.collect::<Vec<_>>());
+    let case = case.on_mesh(32, 8, 1).with_settings([("finest_columns", 32.0)]);
+    let outcome = Case { load_time: 5.0, ..case }.finest().outcome;
     let ratio = outcome.friction_from_dissipation / outcome.friction;
-    assert!(
-        outcome.max_stretch > 2.0 && ratio > 1.0 && ratio < 1.5,
-        "{ratio}"
-    );
+    assert!(outcome.max_stretch > 2.0 && ratio > 1.0 && ratio < 1.5, "{ratio}");
 }
 
 /// On one curve the loss is linear: whatever f is cut into, smooth or noise with limited slopes, the
@@ -207,20 +180,13 @@ fn parts_of_the_strain_lose_the_whole() {
     let n = 24;
     let part = |seed: usize| -> Vec<f64> {
         let bumps = |m: usize| (TAU * m as f64 / n as f64).sin().powi(2) + noise(seed * n + m);
-        (0..n)
-            .map(|m| if m == 0 { 0.0 } else { bumps(m) })
-            .collect()
+        (0..n).map(|m| if m == 0 { 0.0 } else { bumps(m) }).collect()
     };
     let parts: Vec<Vec<f64>> = (1..6).map(part).collect();
-    let whole: Vec<f64> = (0..n)
-        .map(|m| parts.iter().map(|part| part[m]).sum())
-        .collect();
+    let whole: Vec<f64> = (0..n).map(|m| parts.iter().map(|part| part[m]).sum()).collect();
     let dissipation = Dissipation::new(n, &rubber());
     let curve = dissipation.curve(&whole);
-    let sum: f64 = parts
-        .iter()
-        .map(|part| dissipation.lost_on(&curve, part))
-        .sum();
+    let sum: f64 = parts.iter().map(|part| dissipation.lost_on(&curve, part)).sum();
     let alone: f64 = parts.iter().map(|part| lost(&dissipation, part)).sum();
     let expected = lost(&dissipation, &whole);
     assert!((sum / expected - 1.0).abs() < 1e-12, "{sum} {expected}");
@@ -231,25 +197,14 @@ fn parts_of_the_strain_lose_the_whole() {
 /// (K. L. Johnson, "Contact Mechanics" (1985), section 13.2); rows of a finite height put it deeper.
 #[test]
 fn energy_is_lost_as_deep_as_under_a_half_plane() {
-    let mut case = Case::elastic(1e-3, 0.2);
-    case.speed = 2.0;
-    case.moduli = vec![2.0, 4.0];
-    case.relaxation_times = vec![0.02, 0.3];
-    case.bulk_modulus = 1e5;
     let mean_depth = |columns: usize, rows: usize| {
-        let mut case = case.clone();
-        (case.columns, case.rows) = (columns, rows);
-        let finest = case.solve(None).unwrap().finest;
+        let finest = Case::full_contact().on_mesh(columns, rows, 1).finest();
         let (outcome, middles) = (finest.outcome, finest.mesh.row_middles());
         let rows = outcome.lost_by_row;
         assert!(rows.iter().all(|&lost| lost >= 0.0), "{rows:?}");
         let sum: f64 = rows.iter().sum();
         assert!((sum / outcome.friction_from_dissipation - 1.0).abs() < 1e-12);
-        rows.iter()
-            .zip(middles)
-            .map(|(lost, z)| lost * z)
-            .sum::<f64>()
-            / sum
+        rows.iter().zip(middles).map(|(lost, z)| lost * z).sum::<f64>() / sum
     };
     let errors = [(32, 9), (64, 14), (128, 21)].map(|(c, r)| mean_depth(c, r) * TAU / 1.5 - 1.0);
     let halved = errors[1] < 0.6 * errors[0] && errors[2] < 0.6 * errors[1];

@@ -7,8 +7,7 @@ use crate::material::kinematics::{contract, isochoric};
 use crate::material::stress::{memory_slope, stress, tangent};
 
 use super::material_point::{moved, CLOSE, F, STEP};
-use crate::case::{new_energy};
-use crate::test_fields::{energy};
+use crate::tests::fixture::{energy, new_energy};
 
 /// Every energy of the list, its parameters 0.3, 0.15, 0.1 ...
 fn all() -> Vec<Energy> {
@@ -34,10 +33,7 @@ fn stress_and_tangent_are_the_slopes_of_the_energy() {
             for a in 0..4 {
                 let whole: f64 = (0..4).map(|c| by_h[a][c] * slope[c][k]).sum();
                 let difference = (p(&high)[a] - p(&low)[a]) / (2.0 * STEP);
-                assert!(
-                    (fixed[a][k] + whole - difference).abs() < CLOSE,
-                    "{energy:?}"
-                );
+                assert!((fixed[a][k] + whole - difference).abs() < CLOSE, "{energy:?}");
             }
         }
     }
@@ -97,10 +93,7 @@ fn densities_are_the_published_ones() {
     let (first, second) = (i1 - 3.0, 0.5 * (i1 * i1 - contract(&c, &c)) - 3.0);
     for (energy, expected) in [
         (energy("neo_hookean", &[]), 0.5 * first),
-        (
-            energy("mooney_rivlin", &[("share", 0.4)]),
-            0.3 * first + 0.2 * second,
-        ),
+        (energy("mooney_rivlin", &[("share", 0.4)]), 0.3 * first + 0.2 * second),
         (
             energy("yeoh", &[("second", -0.2), ("third", 0.05)]),
             0.5 * (first - 0.2 * first.powi(2) + 0.05 * first.powi(3)),
@@ -137,10 +130,7 @@ fn plane_strain_stretch_follows_the_closed_forms() {
 fn kraus_keeps_half_at_the_critical_strain() {
     let s = 0.3;
     let f = [1.0, s, 0.0, 1.0];
-    let kraus = energy(
-        "kraus",
-        &[("ratio", 0.2), ("critical", s), ("measured_at", 1e-9)],
-    );
+    let kraus = energy("kraus", &[("ratio", 0.2), ("critical", s), ("measured_at", 1e-9)]);
     let shear = stress(&f, &kraus.network(&f), 0.0)[1];
     assert!((shear / s - 0.6).abs() < 1e-8);
 }

@@ -1,11 +1,11 @@
 //! The material at a point: derivatives against finite differences, closed forms.
 
-use crate::case::noise;
 use crate::material::kinematics::{
     cofactor, contract, isochoric, jacobian, remembered, Deformation, Gradient, UNIT,
 };
 use crate::material::maxwell::Maxwell;
 use crate::material::stress::{memory_slope, stress, tangent};
+use crate::tests::fixture::noise;
 
 pub const F: [f64; 4] = [1.3, 0.4, -0.25, 0.7];
 const H: [f64; 4] = [1.2, 0.8, -0.3, 1.1];
@@ -60,10 +60,7 @@ fn memory_slopes_equal_finite_differences() {
     for k in 0..4 {
         let high = stress(&F, &moved(&H, k, STEP), 0.7);
         let low = stress(&F, &moved(&H, k, -STEP), 0.7);
-        let (y_high, y_low) = (
-            remembered(&moved(&F, k, STEP)),
-            remembered(&moved(&F, k, -STEP)),
-        );
+        let (y_high, y_low) = (remembered(&moved(&F, k, STEP)), remembered(&moved(&F, k, -STEP)));
         for a in 0..4 {
             assert!((by_h[a][k] - (high[a] - low[a]) / (2.0 * STEP)).abs() < CLOSE);
             assert!((by_f[a][k] - (y_high[a] - y_low[a]) / (2.0 * STEP)).abs() < CLOSE);
@@ -117,11 +114,7 @@ fn stress_turns_with_the_material() {
 /// After a step at time zero A_i = (1 - e_i) Y + e_i I, so that H = G(t) I up to multiples of Y.
 #[test]
 fn step_relaxation_follows_the_closed_form() {
-    let maxwell = Maxwell {
-        equilibrium: 1.0,
-        moduli: vec![3.0, 5.0],
-        times: vec![0.1, 2.0],
-    };
+    let maxwell = Maxwell { equilibrium: 1.0, moduli: vec![3.0, 5.0], times: vec![0.1, 2.0] };
     let s: f64 = 1.7;
     let f = [s, 0.0, 0.0, 1.0 / s];
     let y = remembered(&f);

@@ -6,11 +6,7 @@ use crate::material::maxwell::{recurrence, relaxing_moduli, Maxwell};
 use crate::material::sliding_history::SlidingHistory;
 
 fn rubber() -> Maxwell {
-    Maxwell {
-        equilibrium: 1.0,
-        moduli: vec![2.0, 5.0, 3.0],
-        times: vec![0.02, 0.15, 4.0],
-    }
+    Maxwell { equilibrium: 1.0, moduli: vec![2.0, 5.0, 3.0], times: vec![0.02, 0.15, 4.0] }
 }
 
 /// Weight of Y in column e - m in H in column e, for every m.
@@ -36,9 +32,7 @@ fn weights_by_recurrence(columns: usize, maxwell: &Maxwell, load_time: f64) -> V
 
 fn apply(weights: &[f64], y: &[f64]) -> Vec<f64> {
     let n = weights.len();
-    (0..n)
-        .map(|e| (0..n).map(|m| weights[m] * y[(e + n - m) % n]).sum())
-        .collect()
+    (0..n).map(|e| (0..n).map(|m| weights[m] * y[(e + n - m) % n]).sum()).collect()
 }
 
 /// H of Y = cos(k x) is -(G* - G(t)) of it, up to the local part, which is the same at all harmonics.
@@ -47,9 +41,7 @@ fn a_harmonic_is_multiplied_by_the_complex_modulus() {
     let (n, maxwell) = (64, rubber());
     let history = SlidingHistory::new(n, &maxwell, f64::INFINITY);
     let multiplier = |harmonic: usize| {
-        let y: Vec<f64> = (0..n)
-            .map(|e| (TAU * (harmonic * e) as f64 / n as f64).cos())
-            .collect();
+        let y: Vec<f64> = (0..n).map(|e| (TAU * (harmonic * e) as f64 / n as f64).cos()).collect();
         let h = apply(&weights(&history), &y);
         // cos -> (real part) cos - (imaginary part) sin
         (h[0], -h[n / (4 * harmonic)])
@@ -84,18 +76,13 @@ fn many_frequencies_have_the_complex_modulus_of_each() {
 fn recurrence_and_fourier_agree_in_second_order() {
     let maxwell = rubber();
     let difference = |n: usize| {
-        let y: Vec<f64> = (0..n)
-            .map(|e| (0.5 * (TAU * e as f64 / n as f64).cos()).exp())
-            .collect();
+        let y: Vec<f64> = (0..n).map(|e| (0.5 * (TAU * e as f64 / n as f64).cos()).exp()).collect();
         let a = weights(&SlidingHistory::new(n, &maxwell, 0.4));
         let b = weights_by_recurrence(n, &maxwell, 0.4);
         // The local part is free: compare after removing each field's own multiple of Y.
         let strip = |h: Vec<f64>| {
             let factor = h[0] / y[0];
-            h.iter()
-                .zip(&y)
-                .map(|(h, y)| h - factor * y)
-                .collect::<Vec<_>>()
+            h.iter().zip(&y).map(|(h, y)| h - factor * y).collect::<Vec<_>>()
         };
         let (stress_a, stress_b) = (strip(apply(&a, &y)), strip(apply(&b, &y)));
         let apart = stress_a.iter().zip(&stress_b).map(|(a, b)| (a - b).abs());

@@ -10,15 +10,11 @@ use crate::solve::error_estimator::ErrorEstimator;
 use crate::solve::mesh_sequence::MeshSequence;
 use crate::status::Status;
 
-use crate::case::Case;
+use crate::tests::fixture::Case;
 
 #[test]
 fn an_empty_sequence_is_an_internal_error() {
-    let sequence = MeshSequence {
-        sizes: vec![],
-        required: 0,
-        below: None,
-    };
+    let sequence = MeshSequence { sizes: vec![], required: 0, below: None };
     let result = sequence.solve(&estimator(None), |_, _| unreachable!());
     let error = result.map(|_| ()).unwrap_err();
     assert!(matches!(error, KernelError::Internal(_)));
@@ -30,12 +26,10 @@ fn an_empty_sequence_is_an_internal_error() {
 /// tell the error.
 #[test]
 fn a_start_on_a_much_finer_mesh_leaves_two() {
-    let mut case = Case::elastic(0.05, 0.2);
-    case.columns = 256;
+    let mut case = Case::elastic(0.05, 0.2).on_mesh(256, 14, 1);
     let start = case.solve(None).unwrap();
-    (case.columns, case.rows) = (64, 14);
+    case = case.on_mesh(64, 14, 1).with_settings([("finest_columns", 64.0)]);
     case.tolerance = Some(1e-3);
-    case.settings = Settings::new([("finest_columns", 64.0)]).unwrap();
     let solution = case.solve(Some(&start)).unwrap();
     assert_eq!(solution.finest.mesh.columns, 64);
     assert!(solution.finest.contact_fraction_error > 1e-3);
@@ -71,31 +65,20 @@ fn any_number_of_columns_has_a_coarser_mesh_to_be_judged_by() {
     assert_eq!(visited(128, Some(0.01), None), refined);
     assert_eq!(visited(128, None, None), [32, 64, 128]);
     assert_eq!(visited(100, None, None), [50, 100]);
-    assert_eq!(
-        visited(100, Some(0.01), None),
-        [50, 100, 200, 400, 800, 1600]
-    );
-    assert_eq!(
-        visited(258, Some(0.01), None),
-        [33, 65, 129, 258, 516, 1032]
-    );
+    assert_eq!(visited(100, Some(0.01), None), [50, 100, 200, 400, 800, 1600]);
+    assert_eq!(visited(258, Some(0.01), None), [33, 65, 129, 258, 516, 1032]);
     assert_eq!(visited(258, None, None), [33, 65, 129, 258]);
     assert_eq!(visited(63, None, None), [32, 63]);
     assert_eq!(visited(48, None, None), [24, 48]);
     assert_eq!(visited(15, None, None), [8, 15]);
     assert_eq!(visited(14, None, None), [14]);
-    assert_eq!(
-        visited(1023, Some(0.01), None),
-        [32, 64, 128, 256, 512, 1023, 2046]
-    );
+    assert_eq!(visited(1023, Some(0.01), None), [32, 64, 128, 256, 512, 1023, 2046]);
 }
 
 /// A start leaves two of the meshes that must be solved, and all that may follow them.
 #[test]
 fn a_start_needs_two_meshes() {
-    let mut case = Case::elastic(0.05, 0.2);
-    (case.columns, case.rows) = (32, 8);
-    let start = case.solve(None).unwrap();
+    let start = Case::elastic(0.05, 0.2).on_mesh(32, 8, 1).solve(None).unwrap();
     for columns in [65, 127, 128] {
         let sizes = visited(columns, None, Some(&start));
         assert_eq!(sizes, [columns.div_ceil(2), columns]);
@@ -107,9 +90,7 @@ fn a_start_needs_two_meshes() {
 /// tolerance says nothing about coarser meshes; one good to a fifth says that half of its columns suffice.
 #[test]
 fn a_start_much_better_than_the_tolerance_is_not_refined_to() {
-    let mut case = Case::elastic(0.05, 0.2);
-    case.columns = 256;
-    let mut start = case.solve(None).unwrap();
+    let mut start = Case::elastic(0.05, 0.2).on_mesh(256, 14, 1).solve(None).unwrap();
     start.finest.friction_error = 0.0;
     let mut good_to = |error: f64| {
         start.finest.contact_fraction_error = error;
@@ -124,32 +105,22 @@ fn a_start_much_better_than_the_tolerance_is_not_refined_to() {
 }
 
 fn zener(amplitude: f64, pressure: f64, time: f64) -> Case {
-    let mut case = Case::elastic(amplitude, pressure);
-    case.speed = 1.0;
-    case.moduli = vec![9.0];
-    case.relaxation_times = vec![time];
-    (case.columns, case.rows) = (32, 8);
-    case
+    Case::elastic(amplitude, pressure).sliding(1.0, &[(9.0, time)]).on_mesh(32, 8, 1)
 }
 
 /// Two nodes of 32 are in contact, with frictions a third apart: refined until both can be trusted.
 #[test]
 fn a_contact_of_few_nodes_is_refined() {
     let narrow = zener(1e-3, 4e-4, 0.02);
-    let mut kept = narrow.clone();
-    kept.settings = Settings::new([("finest_columns", 32.0)]).unwrap();
-    let coarse = kept.solve(None).unwrap().finest;
+    let coarse = narrow.clone().with_settings([("finest_columns", 32.0)]).finest();
     assert_eq!(coarse.report.status, Status::ContactTooNarrow);
     let coarser = coarse.coarser_columns();
     assert_eq!((coarse.mesh.columns, coarser), (32, Some(16)));
-    let fine = narrow.solve(None).unwrap().finest;
+    let fine = narrow.finest();
     assert_eq!(fine.report.status, Status::Converged);
     assert!(fine.mesh.columns > 32);
     assert!(fine.state.active_set.iter().filter(|&&a| a).count() >= 4);
-    let (traction, lost) = (
-        fine.outcome.friction,
-        fine.outcome.friction_from_dissipation,
-    );
+    let (traction, lost) = (fine.outcome.friction, fine.outcome.friction_from_dissipation);
     assert!((traction - lost).abs() <= fine.friction_bound.unwrap());
 }
 
@@ -157,18 +128,17 @@ fn a_contact_of_few_nodes_is_refined() {
 #[test]
 fn frictions_further_apart_than_the_bound_are_a_status() {
     let mut case = zener(0.05, 0.2, 0.05);
-    let plain = case.solve(None).unwrap().finest;
+    let plain = case.finest();
     assert_eq!(plain.report.status, Status::Converged);
     let outcome = &plain.outcome;
     let larger = outcome.friction.max(outcome.friction_from_dissipation);
     assert!((plain.friction_bound.unwrap() / larger - 0.05).abs() < 1e-12);
-    let changes = [("most_mismatch", 1e-6), ("finest_columns", 64.0)];
-    case.settings = Settings::new(changes).unwrap();
-    let strict = case.solve(None).unwrap().finest;
+    case = case.with_settings([("most_mismatch", 1e-6), ("finest_columns", 64.0)]);
+    let strict = case.finest();
     assert_eq!(strict.report.status, Status::FrictionsDisagree);
     assert_eq!(strict.mesh.columns, 64);
     case.speed = 0.0;
-    let still = case.solve(None).unwrap().finest;
+    let still = case.finest();
     assert_eq!(still.report.status, Status::Converged);
     assert_eq!((still.mesh.columns, still.friction_bound), (32, None));
 }
@@ -179,7 +149,7 @@ fn frictions_further_apart_than_the_bound_are_a_status() {
 fn a_gap_of_few_nodes_is_within_the_error() {
     let amplitude = 1e-3;
     let case = Case::elastic(amplitude, 0.995 * 4.0 * std::f64::consts::PI * amplitude);
-    let solution = case.solve(None).unwrap().finest;
+    let solution = case.finest();
     let exact = 0.95495;
     let error = (solution.outcome.contact_fraction - exact).abs();
     assert!(

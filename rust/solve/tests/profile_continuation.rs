@@ -4,10 +4,9 @@
 use std::f64::consts::TAU;
 
 use crate::contact::profile::Heights;
-use crate::settings::Settings;
 use crate::status::Status;
 
-use crate::case::{noise, Case};
+use crate::tests::fixture::{noise, Case};
 
 /// Heights of `waves` waves with slopes of about `slope` each at phases without structure.
 fn rough(waves: usize, slope: f64) -> Vec<f64> {
@@ -21,12 +20,8 @@ fn rough(waves: usize, slope: f64) -> Vec<f64> {
 }
 
 fn rough_case(waves: usize, slope: f64, speed: f64) -> Case {
-    let mut case = Case::elastic(0.1, 0.15);
-    (case.moduli, case.relaxation_times) = (vec![2.0], vec![0.05]);
-    case.speed = speed;
-    case.heights = Some(rough(waves, slope));
-    (case.columns, case.rows) = (128, 18);
-    case
+    let case = Case::elastic(0.1, 0.15).sliding(speed, &[(2.0, 0.05)]).on_mesh(128, 18, 1);
+    Case { heights: Some(rough(waves, slope)), ..case }
 }
 
 #[test]
@@ -50,20 +45,14 @@ fn waves_are_left_out_and_come_back() {
 #[test]
 fn the_way_to_the_solution_does_not_matter() {
     for speed in [0.0, 1.0] {
-        let mut case = rough_case(16, 0.15, speed);
-        let smooth_first = case.solve(None).unwrap().finest;
-        case.settings = Settings::new([("nodes_per_wave", 3.0)]).unwrap();
-        let raised = case.solve(None).unwrap().finest;
+        let case = rough_case(16, 0.15, speed);
+        let smooth_first = case.finest();
+        let raised = case.with_settings([("nodes_per_wave", 3.0)]).finest();
         for solution in [&smooth_first, &raised] {
-            assert!(solution.report.residual < 1e-8 && solution.load_reached == 1.0);
+            assert!(solution.report.residual < 1e-8 && solution.report.load_reached == 1.0);
         }
         let (a, b) = (&smooth_first.outcome, &raised.outcome);
-        assert!(
-            (a.friction - b.friction).abs() < 1e-7,
-            "{} {}",
-            a.friction,
-            b.friction
-        );
+        assert!((a.friction - b.friction).abs() < 1e-7, "{} {}", a.friction, b.friction);
         assert!((a.contact_fraction - b.contact_fraction).abs() < 1e-7);
         // The errors of both are estimated from the mesh of half the columns, whichever was solved first.
         assert_eq!(smooth_first.coarser_columns(), Some(64));
@@ -76,17 +65,12 @@ fn the_way_to_the_solution_does_not_matter() {
 /// nodes to the smallest.
 #[test]
 fn a_profile_too_rough_for_the_mesh_says_so() {
-    let mut case = rough_case(20, 3.0, 1.0);
-    let hasty = [
-        ("roughening_iterations", 3.0),
-        ("smallest_roughening", 1.0),
-        ("rescue_columns", 128.0),
-    ];
-    case.settings = Settings::new(hasty).unwrap();
-    let solution = case.solve(None).unwrap();
+    let hasty =
+        [("roughening_iterations", 3.0), ("smallest_roughening", 1.0), ("rescue_columns", 128.0)];
+    let solution = rough_case(20, 3.0, 1.0).with_settings(hasty).solve(None).unwrap();
     assert_eq!(solution.finest.report.status, Status::ProfileTooRough);
     assert!((1..20).contains(&solution.waves_carried.unwrap()));
-    assert_eq!(solution.finest.load_reached, 0.0);
+    assert_eq!(solution.finest.report.load_reached, 0.0);
     let smooth = rough_case(16, 0.15, 1.0).solve(None).unwrap();
     assert_eq!(smooth.waves_carried, None);
 }

@@ -16,8 +16,7 @@ use crate::solve::krylov::{self, Accuracy};
 use crate::solve::newton_step::{Increment, Iterate};
 use crate::solve::residual::Residual;
 
-use crate::case::{Case};
-use crate::test_fields::{mesh, serial};
+use crate::tests::fixture::{energies, mesh, serial, Case};
 
 /// Entries and right-hand side; the unknowns are the displacements of a field, the lid's among
 /// them, its pressures, the changes of the forces on the active set, and the approach.
@@ -146,10 +145,8 @@ fn eliminated(
 ) -> Vec<f64> {
     let active_nodes: Vec<usize> = (0..active_set.len()).filter(|&a| active_set[a]).collect();
     let field = state.field.u.len() + state.field.pressure.len();
-    let mut system = System {
-        entries: Vec::new(),
-        right: vec![0.0; field + active_nodes.len() + 1],
-    };
+    let mut system =
+        System { entries: Vec::new(), right: vec![0.0; field + active_nodes.len() + 1] };
     add_elements(&mut system, pressed, state);
     add_contact(&mut system, pressed, state, &active_nodes, load);
     system.solve()
@@ -163,17 +160,10 @@ fn compare(
     sampling: Sampling,
     mut increment: impl FnMut(&PressedBlock<'_>, &State, &[RowState], f64) -> (Increment, Vec<bool>),
 ) {
-    let energies = [
-        ("neo_hookean", vec![]),
-        ("mooney_rivlin", vec![("share", 0.3)]),
-        ("yeoh", vec![("second", -0.05), ("third", 0.02)]),
-    ];
     for (order, columns, rows) in [(1, 32, 9), (2, 16, 5)] {
-        for energy in &energies {
-            let mut case = Case::elastic(0.12, 0.6);
-            (case.order, case.columns, case.rows) = (order, columns, rows);
-            case.energy = energy.clone();
-            (case.speed, case.moduli, case.relaxation_times) = (1.0, vec![0.3], vec![0.15]);
+        for energy in &energies() {
+            let case = Case::elastic(0.12, 0.6).sliding(1.0, &[(0.3, 0.15)]);
+            let case = Case { energy: energy.clone(), ..case.on_mesh(columns, rows, order) };
             let problem = case.problem().unwrap();
             let solved = case.solve(None).unwrap();
             assert_eq!(solved.finest.mesh.columns, columns);
@@ -227,7 +217,8 @@ fn a_step_by_iteration_is_that_of_sparse_elimination() {
                 residual_norm: residual.norm(pressed, state, load),
             };
             let accuracy = Accuracy { share, least };
-            let step = krylov::increment(pressed, iterate, None, load, accuracy, &settings).unwrap();
+            let step =
+                krylov::increment(pressed, iterate, None, load, accuracy, &settings).unwrap();
             assert_ne!(step.contact.active_set, state.active_set);
             let active_set = step.contact.active_set.clone();
             (step, active_set)

@@ -1,0 +1,172 @@
+//! The gap of the points in contact, extended to open points of a periodic line or map; the bindings' alone: E of
+//! `gripscale.half_space.active_set`, which has the formulas.
+
+use std::f32::consts::FRAC_2_PI;
+
+/// Extension of gaps on one set of points in contact.
+pub struct GapExtension {
+    points: usize,
+    kind: Kind,
+}
+
+enum Kind {
+    Line(LineExtension),
+    Map(MapExtension),
+}
+
+impl GapExtension {
+    /// Extend over each gap of a line: linearly, or as a harmonic function of contacts `reach` times as long.
+    pub fn of_line(active: &[bool], reach: Option<f32>) -> Self {
+        let kind = Kind::Line(LineExtension::new(active, reach));
+        Self { points: active.len(), kind }
+    }
+
+    /// Extend to the points of a map beside contacts; `far` is the weight of all farther points.
+    pub fn of_map(active: &[bool], columns: usize, far: f32) -> Self {
+        let kind = Kind::Map(MapExtension::new(active, columns, far));
+        Self { points: active.len(), kind }
+    }
+
+    /// Number of points of the line or map.
+    pub fn points(&self) -> usize {
+        self.points
+    }
+
+    /// Set the open points; `values` is the gap in contact, and zero elsewhere.
+    pub fn extend(&self, values: &mut [f32]) {
+        match &self.kind {
+            Kind::Line(line) => line.extend(values),
+            Kind::Map(map) => map.extend(values),
+        }
+    }
+}
+
+/// The gaps of a line, one after the other.
+struct LineExtension {
+    /// First point and number of points of each; it may go on at the start of the line.
+    gaps: Vec<(usize, usize)>,
+    /// Weights of the ends before and after each open point.
+    weights: Vec<[f32; 2]>,
+}
+
+impl LineExtension {
+    fn new(active: &[bool], reach: Option<f32>) -> Self {
+        let points = active.len();
+        let begins = |&i: &usize| active[i] && !active[(i + points - 1) % points];
+        let contacts: Vec<usize> = (0..points).filter(begins).collect();
+        let length =
+            |start: usize| (0..points).take_while(|k| active[(start + k) % points]).count();
+        let lengths: Vec<usize> = contacts.iter().map(|&start| length(start)).collect();
+        let (mut gaps, mut weights) = (Vec::new(), Vec::new());
+        for (k, (&start, &length)) in contacts.iter().zip(&lengths).enumerate() {
+            let following = (k + 1) % contacts.len();
+            let first = start + length;
+            let count = (contacts[following] + 2 * points - first - 1) % points + 1;
+            gaps.push((first % points, count));
+            weights.extend((1..=count).map(|before| {
+                let ends = [before as f32, (count + 1 - before) as f32];
+                match reach {
+                    None => [ends[1], ends[0]].map(|far| far / (ends[0] + ends[1])),
+                    Some(reach) => {
+                        let [lower, upper] = [length, lengths[following]].map(|n| reach * n as f32);
+                        [harmonic(lower, ends[0], ends[1]), harmonic(upper, ends[1], ends[0])]
+                    }
+                }
+            }));
+        }
+        Self { gaps, weights }
+    }
+
+    fn extend(&self, values: &mut [f32]) {
+        let (points, mut weights) = (values.len(), self.weights.iter());
+        for &(first, count) in &self.gaps {
+            let ends = [values[(first + points - 1) % points], values[(first + count) % points]];
+            for (k, [before, after]) in weights.by_ref().take(count).enumerate() {
+                let at = first + k;
+                values[if at < points { at } else { at - points }] =
+                    before * ends[0] + after * ends[1];
+            }
+        }
+    }
+}
+
+/// Harmonic measure of a contact of the `length`, at the distance `near` from it in a gap that ends at `far`.
+fn harmonic(length: f32, near: f32, far: f32) -> f32 {
+    FRAC_2_PI * (length * far / ((length + near + far) * near)).sqrt().atan()
+}
+
+/// Weight of a neighbour along an axis and across, 1/distance^3.
+const STRAIGHT: f32 = 1.0;
+const DIAGONAL: f32 = 0.353_553_4;
+
+/// The open points of a map next to contacts, row after row.
+struct MapExtension {
+    rows: usize,
+    columns: usize,
+    /// Where the points of each row begin, and the end of the last.
+    starts: Vec<usize>,
+    column: Vec<u32>,
+    /// One over the weights of the neighbours in contact and of all farther points.
+    share: Vec<f32>,
+}
+
+impl MapExtension {
+    /// Find the points beside `active`, rows of so many `columns`; `far` is the weight of all farther points.
+    fn new(active: &[bool], columns: usize, far: f32) -> Self {
+        let rows = active.len() / columns;
+        let row = |i: usize| &active[i % rows * columns..][..columns];
+        let (mut starts, mut column, mut share) = (vec![0], Vec::new(), Vec::new());
+        let mut near = vec![false; columns];
+        for i in 0..rows {
+            let around = [row(i + rows - 1), row(i), row(i + 1)];
+            for (j, near) in near.iter_mut().enumerate() {
+                *near = around[0][j] | around[1][j] | around[2][j];
+            }
+            for j in 0..columns {
+                let (left, right) = beside(j, columns);
+                if around[1][j] || !(near[left] | near[j] | near[right]) {
+                    continue;
+                }
+                let count = |straight: [bool; 4], diagonal: [bool; 4]| {
+                    STRAIGHT * straight.iter().map(|&on| f32::from(on)).sum::<f32>()
+                        + DIAGONAL * diagonal.iter().map(|&on| f32::from(on)).sum::<f32>()
+                };
+                let weight = count(
+                    [around[0][j], around[2][j], around[1][left], around[1][right]],
+                    [around[0][left], around[0][right], around[2][left], around[2][right]],
+                );
+                column.push(j as u32);
+                share.push(1.0 / (weight + far));
+            }
+            starts.push(column.len());
+        }
+        Self { rows, columns, starts, column, share }
+    }
+
+    fn extend(&self, values: &mut [f32]) {
+        let row = |i: usize| i % self.rows * self.columns;
+        // no point beside a contact may be read as a neighbour after it is set
+        let mut extended = Vec::with_capacity(self.column.len());
+        for i in 0..self.rows {
+            let [above, here, below] = [row(i + self.rows - 1), row(i), row(i + 1)]
+                .map(|at| &values[at..at + self.columns]);
+            for k in self.starts[i]..self.starts[i + 1] {
+                let j = self.column[k] as usize;
+                let (left, right) = beside(j, self.columns);
+                let straight = above[j] + below[j] + here[left] + here[right];
+                let diagonal = above[left] + above[right] + below[left] + below[right];
+                extended.push(self.share[k] * (STRAIGHT * straight + DIAGONAL * diagonal));
+            }
+        }
+        for i in 0..self.rows {
+            for k in self.starts[i]..self.starts[i + 1] {
+                values[row(i) + self.column[k] as usize] = extended[k];
+            }
+        }
+    }
+}
+
+fn beside(j: usize, columns: usize) -> (usize, usize) {
+    let left = if j == 0 { columns - 1 } else { j - 1 };
+    (left, if j + 1 == columns { 0 } else { j + 1 })
+}
