@@ -26,13 +26,12 @@ QUESTIONS = {
     "cut-off": ["cut-off", str(CASE)],
     "design, 7 points": ["design", str(CASE)],
     "uncertainty, 20 samples": ["uncertainty", str(CASE), "--samples", "20"],
-    "slip": ["slip", str(CASE)],
     "compare-rubbers": ["compare-rubbers", str(CASE), "styrene_butadiene"],
     "compare-surfaces": ["compare-surfaces", str(CASE), "synthetic_dense_asphalt"],
 }
 """Names and command lines."""
 FIRST_SECONDS, MOST_SECONDS = 5.0, 20.0
-_NUMBER = re.compile(r"(friction|μ|more E″|braking force)\D*\d")
+_NUMBER = re.compile(r"(friction|μ|more E″)\D*\d")
 _START = "from gripscale.cli import main; main()"
 
 

@@ -17,8 +17,8 @@ import gripscale as gs
 from gripscale.case_file import read_case
 from gripscale.charts.draw import FigureFolder
 from gripscale.conditions import GaussianStress
-from gripscale.experiment import MeasuredFriction, Store
-from gripscale.questions import predictions_at
+from gripscale.experiment import Bench, MeasuredFriction, Store, solve_design
+from gripscale.questions import measured_design, predicted_of
 
 CASE = Path(__file__).parent / "measured_friction" / "case.toml"
 TRUE = GaussianStress(
@@ -43,8 +43,8 @@ def measure(folder: str | Path) -> list[str]:
     )
     points = MeasuredFriction(speed, np.zeros(speed.size), temperature=celsius + 273.15)
     case = read_case(CASE)
-    store = Store(Path(folder) / "predictions")
-    found = predictions_at(points, case.chain, case.rubber, case.surface, case.load, store)
+    design = measured_design(points, case.chain, case.rubber, case.surface, case.load)
+    found = predicted_of(solve_design(design, Bench(Store(Path(folder) / "predictions"))))
     exact = found.friction + found.area_term(TRUE, points.speed)
     friction = np.random.default_rng(SEED).normal(exact, SPREAD)
     columns = points.speed, points.temperature - 273.15, friction
@@ -63,16 +63,14 @@ def main(folder: str = "results/examples") -> None:
     for fitted in result.estimates:
         name, value, true = fitted.name, fitted.value, getattr(TRUE, fitted.name)
         print(f"{name}: {value:.4g}, {fitted.low:.4g} to {fitted.high:.4g}; true {true:.4g}")
-    assert result.fit is not None
-    for left_out in result.fit.held_out:
-        celsius = left_out.value - 273.15
-        print(f"{celsius:.0f} C from the others: rms {left_out.rms_outside:.3f}")
+    for kelvin, rms in zip(
+        result.data.left_out.values, result.data.rms_outside.values, strict=True
+    ):
+        print(f"{kelvin - 273.15:.0f} C from the others: rms {rms:.3f}")
     wrong = gs.calibrate(
         read_case(CASE), model="chain", law="constant", hold_out="temperature", folder=target
     )
-    assert wrong.fit is not None
-    worst = max(group.rms_outside for group in wrong.fit.held_out)
-    print(f"with a constant stress: rms up to {worst:.3f}")
+    print(f"with a constant stress: rms up to {float(wrong.data.rms_outside.max()):.3f}")
     figures = FigureFolder(target)
     for name, figure in result.figures():
         figures.save(figure, name)

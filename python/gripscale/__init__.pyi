@@ -38,8 +38,6 @@ from .questions.page_of_folder import load as load
 from .questions.result import Result as Result
 from .questions.sensitivity.question import Sensitivity as Sensitivity
 from .questions.sensitivity.question import sensitivity as sensitivity
-from .questions.slip.question import SlipCurve as SlipCurve
-from .questions.slip.question import slip_curve as slip_curve
 from .questions.uncertainty.question import uncertainty as uncertainty
 from .questions.vary.question import Variation as Variation
 from .questions.vary.question import vary as vary

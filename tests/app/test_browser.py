@@ -184,7 +184,7 @@ def test_results_are_those_of_the_files(whole_way: AppVisit, tmp_path: Path) -> 
         whole_way.page.get_by_text("Save everything").click()
     found.value.save_as(tmp_path / "all.zip")
     names = zipfile.ZipFile(tmp_path / "all.zip").namelist()
-    assert {"run-2/chain.nc", "run-2/report.txt", "run-2/report.html"} <= set(names)
+    assert {"run-2/chain.nc", "run-2/report.html"} <= set(names)
     assert {"run-2/case.toml", "run-2/inputs/road.txt"} <= set(names)
 
 

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 
 from gripscale.questions import contact_figure
 from gripscale.questions.answer.variables import ANSWER, JUDGE
-from gripscale.questions.calibration.question import profiles_figure
 from gripscale.questions.cut_off.curve import AREA, FRICTION, SLOPE_IN_CONTACT
 from gripscale.questions.cut_off.question import cut_off_sheet
 from gripscale.questions.uncertainty.charts import distribution_figure
@@ -82,34 +81,6 @@ def test_distributions_show_the_answer_and_name_every_mark() -> None:
         width = math.exp(math.asinh(0.26))
         assert left < best / width
         assert right > best * width
-
-
-def calibration(series: int, parameters: int) -> xr.Dataset:
-    """Return residuals of several temperatures and profiles of several parameters."""
-    points, value = 4 * series, np.linspace(1.0, 2.0, 9)
-    kelvin = np.repeat(300.0 + 20.0 * np.arange(series), 4) if series > 1 else [math.nan] * 4
-    measured = {
-        "friction": np.full(points, 0.5), "spread": [math.nan] * points, "temperature": kelvin,
-        "speed": np.tile([0.01, 0.1, 1.0, 10.0], series), "pressure": [math.nan] * points,
-    }  # fmt: skip
-    data = xr.Dataset({f"measured_{name}": ("point", v) for name, v in measured.items()})
-    data["difference"] = ("point", np.linspace(-0.05, 0.05, points))
-    data["difference_in_spread"] = ("point", [math.nan] * points)
-    data["profile_value"] = (("parameter", "at"), np.tile(value, (parameters, 1)))
-    data["profile_excess"] = (("parameter", "at"), np.tile((value - 1.5) ** 2, (parameters, 1)))
-    for name, number in (("low", 1.2), ("high", 1.8), ("estimate", 1.5)):
-        data[name] = ("parameter", [number] * parameters)
-    data["unit"] = ("parameter", ["1"] * parameters)
-    names = ["stress_0", "width", "speed_0", "activation_energy"]
-    data["parameter"] = ("parameter", names[:parameters])
-    return data.assign_attrs(scatter=0.03, threshold=0.1, level=0.9)
-
-
-@pytest.mark.parametrize("parameters", [1, 2, 3, 4])
-def test_profiles_leave_no_panel_empty(parameters: int) -> None:
-    figure = profiles_figure(calibration(1, parameters))
-    assert len(figure.axes) == parameters
-    assert all(axes.get_visible() for axes in figure.axes)
 
 
 def test_rules_of_cut_off_on_each_other_are_one_line_with_both_names() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -14,17 +13,12 @@ from matplotlib.image import imread
 from gripscale.charts.chart import CrossLine, Panel, Series
 from gripscale.charts.draw import Sheet
 from gripscale.charts.paper import figure_file
-from gripscale.charts.style import INK, RED
 from gripscale.half_space.location import with_traces
 from gripscale.questions.answer.charts import (
     height_figure,
     named_traces,
-    summary_sheet,
     trace_sheet,
 )
-from gripscale.questions.inputs.record import rubber_variables
-from gripscale.report.elements import Card
-from tests.samples import MAXWELL
 
 SUMMIT, HALF = 60e-3, 50e-6
 """Middle of the contact and half its length [m]."""
@@ -101,36 +95,6 @@ def test_the_legend_names_a_pressure_and_its_height() -> None:
     close = trace_sheet(made_up_trace()).panels[-1]
     (text,) = (m.label for m in close.marks if "pressure" in getattr(m, "label", ""))
     assert text == "pressure, 100 MPa is 0.05 mm high"
-
-
-SLIDE = 960
-"""Width of a slide at half its size [px]: letters of 9 pixels can be read."""
-
-
-def test_the_summary_is_a_slide_that_can_be_read_at_half_its_size() -> None:
-    inputs = xr.Dataset(rubber_variables(MAXWELL, None, None, np.empty(0))[0])
-    cards = [
-        Card("Friction coefficient μ", "0.158", "answer", interval="0.127 to 0.196 (90 %)"),
-        Card("Real contact area A_r/A_0", "0.0282", "not to be relied on", bad=True),
-    ]
-    figure = drawn(summary_sheet(made_up_trace(), inputs, cards, "for 3 bar and 0.3 m/s"))
-    width, height = figure.get_size_inches()
-    assert width / height == pytest.approx(16 / 9)
-    numbers, close, *_ = figure.axes
-    texts = {text.get_text(): text for text in numbers.texts}
-    assert {"0.158", "0.127 to 0.196 (90 %)", "0.0282", "not to be relied on"} <= texts.keys()
-    assert (texts["0.158"].get_color(), texts["0.0282"].get_color()) == (INK, RED)
-    assert close.get_aspect() == 1.0
-    pixels = imread(io.BytesIO(figure_file(figure)))
-    assert (pixels[:3] == 1.0).all()
-    assert (pixels[-3:] == 1.0).all()
-    words = [text for axes in figure.axes for text in axes.texts]
-    words += [axes.xaxis.label for axes in figure.axes] + [axes.title for axes in figure.axes]
-    letters = min(text.get_fontsize() for text in words)
-    assert letters / 72.0 * SLIDE / width >= 9.0
-    boxes = [text.get_window_extent() for text in numbers.texts]
-    for upper, lower in pairwise(sorted(boxes, key=lambda box: -box.y1)):
-        assert upper.y0 >= lower.y1 - 2.0, "lines lie on each other"
 
 
 def frames(figure: Figure) -> list[tuple[float, float]]:

@@ -14,7 +14,7 @@ from gripscale.core.errors import GripscaleError
 from gripscale.questions.result import Result
 from tests.public_objects import public_objects, write_files
 
-SLOW = {"calibrate", "slip_curve", "uncertainty"}
+SLOW = {"calibrate", "uncertainty"}
 """Seconds each."""
 MADE_BY_FUNCTIONS = {
     *("BelowMeasurement", "ChainResult", "GapFlow", "HeightDifference", "RoughContact"),

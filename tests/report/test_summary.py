@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.core.finding import doubt, to_json
-from gripscale.questions.summary_table import summary_table
+from gripscale.questions.result_json import summary_table
 
 UNIT = {"units": "1"}
 

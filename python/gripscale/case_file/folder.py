@@ -114,11 +114,11 @@ _FIGURES = (
 AT_TIMES = ("cut_off", "heat", "superposition", "superposition_tests", "shift")
 # Everything a run may write into its folder, beside copies of the files the case names.
 RESULT_FILES = (
-    *(SAVED_CASE, "report.html", "report.txt", "answer.nc", "chain.nc", "cut_off.nc"),
+    *(SAVED_CASE, "report.html", "answer.nc", "chain.nc", "cut_off.nc"),
     *(f"figures/{name}.{kind}" for name in (*_FIGURES, *AT_TIMES) for kind in get_args(FigureKind)),
 )
 # What earlier versions wrote as well.
-_OF_OTHER_VERSIONS = (".finished.json", "chain.txt", "dynamic.nc", "static.nc")
+_OF_OTHER_VERSIONS = (".finished.json", "chain.txt", "dynamic.nc", "static.nc", "report.txt")
 
 CASE_NOTE = ".case"  # the case whose results are in a folder, by its path from there
 

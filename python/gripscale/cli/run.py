@@ -18,7 +18,7 @@ def run(
         Path | None, option("Results folder, instead of the one in the case.", metavar="DIR")
     ] = None,
     verbose: Annotated[
-        bool, typer.Option("--verbose", help="Print all of report.txt: inputs and every table.")
+        bool, typer.Option("--verbose", help="Print inputs and every table, too.")
     ] = False,
     figures: Annotated[
         bool, typer.Option("--figures", help="Write figures as files, too: PNG if nothing else.")

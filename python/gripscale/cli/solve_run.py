@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
     from gripscale.case import Case
 
 Parts = list[str | Table]
-TEXT, WIDTH = "report.txt", 110  # name of the report, and characters of its lines
 
 
 def solve_run(
@@ -46,8 +46,8 @@ def solve_run(
 ) -> None:
     """Solve, print and write a case: its answer, and the chain of waves beside it.
 
-    Inputs and further tables are printed if `verbose`; the report has them. Figures are on the
-    page, and also files if `figures`, if the case says so, or where no page can be written.
+    Inputs and further tables are printed if `verbose`. Figures are on the page, and also files if
+    `figures`, if the case says so, or where no page can be written.
     """
     case, console = work.case, work.console
     rubber, load, measured = case.rubber_before, case.load, case.surface.measured is not None
@@ -58,10 +58,10 @@ def solve_run(
     work.open_results(target, "", header)
     solving = "the direct contact" if measured else "the chain of waves"
     terminal.show_step(console, f"solving {solving} ...")
-    result, inputs = answer(case, folder=target), _inputs(case)
+    result = answer(case, folder=target)
     terminal.end_steps()
-    findings = warning_lines(result.findings, TEXT, result.half_widths)
-    more = ["", *inputs] if verbose else []
+    findings = warning_lines(result.findings, terminal.ON_PAGE, result.half_widths)
+    more = ["", *_inputs(case)] if verbose else []
     terminal.print_parts(console, ["", *result.lines, *findings, *more])
     folder.prepare(target, work.file)
     if measured:
@@ -74,18 +74,16 @@ def solve_run(
     if result.curve is not None:
         cut_off_result(result.curve, case).save(target / CURVE_FILE)
     by_default = ["png"] if figures or not all(map(find_spec, ("bokeh", "jinja2"))) else []
-    kinds: list[str] = [*(work.file.case.output.figures or by_default)]
-    opening: Parts = [f"{header}: {case.title}", "", *inputs]
-    _conclude(work, result, opening, verbose=verbose, kinds=kinds)
+    _conclude(work, result, verbose, [*(work.file.case.output.figures or by_default)])
 
 
 def _conclude(
-    work: terminal.CaseCommand, result: Answer, opening: Parts, *, verbose: bool, kinds: list[str]
+    work: terminal.CaseCommand, result: Answer, verbose: bool, kinds: Sequence[str]
 ) -> None:
-    """Print what stands below the answer; write report, figures and page.
+    """Print what stands below the answer; write figures, as files of all `kinds`, and page.
 
-    The report begins with the answer and `opening`. All but the chain of a measured surface, in
-    brief, and how it compares is printed where it is asked for. Figures are files of all `kinds`.
+    Of the chain of a measured surface only the waves in brief and how it compares, unless
+    `verbose`.
     """
     case, target = work.case, work.target
     assert result.chain is not None
@@ -95,8 +93,7 @@ def _conclude(
         parts += ["", *(line.strip() for line in curve.lines[1:]), curve.rules_table()]
     if case.surface.measured is not None:
         tables = parts if verbose else [waves_in_brief(result.chain)]
-        terminal.print_parts(work.console, ["", *tables])
-        opening, parts = [*opening, "", *parts], [judgement(result.chain, result.data)]
+        parts = [*tables, judgement(result.chain, result.data)]
 
     def draw() -> None:
         if not kinds:
@@ -112,10 +109,7 @@ def _conclude(
         result,
         parts,
         answer_printed=True,
-        text=TEXT,
-        closing=f"Results{', report and figures' if kinds else ' and report'} are in",
-        opening=opening,
-        width=WIDTH,
+        closing=f"Results{' and figures' if kinds else ''} are in",
         draw=draw,
     )
     if verbose:

@@ -48,12 +48,8 @@ _WORDS = {
     "pressure": r"pressure|(nominal|contact) pressure|p|druck|pression|presi(ó|o)n|pressione|压力",
 }
 
-# Kind of unit of a column, and the unit it is in where the title names none, if that is clear.
-_UNITS: dict[str, tuple[str, str | None]] = {
-    "speed": ("speed", "m/s"),
-    "temperature": ("temperature", None),
-    "pressure": ("pressure", "Pa"),
-}
+# Unit of a column, of the kind it is called by, where the title names none, if that is clear.
+_UNITS = {"speed": "m/s", "temperature": None, "pressure": "Pa"}
 
 # Columns that may be absent, and where values may be missing, with their units.
 _OPTIONAL = {"spread": "", "temperature": "K", "pressure": "Pa"}
@@ -142,7 +138,7 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
     table = read_table(
         path,
         "rows of speed and friction, with titles above them",
-        kinds=tuple(kind for kind, _ in _UNITS.values()),
+        kinds=tuple(_UNITS),
         named=lambda title: _word(title) is not None,
         sheet=sheet,
     )
@@ -156,10 +152,9 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
             values = table.numbers(at, f"a {word}", missing=word in _OPTIONAL)
             columns[word] = _in_si(path, word, column, values)
             if word in _UNITS and column.unit is None:
-                kind, usual = _UNITS[word]
                 assumed.append(
-                    f"The unit of {word} in {path.name} is not stated and {usual} is assumed: "
-                    f"write it in the title, such as '{word} [{list(UNITS[kind])[1]}]'."
+                    f"The unit of {word} in {path.name} is not stated and {_UNITS[word]} is "
+                    f"assumed: write it in the title, such as '{word} [{list(UNITS[word])[1]}]'."
                 )
     absent = [word for word in ("speed", "friction") if word not in columns]
     if absent:
@@ -220,19 +215,18 @@ def _in_si(path: Path, word: str, column: ColumnTitle, values: Array) -> Array:
                 f"{path}: {word} has no unit; got {checks.short_repr(column.unit)} in its title"
             )
         return values
-    kind, usual = _UNITS[word]
-    unit = column.unit or usual
+    unit = column.unit or _UNITS[word]
     if unit is None:
         raise FileError(
-            f"{path}: {word} must have its unit in its title ({listed(kind)}), such as "
+            f"{path}: {word} must have its unit in its title ({listed(word)}), such as "
             f"'{word} [C]'; got '{column.name}'",
             missing=word,
         )
-    if spelled(unit, kind) is None:
+    if spelled(unit, word) is None:
         raise FileError(
-            f"{path}: {word} must be in one of {listed(kind)}; got {checks.short_repr(unit)}"
+            f"{path}: {word} must be in one of {listed(word)}; got {checks.short_repr(unit)}"
         )
-    return quantity_in_si(values, unit, kind)
+    return quantity_in_si(values, unit, word)
 
 
 @dataclass(frozen=True)
@@ -265,12 +259,12 @@ MEASURED = {
 }
 
 
-def measured_variables(
-    measured: MeasuredFriction, dim: str = "measurement"
-) -> dict[str, xr.Variable]:
-    """Return the columns of a measurement as variables over a dimension."""
+def measured_variables(measured: MeasuredFriction) -> dict[str, xr.Variable]:
+    """Return the columns of a measurement as variables over `measurement`."""
     columns = {
-        f"measured_{name}": labelled(dim, getattr(measured, name), unit, text, measured.source)
+        f"measured_{name}": labelled(
+            "measurement", getattr(measured, name), unit, text, measured.source
+        )
         for name, (unit, text) in MEASURED.items()
     }
     if measured.assumed:

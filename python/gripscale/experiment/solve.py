@@ -3,17 +3,14 @@
 Answers are written by the calling thread only, in whatever order they come; an answer depends on
 its task alone, so neither the order nor the number of workers changes a bit of it.
 
-On one machine the workers are threads: a chain spends nearly all its time in the compiled kernel,
-which leaves Python's lock free. Measured on two cores with six chains of eight waves: one thread
-7.8 s, two threads 4.6 s, two processes 3.9 s once they have started, which takes them 1 to 2 s.
-Threads need no guard in the caller's script. The direct contact takes the lock between its linear
-systems: 80 samples of an uncertainty took 38 s of two threads and 36 s of two processes. On more
-cores `client="processes"` is worth its start; the caller's script then needs the guard
+On one machine the workers are threads: a model spends nearly all its time in the compiled kernel,
+which leaves Python's lock free, and threads need no guard in the caller's script. On many cores
+`client="processes"` is worth its start (docs/uncertainty.md); the script then needs the guard
 `if __name__ == "__main__"`.
 
-On a Dask cluster (`pip install gripscale[cluster]`) tasks go to whatever workers there are and
-answers come back to the caller, which stores them: the workers need gripscale but no common file
-system. A worker that dies loses only the prediction it was solving; its tasks go to the others.
+On a Dask cluster (`pip install gripscale[cluster]`) answers come back to the caller, which stores
+them: the workers need gripscale but no common file system. A worker that dies loses only the
+prediction it was solving; its tasks go to the others.
 """
 
 from __future__ import annotations
@@ -35,8 +32,7 @@ from typing import Any
 
 import xarray as xr
 
-from gripscale.core import provenance
-from gripscale.core.errors import ConvergenceError, InputError, RubberWarning
+from gripscale.core import ConvergenceError, InputError, RubberWarning, provenance
 from gripscale.core.parallel import in_threads, sharing, worker_count
 from gripscale.core.provenance import software
 from gripscale.experiment.task import PREDICTIONS, Solved, Store, Task

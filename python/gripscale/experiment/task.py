@@ -105,14 +105,6 @@ def canonical_json(value: Any) -> Any:
     )
 
 
-def load_stored(path: Path) -> xr.Dataset | None:
-    """Return the Dataset at `path`, or None if it is not there whole."""
-    try:
-        return netcdf.load_dataset(path)
-    except FileError:
-        return None
-
-
 PREDICTIONS = "predictions"  # folder of the finished predictions, in the folder of a result
 
 
@@ -140,8 +132,11 @@ class Store:
 
     def get(self, key: str) -> xr.Dataset | None:
         """Return the prediction of `key`, or None if it is not there whole."""
-        data = load_stored(self.path(key))
-        return data if data is not None and data.attrs.get("prediction_key") == key else None
+        try:
+            data = netcdf.load_dataset(self.path(key))
+        except FileError:
+            return None
+        return data if data.attrs.get("prediction_key") == key else None
 
     def put(self, key: str, solved: xr.Dataset) -> Path:
         """Write the prediction of `key`; return the path of its file.

@@ -30,18 +30,11 @@ def load(path: str | Path) -> Any:
     path : path
         A file that `Result.save` or a command wrote.
     """
-    result = result_of(netcdf.load_tree(path))
-    if result is None:
-        expected = ", ".join(registry.kinds())
-        raise FileError(f"{path} holds no result of a question ({expected})")
-    return result
-
-
-def result_of(tree: xr.DataTree) -> Any:
-    """Return the result that a file holds; None where it is of no question."""
+    tree = netcdf.load_tree(path)
     kind = registry.result_class(str(tree.attrs.get(KIND, "")))
     if kind is None:
-        return None
+        expected = ", ".join(registry.kinds())
+        raise FileError(f"{path} holds no result of a question ({expected})")
     inputs = tree.children.get(INPUT_GROUP, xr.DataTree()).to_dataset(inherit=False)
     return kind(with_present_names(tree.to_dataset()), inputs)
 
@@ -117,14 +110,7 @@ def read_result(path: Path) -> Result:
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
     """
     if not path.is_dir():
-        if not path.exists():
-            raise FileError(f"result {path} does not exist")
-        result: Result | None = result_of(netcdf.load_tree(path))
-        if result is None:
-            raise FileError(
-                f"{path} has no report: it is no result of a {KINDS_OF_REPORTS}; a results folder "
-                "has one"
-            )
+        result: Result = load(path)
         return result
     if (path / ANSWER_FILE).is_file():
         return read_run(path)

@@ -29,7 +29,6 @@ QUESTIONS = [
     "gripscale.questions.sensitivity",
     "gripscale.questions.design",
     "gripscale.questions.cut_off",
-    "gripscale.questions.slip",
     "gripscale.questions.calibration",
 ]
 

@@ -19,9 +19,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import xarray as xr
 
+from gripscale.core import Finding, InputError, Severity
 from gripscale.core.described import Described, with_figure
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity
 from gripscale.io import netcdf
 from gripscale.io.table import Table, as_text
 from gripscale.questions.answer.variables import described
@@ -207,10 +206,9 @@ def warning_lines(
     """Yield the ranked findings that stand open as lines; `rest` has them all.
 
     These are the first `_MOST_OPEN` of those that may change a number of the result by more than
-    its half width in `widths`, which are relative. Without `rest` all stand open.
+    its half width in `widths`, which are relative.
     """
     counting = [finding for finding in findings if finding.exceeds(widths)][:_MOST_OPEN]
-    counting = counting if rest else list(findings)
     if counting:
         yield "Warnings, by what they change:"
     yield from (f"  {finding.sentence}" for finding in counting)

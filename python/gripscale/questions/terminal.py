@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.status import Status
 
-    from gripscale.case import Case, NamedFile
+    from gripscale.case import Case
     from gripscale.experiment.solve import Progress
     from gripscale.io.table import Table
     from gripscale.questions.result import Result
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 # Exit codes: an input that cannot be used, a wave without solution, stopped from outside.
 BAD_INPUT, _NOT_CONVERGED, STOPPED = 2, 3, 130
 READING = "reading and fitting the measurements ..."
+ON_PAGE = "report.html"  # where all findings of a command stand
 PLAIN_WIDTH = 100  # characters per line where there is no terminal to ask
 P = ParamSpec("P")
 
@@ -140,21 +141,6 @@ def end_steps() -> None:
     if status is not None:
         status.stop()
         _STATUS.set(None)
-
-
-def print_result(result: Result, case: Path, files: Sequence[NamedFile]) -> None:
-    """Print a result of a case and its files as `--quiet` or `--json` ask for; else nothing."""
-    from gripscale.questions.result import warning_lines
-    from gripscale.questions.result_json import result_as_json
-
-    manner = MANNER.get()
-    if manner.json:
-        typer.echo(result_as_json(result, str(case), files))
-    elif manner.quiet:
-        console = screen()
-        console.quiet = False
-        lines = warning_lines(result.findings, widths=result.half_widths)
-        print_parts(console, [*result.lines, *lines])
 
 
 def command(body: Callable[P, None]) -> Callable[P, None]:
@@ -290,16 +276,13 @@ MeasuredPath = Annotated[
     ),
 ]
 SurfaceUnit = Annotated[
-    str | None,
-    option("Where the file of the surface does not state it; of counts such as 0.5 um."),
+    str | None, option("Where the file of the surface does not state it; of counts such as 0.5 um.")
 ]
 SurfaceAxis = Annotated[
-    str | None,
-    option("Which way the heights count: up, the default, or down, of depths."),
+    str | None, option("Which way the heights count: up, the default, or down, of depths.")
 ]
 SurfaceChannel = Annotated[
-    str | None,
-    option("Channel of heights of an instrument, or column of a text; title or number."),
+    str | None, option("Channel of heights of an instrument, or column of a text; title or number.")
 ]
 SurfaceCrop = Annotated[
     tuple[str, str] | None, option('Part of the profiles, such as "120 mm" "1780 mm".')
@@ -392,12 +375,11 @@ class CaseCommand:
     def open_results(self, output: Path | None, name: str, opening: str = "") -> None:
         """Make the folder of results, then print what the command begins with, rubber and surface.
 
-        Folder and text are called `name`; the folder is in that of the case by default.
+        The folder is called `name`, in that of the case, by default.
         """
         from gripscale.case_file.folder import claim
         from gripscale.io.folders import require_writable
 
-        self._text = f"{name}.txt"
         self.target = output or self.file.resolve(self.file.case.output.folder) / name
         require_writable(self.target)
         RESULTS_FOLDER.set(self.target)
@@ -417,14 +399,12 @@ class CaseCommand:
         result: Result,
         contents: str,
         *,
-        text: str = "",
         drawings: str = "figures",
         page: Callable[[Path], Path] | None = None,
     ) -> None:
         """End the command with the result of its question: save, print and draw it.
 
-        `contents` is what the folder holds beside the result, `text` the file of what is printed
-        where it has another name, and `drawings` the folder of the figures.
+        `contents` is what the folder holds beside the result, `drawings` the folder of the figures.
         """
         from gripscale.charts.draw import FigureFolder
         from gripscale.io.folders import make_folder
@@ -441,7 +421,6 @@ class CaseCommand:
         self.conclude(
             result,
             list(result.parts()),
-            text=text or self._text,
             closing=f"Result ({result.file}), {contents} are in",
             draw=draw,
             page=page,
@@ -452,33 +431,23 @@ class CaseCommand:
         result: Result,
         parts: Sequence[str | Table],
         *,
-        text: str,
         closing: str,
         draw: Callable[[], object],
-        opening: Sequence[str | Table] = (),
         answer_printed: bool = False,
-        width: int = PLAIN_WIDTH,
         page: Callable[[Path], Path] | None = None,
     ) -> None:
-        """Print and write what the command found, draw figures and page, set the exit code.
+        """Print what the command found, draw figures and page, set the exit code.
 
         The answer, unless it is printed already, the first findings and `parts` are printed, or the
-        answer alone where no more is asked for. The file `text`, with lines of `width`, has the
-        answer, all findings, then `opening`, which the screen shows already, then `parts`.
-        `closing` says what is in the folder.
+        answer alone where no more is asked for. `closing` says what is in the folder.
         """
-        from gripscale.io.folders import write_text
-        from gripscale.io.table import as_text
         from gripscale.questions.result import warning_lines
 
-        target, console, findings = self.target, self.console, result.findings
+        target, console = self.target, self.console
         end_steps()
-        warnings = warning_lines(findings, text, result.half_widths)
+        warnings = warning_lines(result.findings, ON_PAGE, result.half_widths)
         lead = () if answer_printed else (*result.lines, *warnings)
         print_parts(console, ["", *lead, *parts])
-        answer = [*result.lines, *warning_lines(findings, rest="")]
-        above = [line for lines in (answer, opening) if lines for line in (*lines, "")]
-        write_text(target / text, as_text(*above, *parts, width=width))
         show_step(console, "drawing figures and page ...")
         draw()
         try:
@@ -487,7 +456,14 @@ class CaseCommand:
             words = f"note: no page; {error}"
         end_steps()
         print_parts(console, ["", f"{closing} {target}", words])
-        print_result(result, self.file.path, self.case.origin.files)
+        if MANNER.get().json:
+            from gripscale.questions.result_json import result_as_json
+
+            typer.echo(result_as_json(result, str(self.file.path), self.case.origin.files))
+        elif MANNER.get().quiet:
+            console.quiet = False
+            warnings = warning_lines(result.findings, widths=result.half_widths)
+            print_parts(console, [*result.lines, *warnings])
         if result.failure:
             print_error(result.failure)
             raise typer.Exit(_NOT_CONVERGED)

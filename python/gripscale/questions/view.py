@@ -20,15 +20,7 @@ from numpy.typing import NDArray
 from gripscale.charts import chart, style
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.style import BLUE, INK
-from gripscale.core.arrays import Array
-from gripscale.core.units import (
-    GIVEN,
-    UNITS,
-    USUAL,
-    ZERO_CELSIUS,
-    DisplayUnit,
-    display_unit_of,
-)
+from gripscale.core import Array, units
 from gripscale.experiment.design import CONVERGED
 from gripscale.io.table import Column, Table, least_to_most, percent, significant
 from gripscale.model import STATUS
@@ -65,15 +57,15 @@ def numeric(data: xr.Dataset) -> list[str]:
     return sorted(dims, key=lambda dim: -data.sizes[dim])
 
 
-def shown_unit(coordinate: xr.DataArray) -> DisplayUnit:
+def shown_unit(coordinate: xr.DataArray) -> units.DisplayUnit:
     """Return how the values of a coordinate are shown: in the unit they were given in."""
-    unit, word = (str(coordinate.attrs.get(name, "")) for name in ("units", GIVEN))
+    unit, word = (str(coordinate.attrs.get(name, "")) for name in ("units", units.GIVEN))
     if unit == "K":
-        return DisplayUnit("°C", zero=ZERO_CELSIUS)
+        return units.DisplayUnit("°C", zero=units.ZERO_CELSIUS)
     if unit in _KINDS:
-        word = word or USUAL[_KINDS[unit]]
-        return DisplayUnit(word, UNITS[_KINDS[unit]][word])
-    return DisplayUnit(word or unit.removesuffix("1"))
+        word = word or units.USUAL[_KINDS[unit]]
+        return units.DisplayUnit(word, units.UNITS[_KINDS[unit]][word])
+    return units.DisplayUnit(word or unit.removesuffix("1"))
 
 
 def name_at(data: xr.Dataset, dim: str, i: int) -> str:
@@ -322,7 +314,7 @@ def load_in_words(data: xr.Dataset) -> Iterator[str]:
         nominal = data.get(f"nominal_{name}", data.attrs.get(f"nominal_{name}", math.nan))
         values = np.unique(nominal)
         if name not in data.dims and values.size == 1 and math.isfinite(values[0]):
-            yield display_unit_of(data.attrs, name).text(float(values[0]))
+            yield units.display_unit_of(data.attrs, name).text(float(values[0]))
 
 
 def cards(data: xr.Dataset) -> Iterator[Card]:

@@ -1,7 +1,7 @@
 """Closed forms and the small-strain model, to check the solver against and to learn from.
 
 Modules: `elastic` (full contact of a sine), `half_plane` (small-strain model of one sliding wave),
-`layers` (rubber of finite thickness), `brush` (a tread that sticks and slides), `persson` and
+`layers` (rubber of finite thickness), `persson` and
 `klueppel_heinrich` (rough surfaces). The material point under any history, `uniaxial_stress` and
 `simple_shear_stress`, is in `gripscale.rubber.finite_strain`.
 """

@@ -1,6 +1,3 @@
-from .brush import Brush as Brush
-from .brush import BrushForce as BrushForce
-from .brush import brush_force as brush_force
 from .elastic import full_contact_friction as full_contact_friction
 from .elastic import full_contact_pressure as full_contact_pressure
 from .elastic import plane_strain_modulus as plane_strain_modulus

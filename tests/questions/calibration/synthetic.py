@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from gripscale.conditions import GaussianStress, InterfacialShearStress
 from gripscale.experiment import MeasuredFriction
-from gripscale.questions import Predicted
+from gripscale.questions import Calibration, Predicted, fit_area_term
 
 Array = NDArray[np.float64]
 
@@ -48,3 +50,8 @@ def measurement(
     noise = 0.0 if seed is None else np.random.default_rng(seed).normal(0.0, spread)
     friction = predicted.friction + predicted.area_term(law, speed) + noise
     return MeasuredFriction(speed, friction, spread if stated else None, kelvin), predicted
+
+
+def fitted(measured: MeasuredFriction, predicted: Predicted, **options: Any) -> Calibration:
+    """Return the fit of a law to the measurement."""
+    return Calibration(fit_area_term(measured, predicted, **options))

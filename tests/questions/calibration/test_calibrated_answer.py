@@ -211,14 +211,13 @@ def test_roughness_below_the_measurement_is_in_the_fitted_area() -> None:
 
 def test_the_interval_at_the_points_is_that_of_fit_and_measurement(calibrated: Calibration) -> None:
     """At most twice their errors; without the record of its points that of the whole answer."""
-    law, fit = calibrated.law, calibrated.fit
-    assert fit is not None
-    error = np.hypot(fit.friction_error, 0.003 * max(fit.scatter, 1.0))
+    law, data = calibrated.law, calibrated.data
+    error = np.hypot(data.friction_band.values / 1.645, 0.003 * max(data.attrs["scatter"], 1.0))
     for at in (0, len(SPEEDS) - 1):
         answer, forgetful = (answer_at(each, at) for each in (law, replace(law, fitted_to=None)))
         low, high = answer.friction_interval
         assert high - low <= 2.0 * 2.0 * error[at]
-        assert low < float(calibrated.data.measured_friction[at]) < high
+        assert low < float(data.measured_friction[at]) < high
         assert answer.contact_fraction_interval == forgetful.contact_fraction_interval
         before = np.subtract(*forgetful.friction_interval[::-1])
         assert before > 5.0 * (high - low)

@@ -11,17 +11,17 @@ import pytest
 import scipy.stats
 
 from gripscale.conditions import LeGalKlueppelStress
-from gripscale.questions import AreaTermFit, fit_area_term
+from gripscale.questions import Calibration
 from gripscale.questions.calibration.calibration_law import best, points_of, problem_of
-from gripscale.questions.calibration.profile_likelihood import LikelihoodProfile
+from gripscale.questions.calibration.profile_likelihood import LikelihoodProfile, intervals
 
-from .synthetic import REFERENCE, TRUTH, measurement
+from .synthetic import REFERENCE, TRUTH, fitted, measurement
 
 SETS = 50
 FEWEST, MOST = 41, 49
 
 
-def held(fits: list[AreaTermFit], truth: dict[str, float]) -> dict[str, int]:
+def held(fits: list[Calibration], truth: dict[str, float]) -> dict[str, int]:
     """Return in how many fits the interval of each parameter holds its true value."""
     return {
         name: sum(
@@ -71,7 +71,7 @@ def test_half_the_spread_would_be_seen() -> None:
 def test_intervals_over_many_measurements(stated: bool) -> None:
     """Of 400, 360 are expected; 342 to 377 hold with probability 0.997 for one parameter."""
     fits = [
-        fit_area_term(*measurement(seed=1000 + seed, stated=stated), fixed=REFERENCE)
+        fitted(*measurement(seed=1000 + seed, stated=stated), fixed=REFERENCE)
         for seed in range(400)
     ]
     for name, count in held(fits, TRUTH).items():
@@ -82,28 +82,27 @@ def test_intervals_over_many_measurements(stated: bool) -> None:
 def test_intervals_of_the_other_law() -> None:
     truth = {"stress_0": 2e6, "ratio": 3.0, "critical_speed": 0.01, "exponent": 0.8}
     law = LeGalKlueppelStress(**truth)
-    fits = [
-        fit_area_term(*measurement(law, seed=seed), law="le_gal_klueppel") for seed in range(200)
-    ]
+    fits = [fitted(*measurement(law, seed=seed), law="le_gal_klueppel") for seed in range(200)]
     for name, count in held(fits, truth).items():
         assert 166 <= count <= 192, (name, count)  # probability 0.997
 
 
 def test_an_interval_ends_where_the_profile_says() -> None:
-    fit = fit_area_term(*measurement(), fixed=REFERENCE)
-    threshold = fit.optimum.threshold
+    problem = problem_of("gaussian", points_of(*measurement()), REFERENCE)
+    optimum, ends = intervals(problem)
+    threshold = optimum.threshold
     assert threshold == pytest.approx(2.7055, abs=1e-4)  # chi^2 of one degree, 90 %
-    for place, one in enumerate(fit.problem.free):
-        profile = LikelihoodProfile(fit.optimum, place)
-        for end in (fit.estimates[place].low, fit.estimates[place].high):
+    for place, interval in enumerate(ends):
+        profile = LikelihoodProfile(optimum, place)
+        for end in interval:
             # the distance to an end is known to 1e-3, its square to twice that
-            assert profile.excess(one.scaled(end))[0] == pytest.approx(threshold, rel=4e-3)
+            assert profile.excess(end)[0] == pytest.approx(threshold, rel=4e-3)
 
 
 def test_the_profile_of_a_factor_is_a_parabola() -> None:
     """A parameter that only multiplies, not in logarithms: linear least squares in closed form."""
     measured, predicted = measurement()
-    fit = fit_area_term(measured, predicted, law="constant")
+    fit = fitted(measured, predicted, law="constant")
     one = fit.estimates[0]
     weight = predicted.leverage / measured.spread
     error = 1.0 / np.sqrt(weight @ weight)
@@ -113,16 +112,16 @@ def test_the_profile_of_a_factor_is_a_parabola() -> None:
     half = np.sqrt(2.7055) * error
     assert (one.low, one.high) == pytest.approx((best - half, best + half), rel=1e-4)
     band = np.sqrt(2.7055) * error * predicted.leverage
-    assert fit.band == pytest.approx(band, rel=1e-3)
+    assert fit.data.friction_band.values == pytest.approx(band, rel=1e-3)
 
 
 def test_without_spreads_the_residuals_give_them() -> None:
     measured, predicted = measurement(stated=False)
-    fit = fit_area_term(measured, predicted, law="constant")
+    fit = fitted(measured, predicted, law="constant")
     one, freedom = fit.estimates[0], measured.speed.size - 1
-    apart = fit.friction - measured.friction
+    apart = fit.data.difference.values
     scatter = np.sqrt(apart @ apart / freedom)
-    assert fit.scatter == pytest.approx(scatter)
+    assert fit.data.attrs["scatter"] == pytest.approx(scatter)
     error = scatter / np.sqrt(predicted.leverage @ predicted.leverage)
     assert one.standard_error == pytest.approx(error, rel=1e-5)
     half = scipy.stats.t.ppf(0.95, freedom) * error
@@ -131,5 +130,5 @@ def test_without_spreads_the_residuals_give_them() -> None:
 
 def test_well_determined_intervals_are_the_standard_errors() -> None:
     """Where the valley is nearly straight half an interval is 1.645 standard errors."""
-    for one in fit_area_term(*measurement(seed=None), fixed=REFERENCE).estimates:
+    for one in fitted(*measurement(seed=None), fixed=REFERENCE).estimates:
         assert 0.5 * (one.high - one.low) == pytest.approx(1.645 * one.standard_error, rel=0.05)

@@ -15,11 +15,12 @@ from gripscale import model
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
 from gripscale.core.errors import InputError
-from gripscale.experiment import MeasuredFriction, Store
+from gripscale.experiment import Bench, MeasuredFriction, Store, solve_design
 from gripscale.experiment.measured_friction import TemperatureProbe
+from gripscale.experiment.solve import OnTask
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
-from gripscale.questions import Predicted, averaged, predictions_at
+from gripscale.questions import Predicted, averaged, measured_design, predicted_of
 from gripscale.surface import Measured, Surface
 from gripscale.theory.half_plane import HalfPlane
 from tests.samples import SHIFTED_LOAD as LOAD
@@ -34,6 +35,17 @@ MEASURED = MeasuredFriction(
     temperature=[303.15, 313.15, np.nan],
     pressure=[2e5, np.nan, np.nan],
 )
+
+
+def predictions_at(
+    measured: MeasuredFriction, predicting: model.Model, rubber: gs.Rubber, surface: Surface,
+    load: Load, store: Store, on_task: OnTask | None = None,
+) -> Predicted:  # fmt: skip
+    """Return what a model predicts at each measured point."""
+    design = measured_design(measured, predicting, rubber, surface, load)
+    return predicted_of(solve_design(design, Bench(store, on_task=on_task)))
+
+
 TURNS = 2.0 * np.pi * np.arange(256) / 256
 LINE = gs.Profile(np.arange(256) * 4e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS))
 

@@ -23,7 +23,7 @@ def test_command_solves_prints_draws_and_resumes(
     written = {
         str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
     }
-    files = {"case.toml", "study.nc", "study.txt"}
+    files = {"case.toml", "study.nc"}
     assert written == files | {".case", "report.html", "figures/totals.png"}
     assert "[6/6] speed" in result.stdout
     data = netcdf.load_dataset(target / "study.nc")

@@ -25,20 +25,13 @@ from gripscale.experiment.measured_friction import friction_doubts
 from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import PREDICTIONS, Store
 from gripscale.io.table import Table
-from gripscale.questions.answer import direct_contact
-from gripscale.questions.answer.charts import named_traces, summary_sheet, trace_sheet
+from gripscale.questions.answer import direct_contact, variables
+from gripscale.questions.answer.charts import named_traces, trace_sheet
+from gripscale.questions.answer.estimate import answer_of_waves
 from gripscale.questions.answer.findings import FINDINGS, case_notices, measured_at_load
-from gripscale.questions.answer.page import answer_cards, answer_lines, answer_page, basis_lines
+from gripscale.questions.answer.page import answer_lines, answer_page, basis_lines
 from gripscale.questions.answer.reliance import is_measured, no_answer
-from gripscale.questions.answer.variables import (
-    JUDGE,
-    OF_THE_PAPER,
-    answer_number,
-    has_answer,
-    of_hysteresis,
-    with_filled,
-)
-from gripscale.questions.answer.waves import waves_answer
+from gripscale.questions.answer.samples import sample_numbers
 from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.cut_off.question import cut_off_sheet
@@ -69,22 +62,24 @@ class NumbersWithIntervals(Result):
 
         That of the hysteresis, and of the interface where a case has one.
         """
-        return answer_number(self.data, "friction").value
+        return variables.answer_number(self.data, "friction").value
 
     @property
     def friction_interval(self) -> tuple[float, float]:
         """Both ends of the 90 % interval of the friction [-]; NaN where it is not known."""
-        return answer_number(self.data, "friction")[1:]
+        return variables.answer_number(self.data, "friction")[1:]
 
     @property
     def hysteresis_friction(self) -> float:
         """Its part by the hysteresis [-]."""
-        return answer_number(self.data, of_hysteresis(self.data, "friction")).value
+        return variables.answer_number(
+            self.data, variables.of_hysteresis(self.data, "friction")
+        ).value
 
     @property
     def interface_friction(self) -> float:
         """Its part by the interface, over `contact_fraction` [-]; NaN without one."""
-        return answer_number(self.data, "interface_friction").value
+        return variables.answer_number(self.data, "interface_friction").value
 
     def __getattr__(self, name: str) -> Any:
         if name not in _OLD_NAMES:
@@ -96,12 +91,12 @@ class NumbersWithIntervals(Result):
     @property
     def contact_fraction(self) -> float:
         """Real over nominal contact area [-]; NaN without an answer."""
-        return answer_number(self.data, "contact_fraction").value
+        return variables.answer_number(self.data, "contact_fraction").value
 
     @property
     def contact_fraction_interval(self) -> tuple[float, float]:
         """Both ends of the 90 % interval of the contact fraction [-]; NaN where it is not known."""
-        return answer_number(self.data, "contact_fraction")[1:]
+        return variables.answer_number(self.data, "contact_fraction")[1:]
 
 
 class Answer(NumbersWithIntervals):
@@ -116,7 +111,7 @@ class Answer(NumbersWithIntervals):
     @property
     def failure(self) -> str:
         """Why waves stated by hand have no answer."""
-        if has_answer(self.data) or is_measured(self.data):
+        if variables.has_answer(self.data) or is_measured(self.data):
             return ""
         return next(map(explained, failures_in(self.data)), "")
 
@@ -156,21 +151,18 @@ class Answer(NumbersWithIntervals):
 
     def table(self) -> Table:
         """Return friction, contact area and all that qualifies them as one row."""
-        from gripscale.questions.summary_table import summary_table
+        from gripscale.questions.result_json import summary_table
 
         return summary_table(self.data)
 
     def figures(self) -> Iterator[tuple[str, Sheet]]:
         for name, trace in named_traces(self.data, self.inputs)[:1]:
             yield "direct_contact", trace_sheet(trace, name)
-            if "series_omega" in self.inputs:
-                cards, words = list(answer_cards(self.data)), next(iter(self.basis), "")
-                yield "summary", summary_sheet(trace, self.inputs, cards, words)
         if self.chain is not None:
             title = PredictionView(self.chain).title.lower()
             judge = {}
             if is_measured(self.data):
-                title, judge = f"{OF_THE_PAPER}, {title}", {JUDGE: self.data}
+                title, judge = f"{variables.OF_THE_PAPER}, {title}", {variables.JUDGE: self.data}
             yield "contact_and_friction", contact_sheet({title: self.chain} | judge)
         if self.curve is not None:
             yield "cut_off", cut_off_sheet(self.curve)
@@ -201,7 +193,9 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     samples = direct_contact.solve_direct_contact(case, bench)
     if samples is None:
         chain = solved_chain(case, bench)
-        result = answer_with_inputs(case, waves_answer(case, chain))
+        result = answer_with_inputs(
+            case, answer_of_waves(sample_numbers(chain, case.task()), case, case.load)
+        )
         result.chain = chain
         return result
     curve = direct_contact.continued_curve(case, case.load, folder)
@@ -212,7 +206,7 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
         assert of_filled is not None  # of the same surface
         continued = direct_contact.continued_curve(filled, case.load, folder)
         totals = direct_contact.direct_contact_totals(of_filled, filled, case.load, continued)
-        data = with_filled(data, totals)
+        data = variables.with_filled(data, totals)
     data.attrs[FINDINGS] = to_json(direct_contact.other_findings(samples, data, case))
     result = answer_with_inputs(case, data)
     result.curve = curve
@@ -229,7 +223,7 @@ def solved_chain(case: Case, bench: Bench) -> xr.Dataset:
 
     A wave that does not converge ends it: `prediction_status` says so.
     """
-    (predicted,) = bench.solve({OF_THE_PAPER: case.task()}).values()
+    (predicted,) = bench.solve({variables.OF_THE_PAPER: case.task()}).values()
     sources = {"surface_source": case.surface.source, "rubber_source": case.measured_rubber.source}
     return predicted.assign_attrs(case.attributes | sources)
 

@@ -6,7 +6,6 @@ All are drawn from a trace (`gripscale.half_space.location.contact_trace`), whic
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -15,13 +14,11 @@ import xarray as xr
 
 from gripscale.charts import chart, draw
 from gripscale.charts.draw import Chart
-from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, RED, SKY, WIDE
+from gripscale.charts.style import BLUE, FAINT, GREEN, GREY, INK, ORANGE, SKY, WIDE
 from gripscale.core.units import MEGA, MICRO, MILLI
 from gripscale.half_space.location import contact_trace, traces_of
 from gripscale.half_space.result import RoughContact
 from gripscale.io.table import percent
-from gripscale.questions.inputs.charts_of_rubber import moduli_panels
-from gripscale.report.elements import Card
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,8 +31,6 @@ _AROUND, LEAST_AROUND, _LEAST_SHARE = 8.0, 1.2, 0.125
 DRAPED = 0.3
 # Least height of the stretch to scale and what it shows below its contact, over its length.
 FLATTEST, LOWEST = 0.15, 0.2
-# Distance from the top [panel] and size [points] of the lines of a number of a slide.
-_LINES = ((0.0, 9.0), (0.1, 22.0), (0.31, 10.0))
 NamedTrace = tuple[str, xr.Dataset]  # name of a profile and its trace
 PAGE = 420  # width of half a page [px]
 # Heights of a frame over the whole line, of the field of a map, of the numbers below a frame, and
@@ -90,44 +85,6 @@ def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None)
     fields, lines, close = _field_panels(line), _line_panels(line), _stretch_panel(line)
     heights = [FIELD_ROW] * len(fields) + [_ROW] * len(lines)
     return _sheet([*fields, *lines, close], heights, title)
-
-
-def summary_sheet(
-    trace: xr.Dataset, inputs: xr.Dataset, cards: Sequence[Card], words: str
-) -> draw.Sheet:
-    """Describe an answer for a slide, 16:9: its numbers, the rubber on the surface, its moduli.
-
-    `words` say what the numbers of the `cards` are for; `inputs` is the record of the inputs.
-    """
-    line = _around_contact(trace)
-    close, heights, moduli = _stretch_panel(line), _line_panels(line)[0], moduli_panels(inputs)[0]
-    numbers = [chart.Note(0.0, 1.0, words, GREY, frame="xy", top=True, size=8.0)]
-    for at, card in zip((0.88, 0.4), cards, strict=False):
-        colour = RED if card.bad else INK
-        label = card.label.replace("A_r/A_0", "$A_r/A_0$")
-        texts = (label, card.value, card.interval or card.detail)
-        numbers += [
-            chart.Note(0.0, at - down, text, colour, frame="xy", top=True, size=size)
-            for text, (down, size) in zip(texts, _LINES, strict=True)
-        ]
-    names = [
-        chart.Note(0.04, at, text, colour, frame="xy", top=True, size=8.0)
-        for at, text, colour in ((0.96, "storage $E'$", BLUE), (0.86, "loss $E''$", ORANGE))
-    ]
-    bands = (mark for mark in close.marks if isinstance(mark, chart.ShadedBand))
-    pressure = next(band.label for band in bands if band.label)
-    panels = [
-        chart.Panel(chart.PlotAxis(), chart.PlotAxis(), numbers, framed=False),
-        replace(close, title=f"Rubber (blue) on the surface, to scale\norange: {pressure}"),
-        replace(
-            moduli.with_marks(names),
-            x=replace(moduli.x, numbers=6),
-            title="Master curve, measured and as solved",
-        ),
-        replace(heights, x=_along(line), title="The whole profile"),
-    ]
-    layout = {"width_ratios": [1.0, 1.4], "height_ratios": [1.2, 1.0]}
-    return draw.Sheet(panels, 2, WIDE, WIDE * 9.0 / 16.0, legend="", layout=layout)
 
 
 def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:

@@ -24,15 +24,9 @@ from gripscale.half_space.location import trace_variables
 from gripscale.half_space.model import JUDGED_TO, WARMING, DirectContact, resolved_wavelength
 from gripscale.half_space.result import TRAPPED_WATER
 from gripscale.model import Load
+from gripscale.questions.answer import estimate
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact
-from gripscale.questions.answer.estimate import (
-    DIRECT,
-    Factor,
-    LogNormalValue,
-    SampledErrors,
-    answer_of_samples,
-)
 from gripscale.questions.answer.reliance import WORTH_NAMING, estimated_names
 from gripscale.questions.answer.variables import has_answer
 from gripscale.questions.cut_off.curve import (
@@ -157,31 +151,31 @@ def continued_curve(case: Case, load: Load, folder: str | Path | None = None) ->
     return curve
 
 
-def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[Factor]:
+def continuation_factors(case: Case, curve: xr.Dataset | None) -> list[estimate.Factor]:
     """Return the factor of the roughness of a `continued_curve` below the cut-off of its case.
 
     Its error is that of the continuation; none without a curve, or one that was refused. A surface
     known by its spectrum has that of its phases.
     """
-    spectrum, phases = case.surface.spectrum, list[Factor]()
+    spectrum, phases = case.surface.spectrum, list[estimate.Factor]()
     if spectrum is not None and spectrum.phases in REAL_PHASES:
         area, friction, freedom = REAL_PHASES[spectrum.phases]
-        ratios = LogNormalValue(*area), LogNormalValue(*friction)
-        phases = [Factor("real_phases", "random to real phases", *ratios, freedom, True)]
+        ratios = estimate.LogNormalValue(*area), estimate.LogNormalValue(*friction)
+        phases = [estimate.Factor("real_phases", "random to real phases", *ratios, freedom, True)]
     if curve is None or any(refusals(curve)):
         return phases
     cut_off = resolved_wavelength(case.surface)
 
-    def grown(name: str) -> LogNormalValue:
+    def grown(name: str) -> estimate.LogNormalValue:
         end, upper = float(curve[name][-1]), float(curve[f"{name}_upper"][-1])
         ratio = end / at_cut_off(curve, name, cut_off)
         if not math.isfinite(ratio):  # no friction at rest
-            return LogNormalValue(1.0, 0.0)
-        return LogNormalValue(ratio, math.log(upper / end) / QUANTILE_90)
+            return estimate.LogNormalValue(1.0, 0.0)
+        return estimate.LogNormalValue(ratio, math.log(upper / end) / QUANTILE_90)
 
     end = in_mm(float(curve.cut_off[-1]), 3)
     label = f"roughness continued from {in_mm(cut_off, 3)} to {end}"
-    return [*phases, Factor("below_measurement", label, grown(AREA), grown(FRICTION))]
+    return [*phases, estimate.Factor("below_measurement", label, grown(AREA), grown(FRICTION))]
 
 
 def direct_contact_totals(
@@ -189,7 +183,7 @@ def direct_contact_totals(
     case: Case,
     load: Load,
     curve: xr.Dataset | None = None,
-    sampled: SampledErrors | None = None,
+    sampled: estimate.SampledErrors | None = None,
 ) -> xr.Dataset:
     """Return the mean contact of the profiles as a model answers, with the answer.
 
@@ -199,8 +193,8 @@ def direct_contact_totals(
     """
     means = {name: float(reduce.mean(samples, name)) for name in reduce.SAMPLED_QUANTITIES}
     beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
-    best = answer_of_samples(
-        samples.expand_dims(model=[DIRECT]),
+    best = estimate.answer_of_samples(
+        samples.expand_dims(model=[estimate.DIRECT]),
         continuation_factors(case, curve),
         sampled=sampled,
         conditions=case.conditions,
@@ -219,7 +213,7 @@ def direct_contact_totals(
         best,
         {f"total_{name}": value for name, value in means.items()},
         str(reduce.status(samples).item()),
-        DIRECT,
+        estimate.DIRECT,
         load,
         model.extrapolation_of(beyond),
         model.cut_off_exponents_of(exponents),

@@ -15,11 +15,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
+from gripscale import model
+from gripscale.case import Case
+from gripscale.chain.chain import Chain
 from gripscale.conditions.area_term import DRY_TREAD, STRESS_SCATTER
 from gripscale.conditions.conditions import LOG_AREA, LOG_FRICTION, Conditions
 from gripscale.continuation.curve import QUANTILE_90
@@ -29,27 +33,10 @@ from gripscale.half_space import line_to_map
 from gripscale.half_space.line_to_map import finite_over_small
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
-from gripscale.model import LINE_UNDER_LOAD
+from gripscale.model import LINE_UNDER_LOAD, Load
+from gripscale.questions.answer import intervals, variables
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact, errors_left
-from gripscale.questions.answer.intervals import (
-    UPPER_LIMITS,
-    LogError,
-    combined,
-    half_width,
-    interval_ends,
-)
-from gripscale.questions.answer.variables import (
-    ANSWER_NUMBERS,
-    BASIS_SHARES,
-    ERROR_LEFT,
-    HYSTERESIS,
-    INTERFACE,
-    LARGE_STRAIN,
-    LARGE_STRAIN_NUMBERS,
-    REACH,
-    described,
-)
 
 DIRECT = DirectContact.name  # name of the model that every answer starts from
 
@@ -86,13 +73,13 @@ LINES_TO_SURFACE = "profile to surface"
 # What an answer with this factor rests on, where nothing tells of ridges.
 ISOTROPY_ASSUMED = "the step from profile to surface assumes an isotropic surface"
 # A factor on each estimated quantity, with its error.
-FactorNumbers = dict[str, tuple[xr.DataArray, LogError]]
+FactorNumbers = dict[str, tuple[xr.DataArray, intervals.LogError]]
 
 
 class SampledErrors(NamedTuple):
     """Errors of an answer that samples of its inputs show."""
 
-    errors: Mapping[str, Sequence[LogError]]  # of each estimated quantity
+    errors: Mapping[str, Sequence[intervals.LogError]]  # of each estimated quantity
     # Whether they hold the sampling of the road, which then counts here and nowhere else.
     of_road: bool
 
@@ -150,20 +137,20 @@ def answer_of_samples(
     # a factor that is not known of both quantities is not included
     included = values["contact_fraction"].notnull() & values["friction"].notnull()
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
-    data = data.assign({f"answer_{share}": unknown for share in BASIS_SHARES})
+    data = data.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
     if direct is not None:
-        shares = (share for share in (*BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
+        shares = (share for share in (*variables.BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
         data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
         if "isotropic_surface" in factors:
-            data[REACH] = unknown.copy(data=_line_of(direct).reach)
+            data[variables.REACH] = unknown.copy(data=_line_of(direct).reach)
     term = unknown if direct is None else direct.get("adhesive_friction", unknown)
-    errors_of_total: dict[str, LogError] = {}  # of the area term, where there is one
+    errors_of_total: dict[str, intervals.LogError] = {}  # of the area term, where there is one
     remaining, fit = xr.ones_like(unknown), xr.zeros_like(unknown)
     if direct is not None and contacts:
         area = reduce.mean(direct, "contact_fraction")
         remaining, fit = errors_left(contacts, area * values["contact_fraction"].prod("factor"))
     for name in ESTIMATED:
-        mean, road, grid = unknown, LogError(unknown, unknown), unknown
+        mean, road, grid = unknown, intervals.LogError(unknown, unknown), unknown
         if direct is not None:
             mean, road = reduce.mean(direct, name), reduce.road_error(direct, name)
             # even within the estimated error, and the same for all profiles
@@ -173,14 +160,14 @@ def answer_of_samples(
         value, each = values[name].where(included), [numbers[name][1] for numbers in solved]
         sigma = over_factors([error.sigma for error in each]).where(included)
         errors += [
-            LogError(sigma.isel(factor=at).fillna(0.0), error.freedom)
+            intervals.LogError(sigma.isel(factor=at).fillna(0.0), error.freedom)
             for at, error in enumerate(each)
         ]
-        error = combined([*errors, *of_inputs])
+        error = intervals.combined([*errors, *of_inputs])
         data = data.assign(with_interval(name, mean * value.prod("factor"), error))
         if bool(term.notnull().any()):
-            errors = [LogError(remaining**0.5 * part.sigma, part.freedom) for part in errors]
-            errors_of_total[name] = combined([*errors, *of_inputs])
+            parts = [intervals.LogError(remaining**0.5 * e.sigma, e.freedom) for e in errors]
+            errors_of_total[name] = intervals.combined([*parts, *of_inputs])
         data[f"answer_{name}_sampling_error"] = road.sigma
         data[f"answer_{name}_grid_error"] = grid
         data[f"answer_{name}_factor"] = value
@@ -189,10 +176,13 @@ def answer_of_samples(
         if errors_of_total:
             term = reduce.mean(direct, "adhesive_friction")
             term = term * data["answer_contact_fraction_factor"].prod("factor")
-            data = with_interface(data, term, errors_of_total, _stress_error(conditions), fit)
+            # that between compounds for the typical stress; a stated one is taken as it is
+            typical = conditions and conditions.shear_stress == DRY_TREAD
+            scatter = STRESS_SCATTER if typical else 0.0
+            data = with_interface(data, term, errors_of_total, scatter, fit)
         if getattr(conditions and conditions.shear_stress, "fitted_to", None) is not None:
-            data[ERROR_LEFT] = remaining
-    return described(data)
+            data[variables.ERROR_LEFT] = remaining
+    return variables.described(data)
 
 
 def with_large_strain(
@@ -217,27 +207,32 @@ def with_large_strain(
         if not bool(value.notnull().all()):
             return answer
         changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
-        factor[name] = value, combined([error, _certain(changed / math.sqrt(3.0))])
+        factor[name] = value, intervals.combined([error, _certain(changed / math.sqrt(3.0))])
     large = answer_of_samples(samples, supplied, solved_finite_strain=factor, conditions=conditions)
-    names = {name: name.replace(LARGE_STRAIN, "answer_") for name in LARGE_STRAIN_NUMBERS}
+    names = {
+        name: name.replace(variables.LARGE_STRAIN, "answer_")
+        for name in variables.LARGE_STRAIN_NUMBERS
+    }
     numbers = {name: large[answered] for name, answered in names.items() if answered in large}
     for name, number in numbers.items():
-        number.attrs = variable_attributes(LARGE_STRAIN_NUMBERS[name])
+        number.attrs = variable_attributes(variables.LARGE_STRAIN_NUMBERS[name])
     return answer.assign(numbers)
 
 
 def large_strain_answer(data: xr.Dataset) -> xr.Dataset | None:
     """Return a result with large strain solved as its answer; None where it was not."""
-    numbers = [name for name in LARGE_STRAIN_NUMBERS if name in data]
-    replaced = {name.replace(LARGE_STRAIN, "answer_"): data[name] for name in numbers}
+    numbers = [name for name in variables.LARGE_STRAIN_NUMBERS if name in data]
+    replaced = {name.replace(variables.LARGE_STRAIN, "answer_"): data[name] for name in numbers}
     return data.assign(replaced) if numbers else None
 
 
-def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, xr.DataArray]:
+def with_interval(
+    name: str, value: xr.DataArray, error: intervals.LogError
+) -> dict[str, xr.DataArray]:
     """Return a number of an answer by its name, with its uncertainty and 90 % interval."""
-    there, most = value.notnull(), UPPER_LIMITS.get(name, math.inf)
+    there, most = value.notnull(), intervals.UPPER_LIMITS.get(name, math.inf)
     value = value.clip(max=most)
-    low, high = interval_ends(value, half_width(error).where(there), most)
+    low, high = intervals.interval_ends(value, intervals.half_width(error).where(there), most)
     width = (high - low) / (2.0 * value.where(value > 0.0))
     numbers = {"": value, "_uncertainty": error.sigma.where(there), "_half_width": width}
     ends = {"_low": low, "_high": high}
@@ -247,7 +242,7 @@ def with_interval(name: str, value: xr.DataArray, error: LogError) -> dict[str, 
 def with_interface(
     data: xr.Dataset,
     term: xr.DataArray,
-    errors: Mapping[str, LogError],
+    errors: Mapping[str, intervals.LogError],
     stress_error: float = 0.0,
     fit: xr.DataArray | float = 0.0,
 ) -> xr.Dataset:
@@ -266,17 +261,19 @@ def with_interface(
     sigma = (sigma**2 + (share * stress_error) ** 2) ** 0.5
     freedom = xr.apply_ufunc(np.minimum, friction.freedom, area.freedom)
     of_fit = xr.apply_ufunc(np.arcsinh, fit / total) / QUANTILE_90
-    error = combined([LogError(sigma, freedom), _certain(of_fit)])
+    error = intervals.combined([intervals.LogError(sigma, freedom), _certain(of_fit)])
     hysteresis = {
-        name: data[name.replace("hysteresis_", "")] for name in ANSWER_NUMBERS if HYSTERESIS in name
+        name: data[name.replace("hysteresis_", "")]
+        for name in variables.ANSWER_NUMBERS
+        if variables.HYSTERESIS in name
     }
     both = with_interval("friction", total, error)
-    return data.assign(hysteresis | {INTERFACE: term} | both)
+    return data.assign(hysteresis | {variables.INTERFACE: term} | both)
 
 
-def _certain(sigma: xr.DataArray) -> LogError:
+def _certain(sigma: xr.DataArray) -> intervals.LogError:
     """Return an error that is itself certain."""
-    return LogError(sigma, xr.full_like(sigma, math.inf))
+    return intervals.LogError(sigma, xr.full_like(sigma, math.inf))
 
 
 def _of_large_strain(direct: xr.Dataset) -> FactorNumbers:
@@ -306,7 +303,7 @@ def _of_surface(direct: xr.Dataset) -> FactorNumbers:
     for name, law in line_to_map.SURFACE_OVER_LINES.items():
         surface = law(line, lines.values)
         sigma = lines.copy(data=surface.uncertainty)
-        numbers[name] = lines.copy(data=surface.ratio), LogError(sigma, freedom)
+        numbers[name] = lines.copy(data=surface.ratio), intervals.LogError(sigma, freedom)
     return numbers
 
 
@@ -330,20 +327,61 @@ def _of_conditions(
     return factors
 
 
-def _stress_error(conditions: Conditions | None) -> float:
-    """Return the standard error of the logarithm of the shear stress of the area term [-].
-
-    That between compounds for the typical stress of a dry road; a stated stress is taken as it is.
-    """
-    typical = conditions is not None and conditions.shear_stress == DRY_TREAD
-    return STRESS_SCATTER if typical else 0.0
-
-
 def _numbers_of(factor: Factor, unknown: xr.DataArray, share: Any = 1.0) -> FactorNumbers:
     numbers = {}
     for name in ESTIMATED:
         number: LogNormalValue = getattr(factor, name)
         sigma = xr.full_like(unknown, number.uncertainty) * share
-        error = LogError(sigma, xr.full_like(unknown, factor.freedom))
+        error = intervals.LogError(sigma, xr.full_like(unknown, factor.freedom))
         numbers[name] = xr.full_like(unknown, number.value) ** share, error
     return numbers
+
+
+# The answer of sine waves stated by hand: their chain, which no measured surface judges.
+
+
+def estimate_of_waves(
+    numbers: xr.Dataset, errors: Mapping[str, intervals.LogError] = MappingProxyType({})
+) -> xr.Dataset:
+    """Return friction and contact fraction of a chain as `answer_of_samples` does, with no factors.
+
+    `numbers` are its `sample_numbers` under one load or several. Without `errors` of what they
+    depend on there is no interval.
+    """
+    unknown = xr.full_like(numbers["friction"], math.nan)
+    errors = dict.fromkeys(ESTIMATED, intervals.LogError(unknown, unknown)) | dict(errors)
+    best = xr.Dataset({"factor_label": ("factor", np.empty(0, dtype=object))})
+    for name in ESTIMATED:
+        best = best.assign(with_interval(name, numbers[name], errors[name]))
+        best[f"answer_{name}_sampling_error"] = best[f"answer_{name}_grid_error"] = unknown
+        for part in ("factor", "factor_uncertainty"):
+            best[f"answer_{name}_{part}"] = unknown.expand_dims(factor=0)
+    best = with_interface(best, numbers["adhesive_friction"], errors)
+    return variables.described(
+        best.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
+    )
+
+
+def answer_of_waves(
+    numbers: xr.Dataset,
+    case: Case,
+    load: Load,
+    errors: Mapping[str, intervals.LogError] = MappingProxyType({}),
+) -> xr.Dataset:
+    """Return the numbers of a chain under a load as an answer; see `estimate_of_waves`."""
+    best = estimate_of_waves(numbers, errors)
+    best["cutoff_wavelength"] = case.surface.cutoff_wavelength
+    totals = {name: float(numbers[name.removeprefix("total_")]) for name in model.TOTALS}
+    answered = model.predicted_answer(
+        best,
+        totals,
+        str(numbers[model.STATUS].item()),
+        Chain.name,
+        load,
+        model.extrapolation_of(numbers),
+        model.cut_off_exponents_of(numbers),
+        status_word=str(numbers[model.STATUS_WORD].item()),
+    )
+    inputs: list[model.Doubtful] = [case.surface, case.measured_rubber]
+    doubts = model.input_doubts(inputs, [load], case.units, case.softening_doubts)
+    return answered.assign_attrs(case.attributes | doubts)

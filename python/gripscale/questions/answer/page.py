@@ -23,11 +23,7 @@ from gripscale.questions.answer import reliance
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
 from gripscale.questions.answer.estimate import LINES_TO_SURFACE
-from gripscale.questions.answer.findings import (
-    MEASURED_FRICTION,
-    measured_words,
-    no_answer_notices,
-)
+from gripscale.questions.answer.findings import MEASURED_FRICTION, measured_words, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.variables import (
     ERROR_LEFT,

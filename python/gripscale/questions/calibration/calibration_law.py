@@ -112,10 +112,9 @@ def _all_or_none(name: str, values: Array) -> Array | None:
 
 
 class ParameterWords(NamedTuple):
-    """A parameter of a law: in words, beside an axis, and its kind of quantity, if it has one."""
+    """A parameter of a law: in words, and its kind of quantity, if it has one."""
 
     words: str
-    label: str
     kind: str = ""
 
     @property
@@ -126,16 +125,14 @@ class ParameterWords(NamedTuple):
 
 # The parameters of the laws; the reference temperature is held, never fitted.
 PARAMETERS = {
-    "stress_0": ParameterWords("shear stress τ_0", "stress $\\tau_0$", "pressure"),
-    "width": ParameterWords("width factor c", "width $c$"),
-    "speed_0": ParameterWords("speed v_0 of the largest stress", "speed $v_0$", "speed"),
-    "activation_energy": ParameterWords(
-        "activation energy", "activation energy $\\epsilon$", "bond energy"
-    ),
-    "reference_temperature": ParameterWords("", "", "temperature"),
-    "ratio": ParameterWords("gain of stress at high speed", "ratio"),
-    "critical_speed": ParameterWords("critical speed v_c", "critical speed $v_c$", "speed"),
-    "exponent": ParameterWords("exponent n of the speed", "exponent $n$"),
+    "stress_0": ParameterWords("shear stress τ_0", "pressure"),
+    "width": ParameterWords("width factor c"),
+    "speed_0": ParameterWords("speed v_0 of the largest stress", "speed"),
+    "activation_energy": ParameterWords("activation energy", "bond energy"),
+    "reference_temperature": ParameterWords("", "temperature"),
+    "ratio": ParameterWords("gain of stress at high speed"),
+    "critical_speed": ParameterWords("critical speed v_c", "speed"),
+    "exponent": ParameterWords("exponent n of the speed"),
 }
 _LAW_UNITS = {"pressure": "Pa", "speed": "m/s", "bond energy": "eV", "temperature": "K"}
 # How a number in a unit of the law is written, if not in this unit.
@@ -344,9 +341,45 @@ class FittedLaw:
     jacobian: Array  # of the residuals by them, shape (points, free parameters)
 
     @property
+    def law(self) -> InterfacialShearStress:
+        """The law with the best parameters."""
+        return self.problem.law(self.theta)
+
+    @property
     def freedom(self) -> int:
         """Degrees of freedom: points less parameters."""
         return self.problem.points.speed.size - len(self.problem.free)
+
+    @property
+    def spread_known(self) -> bool:
+        """Whether the spread was stated, and not taken from the residuals."""
+        return self.problem.points.spread is not None
+
+    @property
+    def scatter(self) -> float:
+        """Root of the sum of squares over the degrees of freedom.
+
+        In units of the spread where it is stated, else the spread the residuals imply [-].
+        """
+        return math.sqrt(self.sum_of_squares / self.freedom)
+
+    @property
+    def unit(self) -> float:
+        """Sum of squares that one standard error adds."""
+        return 1.0 if self.spread_known else self.scatter**2
+
+    @property
+    def chance(self) -> float:
+        """Probability of a sum of squares so large if law, hysteresis and spreads were right."""
+        return float(scipy.special.chdtrc(self.freedom, self.sum_of_squares))
+
+    @property
+    def quantile(self) -> float:
+        """Half width of an interval at `LIKELIHOOD_LEVEL` over a standard error."""
+        tail = 0.5 * (1.0 + LIKELIHOOD_LEVEL)
+        if self.spread_known:
+            return float(scipy.special.ndtri(tail))
+        return float(scipy.special.stdtrit(self.freedom, tail))
 
     @property
     def covariance(self) -> Array:
@@ -359,7 +392,7 @@ class FittedLaw:
     @property
     def threshold(self) -> float:
         """Excess that ends an interval, with spreads stated or taken from the residuals."""
-        if self.problem.points.spread is not None:
+        if self.spread_known:
             return float(scipy.special.chdtri(1, 1.0 - LIKELIHOOD_LEVEL))
         ratio = float(scipy.special.fdtri(1, self.freedom, LIKELIHOOD_LEVEL))
         return ratio * self.sum_of_squares / float(self.freedom)

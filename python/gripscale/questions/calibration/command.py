@@ -46,11 +46,7 @@ def calibrate_command(
     """Fit the area term, never the hysteresis, to measured friction; resumes where stopped."""
     from gripscale.io.folders import write_text
     from gripscale.questions.calibration.calibration_law import parse_fixed
-    from gripscale.questions.calibration.question import (
-        calibrate,
-        measured_of,
-        shear_stress_table,
-    )
+    from gripscale.questions.calibration.question import calibrate, measured_of, shear_stress_table
 
     values = parse_fixed(fixed or [])
     work = terminal.CaseCommand(case)
@@ -67,6 +63,5 @@ def calibrate_command(
         client=cluster,
         **work.solving(workers),
     )
-    assert result.fit is not None
-    write_text(work.target / "shear_stress.toml", shear_stress_table(result.fit))
+    write_text(work.target / "shear_stress.toml", shear_stress_table(result))
     work.finish(result, "tables, figures and [conditions.shear_stress]", drawings="")

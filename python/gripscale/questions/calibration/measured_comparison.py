@@ -22,8 +22,8 @@ from gripscale.experiment.measured_friction import (
     TemperatureProbe,
     measured_variables,
 )
-from gripscale.experiment.solve import Bench, OnTask
-from gripscale.experiment.task import Store, Task
+from gripscale.experiment.solve import Bench
+from gripscale.experiment.task import Task
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.model import Load, Model
 from gripscale.questions.answer.direct_contact import direct_contact_totals
@@ -153,42 +153,6 @@ def averaged(parts: Sequence[Predicted]) -> Predicted:
     )
 
 
-def predictions_at(
-    measured: MeasuredFriction,
-    model: Model,
-    rubber: Rubber,
-    surface: Surface,
-    load: Load,
-    store: Store,
-    *,
-    workers: int | None = None,
-    client: Any = None,
-    on_task: OnTask | None = None,
-) -> Predicted:
-    """Return what `model` predicts at each measured speed, temperature and pressure.
-
-    Raises `InputError` or `FileError` as the model and `Bench.solve` do; a temperature other than
-    that of the rubber needs a shift.
-
-    Parameters
-    ----------
-    measured : MeasuredFriction
-        The points. A missing temperature is that of the model's conditions or, without one, of the
-        rubber; a missing pressure is that of the load.
-    model : Model
-        What predicts. Where it has `conditions` they get the temperature and a shear stress that
-        tells the temperature in the contact; else the rubber is brought to the temperature.
-    rubber, surface, load
-        What slides on what, and the load of the case.
-    store : Store
-        Keeps each answer as soon as it is there; what it has is not solved again.
-    workers, client, on_task
-        As for `gripscale.experiment.Bench`.
-    """
-    design = measured_design(measured, model, rubber, surface, load)
-    return predicted_of(solve_design(design, Bench(store, workers, client, on_task)))
-
-
 def measured_design(
     measured: MeasuredFriction,
     model: Model,
@@ -198,10 +162,25 @@ def measured_design(
     label: str = "",
     warming_stress: Array | None = None,
 ) -> Design:
-    """Return the design over `measurement` that `predictions_at` solves; labels begin with one.
+    """Return what a model predicts at each measured point as a design over `measurement`.
 
-    A measured rubber is fitted for each point.
-    With the heat of conditions, the interface of each point loses its `warming_stress` [Pa].
+    `predicted_of` reads the Dataset that `gripscale.experiment.solve_design` makes of it.
+
+    Parameters
+    ----------
+    measured : MeasuredFriction
+        The points. A missing temperature is that of the model's conditions or, without one, of the
+        rubber; a missing pressure is that of the load.
+    model : Model
+        What predicts. Where it has `conditions` they get the temperature and a shear stress that
+        tells the temperature in the contact; else the rubber is brought to the temperature, which
+        needs a shift.
+    rubber, surface, load
+        What slides on what, and the load of the case. A measured rubber is fitted for each point.
+    label : str
+        Begins the labels of the points.
+    warming_stress : array, optional
+        What the interface of each point loses with the heat of the conditions [Pa].
     """
     warming = np.zeros(measured.speed.size) if warming_stress is None else warming_stress
     pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
@@ -258,10 +237,7 @@ def predicted_of(data: xr.Dataset) -> Predicted:
 
 
 def answers_at(
-    measured: MeasuredFriction,
-    case: Case,
-    bench: Bench,
-    warming_stress: Array | None = None,
+    measured: MeasuredFriction, case: Case, bench: Bench, warming_stress: Array | None = None
 ) -> Predicted:
     """Return what the answer of a case with a measured surface states at each measured point.
 
@@ -270,7 +246,7 @@ def answers_at(
     that is fitted to them is multiplied with the same area when the case is answered with it.
     A missing temperature or pressure is that of the case, `warming_stress` as of `measured_design`.
 
-    Raises `InputError` and `FileError` as `predictions_at`; without a measured surface.
+    Raises `InputError` and `FileError` as `Bench.solve`; without a measured surface.
     """
     profiles = each_measured(case.surface)
     if not profiles:

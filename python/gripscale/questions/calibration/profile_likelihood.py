@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import scipy
@@ -28,7 +29,6 @@ from gripscale.questions.calibration.measured_comparison import rms
 _REACH = 2.0  # how much further each step of a search for an end goes
 _FINE = 1e-3  # relative accuracy of the distance to an end
 LESS = 1e-6  # relative decrease of the sum of squares beyond which another minimum has been met
-CURVE = 25  # values of a parameter at which its profile is kept
 
 
 class BetterMinimumFound(Exception):
@@ -105,21 +105,6 @@ class LikelihoodProfile:
         above(end)
         return way * math.inf if self.held_back(end, solved[end][1]) else end
 
-    def curve(self, low: float, high: float) -> tuple[Array, Array]:
-        """Return values from `low` to `high` and E there, each from its neighbour's others.
-
-        NaN where another parameter is held back by its own limit.
-        """
-        values = np.linspace(low, high, CURVE)
-        excess = np.empty(CURVE)
-        middle = int(np.argmin(np.abs(values - self.centre)))
-        for way in (range(middle, CURVE), range(middle - 1, -1, -1)):
-            others = None
-            for at in way:
-                rise, others = self.excess(float(values[at]), others)
-                excess[at] = math.nan if self.held_back(values[at], others) else rise
-        return values, excess
-
 
 def intervals(problem: CalibrationProblem) -> tuple[FittedLaw, tuple[tuple[float, float], ...]]:
     """Return the optimum and both ends of the interval of each free parameter.
@@ -139,33 +124,24 @@ def intervals(problem: CalibrationProblem) -> tuple[FittedLaw, tuple[tuple[float
 WAYS = ("temperature", "speed")
 
 
-@dataclass(frozen=True)
-class HeldOut:
-    """One group of points left out: the errors of the law fitted to the others.
-
-    All in friction [-]; NaN where the others cannot predict it.
-    """
-
-    value: float
-    """Temperature [K], or lower end of the decade of speed [m/s]."""
-    points: int
-    """How many were left out."""
-    rms_inside: float
-    """Root mean square residual of the points that were fitted."""
-    rms_outside: float
-    """Root mean square error at those that were left out."""
-    rms_outside_in_spread: float
-    """The same over the spread; NaN where none is stated."""
-    why_not: str = ""
-    """Why the others cannot predict it; empty where they can."""
+# What is known of each group of points that is left out, over `left_out`.
+_LEFT_OUT = {
+    "left_out": "temperature [K] or decade [m/s]",
+    "points": "measured points left out",
+    "rms_inside": "rms residual of the points that were fitted",
+    "rms_outside": "rms error at the points left out",
+    "rms_outside_in_spread": "the same, over the spread",
+    "why_not": "why the other points cannot predict them, empty where they can",
+}
 
 
 def held_out(
     points: fit.Points, groups: Array, kind: str, fixed: Mapping[str, float]
-) -> tuple[HeldOut, ...]:
-    """Return what each group of points is predicted to be by the others.
+) -> dict[str, tuple[str, list[Any], str]]:
+    """Return how well each group of points is predicted by the others, as columns of a Dataset.
 
     `groups` holds a value for each point; `kind` and `fixed` are of the law, as for `problem_of`.
+    Errors are in friction [-]; NaN where the others cannot predict it, or no spread is stated.
     """
     values = np.unique(groups)
     if values.size < 2:
@@ -173,28 +149,31 @@ def held_out(
             f"hold_out needs at least two groups to leave one of them out; got {values.size}"
         )
     wanted = {parameter.name for parameter in fit.problem_of(kind, points, fixed).free}
-    results = []
+    rows: list[tuple[Any, ...]] = []
     for value in values:
         chosen = groups == value
         count, rest, some = int(chosen.sum()), points.only(~chosen), points.only(chosen)
-        unknown = HeldOut(float(value), count, math.nan, math.nan, math.nan)
+        unknown = float(value), count, math.nan, math.nan, math.nan
         try:
             problem = fit.problem_of(kind, rest, fixed)
         except InputError as error:
-            results.append(replace(unknown, why_not=str(error)))
+            rows.append((*unknown, str(error)))
             continue
         if missing := wanted - {parameter.name for parameter in problem.free}:
             why = f"the other points do not determine {', '.join(sorted(missing))}"
-            results.append(replace(unknown, why_not=why))
+            rows.append((*unknown, why))
             continue
         theta = fit.best(problem).theta
         inside, outside = (
             replace(problem, points=part).friction(theta) - part.difference for part in (rest, some)
         )
         relative = np.full(count, np.nan) if some.spread is None else outside / some.spread
-        within, beyond, over = (float(rms(errors)) for errors in (inside, outside, relative))
-        results.append(HeldOut(float(value), count, within, beyond, over))
-    return tuple(results)
+        errors = (float(rms(each)) for each in (inside, outside, relative))
+        rows.append((float(value), count, *errors, ""))
+    return {
+        name: ("left_out", [*column], text)
+        for (name, text), column in zip(_LEFT_OUT.items(), zip(*rows, strict=True), strict=True)
+    }
 
 
 def groups_of(way: str, speed: Array, temperature: Array) -> Array:

@@ -18,16 +18,11 @@ import xarray as xr
 
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
-from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
-from gripscale.charts.draw import Picture, Sheet
-from gripscale.charts.style import BLUE, FAINT, GREY, ORANGE, WIDE
+from gripscale.charts.chart import Mark, Series, ShadedBand
+from gripscale.charts.draw import Picture
+from gripscale.charts.style import BLUE, ORANGE
 from gripscale.conditions import Conditions
-from gripscale.conditions.area_term import (
-    FittedPoints,
-    InterfacialShearStress,
-    shear_stress_from_dict,
-    shear_stress_to_dict,
-)
+from gripscale.conditions.area_term import InterfacialShearStress, shear_stress_from_dict
 from gripscale.core import Array, InputError, checks
 from gripscale.core.finding import Finding, sentences, to_json
 from gripscale.core.units import ZERO_CELSIUS, DisplayUnit, celsius, display_unit_of
@@ -46,13 +41,8 @@ from gripscale.model import INPUT_DOUBTS, STATUS, input_doubts_of
 from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.calibration import calibration_law as laws
-from gripscale.questions.calibration.area_term_fit import AreaTermFit, Estimate, fit_area_term
-from gripscale.questions.calibration.calibration_law import (
-    LIKELIHOOD_LEVEL,
-    PARAMETERS,
-    WRITTEN,
-    written,
-)
+from gripscale.questions.calibration.area_term_fit import Estimate, estimates_of, fit_area_term
+from gripscale.questions.calibration.calibration_law import LIKELIHOOD_LEVEL, PARAMETERS, written
 from gripscale.questions.calibration.measured_comparison import (
     Predicted,
     answers_at,
@@ -66,12 +56,10 @@ from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import Result
 from gripscale.questions.vary.inputs import default_model
 from gripscale.report.failures import failures_in, first_of
-from gripscale.rubber.extrapolation import WORTH_SAYING, require_measured
+from gripscale.rubber.extrapolation import require_measured
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-CEILING = 2.5  # highest excess that is drawn, over the threshold
 
 
 def fitted_figure(data: xr.Dataset) -> Figure:
@@ -93,42 +81,6 @@ def fitted_figure(data: xr.Dataset) -> Figure:
     return measured_sheet(data, fit, head=0.5).on_paper()
 
 
-def profiles_figure(data: xr.Dataset) -> Figure:
-    """Draw by how much the sum of squares rises where each parameter is held elsewhere."""
-    count = data.sizes["parameter"]
-    columns = 2 if count == 4 else min(count, 3)
-    panels = [_profile_panel(data.isel(parameter=at)) for at in range(count)]
-    height = 0.4 + 2.1 * -(-count // columns)
-    look: dict[str, Any] = {"legend_columns": 4, "gap": 0.05, "layout": {"sharey": True}}
-    return Sheet(panels, columns, min(3.5 * columns, WIDE), height, **look).on_paper()
-
-
-def _profile_panel(data: xr.Dataset) -> Panel:
-    threshold, level = (float(data.attrs[name]) for name in ("threshold", "level"))
-    unit = str(data.unit.item())
-    display = WRITTEN.get(unit, DisplayUnit("-" if unit == "1" else unit))
-    rows = np.isfinite(data.profile_excess.values)
-    value, excess = display.of(data.profile_value.values[rows]), data.profile_excess.values[rows]
-    low, high, best = (float(display.of(data[name])) for name in ("low", "high", "estimate"))
-    least, most = float(value.min()), float(value.max())
-    ends = [end if np.isfinite(end) else edge for end, edge in ((low, least), (high, most))]
-    name = str(data.parameter.item())
-    missing = [word for word, end in (("lower", low), ("upper", high)) if not np.isfinite(end)]
-    title = f"{' and '.join(missing)} end{'s' * (len(missing) > 1)} not determined"
-    return Panel(
-        PlotAxis(f"{PARAMETERS[name].label} [{display.unit}]", low=least, high=most,
-             log=name != "activation_energy" and most > 5.0 * least),
-        PlotAxis("rise of the sum of squares [-]", low=0.0, high=CEILING * threshold),
-        [
-            CrossLine(ends[0], FAINT, "interval", upright=True, to=float(ends[1])),
-            Series(value, excess, BLUE, "profile"),
-            CrossLine(threshold, ORANGE, f"{100.0 * level:.0f} %", width=1.0),
-            CrossLine(best, GREY, "best", width=1.0, upright=True),
-        ],
-        title=title if missing else "",
-    )  # fmt: skip
-
-
 _MODELS = ("direct", "chain")  # models whose hysteresis an area term can be put beside
 # Contacts with the heat that the measured friction makes: passes at most, and the friction to which
 # two of them agree.
@@ -143,8 +95,6 @@ class Calibration(Result):
     """
 
     kind = "calibration"
-    fit: AreaTermFit | None = None
-    """The fit with all its numbers; None of a result that was loaded from a file."""
 
     @property
     def law(self) -> InterfacialShearStress:
@@ -154,13 +104,7 @@ class Calibration(Result):
     @property
     def estimates(self) -> Sequence[Estimate]:
         """The fitted parameters with their 90 % intervals, in the units of the law."""
-        estimates = []
-        for name in self.data.parameter.values:
-            part = self.data.sel(parameter=name)
-            unit = str(part.unit.item()).removesuffix("1")
-            numbers = (float(part[key]) for key in ("estimate", "standard_error", "low", "high"))
-            estimates.append(Estimate(str(name), unit, *numbers))
-        return estimates
+        return estimates_of(self.data)
 
     @property
     def lines(self) -> Sequence[str]:
@@ -248,12 +192,6 @@ class Calibration(Result):
             "at each temperature.",
             "A panel for each temperature with points and two curves over the speed.",
         )
-        yield Picture(
-            "profiles",
-            profiles_figure(self.data),
-            "Rise of the sum of squares if a parameter is held at another value.",
-            "A panel for each parameter with a valley around its best value.",
-        )
 
 
 def residual_table(data: xr.Dataset) -> Table:
@@ -294,57 +232,20 @@ def residual_table(data: xr.Dataset) -> Table:
     return Table("residuals", columns, "Measured and predicted friction", notes, keys=len(points))
 
 
-UNLIKELY = 0.01  # chance of the sum of squares below which something must be wrong
-
-
-def notes(calibration: AreaTermFit) -> Iterator[str]:
-    """Yield a sentence on each thing to know before the numbers are used."""
-    if not calibration.spread_known:
-        yield (
-            f"No spread is stated: the scatter of the residuals, {calibration.scatter:.2g}, "
-            "takes its place, whatever its cause."
-        )
-    elif calibration.chance < UNLIKELY:
-        yield (
-            f"The residuals are {calibration.scatter:.2g} times the stated spread: law, hysteresis "
-            "or spread is wrong, and the intervals are too narrow."
-        )
-    if (
-        calibration.law.kind == "gaussian"
-        and calibration.problem.held.get("activation_energy") == 0
-    ):
-        yield (
-            "No activation energy: the temperatures in the contact are only "
-            f"{calibration.problem.points.temperature_range:.2g} K apart and do not determine it. "
-            "The law holds at the measured temperature."
-        )
-    predicted = calibration.predicted
-    if without := int((~predicted.has_answer).sum()):
-        why = next(s for s, k in zip(predicted.status, predicted.has_answer, strict=True) if not k)
-        yield f"Measured points without a prediction, which do not count: {without}, as {why}."
-    if below := int((calibration.problem.points.difference < 0.0).sum()):
-        yield f"Measured points below the hysteresis alone: {below}."
-    if beyond := int((predicted.outside_band > WORTH_SAYING).sum()):
-        yield (
-            f"Points where more than {WORTH_SAYING:.0%} of the hysteresis rests on the rubber "
-            f"outside its measured frequencies: {beyond}."
-        )
-
-
-def shear_stress_table(calibration: AreaTermFit) -> str:
+def shear_stress_table(result: Calibration) -> str:
     """Return the table [conditions.shear_stress] of the fitted law, with its intervals."""
-    law = shear_stress_to_dict(calibration.law)
+    law = json.loads(result.data.attrs["law"])
     points = law.pop("fitted_to")
-    estimates = {estimate.name: estimate for estimate in calibration.estimates}
-    source = Path(calibration.measured.source).name or "a measurement"
+    estimates = {estimate.name: estimate for estimate in result.estimates}
+    source = Path(result.data.attrs["measured_source"]).name or "a measurement"
     lines = [
-        f"# Fitted to {calibration.problem.points.speed.size} points of {source};",
+        f"# Fitted to {int(result.data.area_term.count())} points of {source};",
         f"# intervals of {LIKELIHOOD_LEVEL:.0%} by profile likelihood, for this rubber on this "
         "surface.",
         "[conditions.shear_stress]",
         f'kind = "{law.pop("kind")}"',
     ]
-    if calibration.law.kind == "gaussian" and law["activation_energy"] == 0.0:
+    if law.get("activation_energy") == 0.0:
         del law["activation_energy"], law["reference_temperature"]
         lines.insert(2, "# No activation energy: the law holds at the measured temperature.")
     for name, value in law.items():
@@ -433,18 +334,17 @@ def calibrate(
             change = (stress - (0.0 if before is None else before)) * predicted.leverage
             if np.nan_to_num(np.abs(change)).max() < SAME_FRICTION:
                 break
-    fit = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
+    data = fit_area_term(friction, predicted, law=law, fixed=fixed, hold_out=hold_out)
     if model != Chain.name:  # whose answers have no interval
-        fit = replace(fit, fitted_to=_points_of(fit, case))
-    data = fit.to_dataset().assign_attrs(case.attributes, model=model, notes="\n".join(notes(fit)))
+        fitted = json.loads(data.attrs["law"]) | {"fitted_to": _points_of(data, case)}
+        data.attrs["law"] = json.dumps(fitted)
+    data = data.assign_attrs(case.attributes, model=model)
     if far := speed_doubts(friction, case.load.speed):
         data.attrs[INPUT_DOUBTS] = to_json(far)
     # its speeds have a doubt of their own
     loads = [replace(case.load, pressure=float(p)) for p in predicted.pressure]
     doubts = friction_doubts(friction, case.load.speed)
-    result = Calibration(data, record.inputs(case, loads=loads, further=doubts))
-    result.fit = fit
-    return result
+    return Calibration(data, record.inputs(case, loads=loads, further=doubts))
 
 
 def _measured_stress(predicted: Predicted, measured: MeasuredFriction) -> Array:
@@ -454,23 +354,19 @@ def _measured_stress(predicted: Predicted, measured: MeasuredFriction) -> Array:
     return np.divide(missing, predicted.leverage, out=np.zeros(missing.size), where=adds)
 
 
-def _points_of(fit: AreaTermFit, case: Case) -> FittedPoints:
-    """Return the record of the points of a fit beside the direct contact of a case."""
-    below, answered = case.below_measurement, fit.predicted.has_answer
-    contact = Contact(case.rubber, case.surface, case.load, case.conditions, below)
+def _points_of(data: xr.Dataset, case: Case) -> dict[str, Any]:
+    """Return the record of the points of a fit beside the direct contact (`FittedPoints`)."""
+    contact = Contact(case.rubber, case.surface, case.load, case.conditions, case.below_measurement)
     before = (case.conditions or Conditions()).temperature_of(case.rubber)
-    kelvin = np.where(
-        np.isnan(fit.measured.temperature),
-        math.nan if before is None else before,
-        fit.measured.temperature,
-    )[answered]
-    return FittedPoints(
-        contact.key,
-        fit.measured.speed[answered].tolist(),
-        fit.predicted.contact_fraction[answered].tolist(),
-        fit.half_width.tolist(),
-        None if np.isnan(kelvin).any() else kelvin.tolist(),
-    )
+    points = data.isel(measurement=np.isfinite(data.area_term.values))
+    kelvin = points.measured_temperature.fillna(math.nan if before is None else before)
+    return {
+        "contact": contact.key,
+        "speed": points.measured_speed.values.tolist(),
+        "contact_fraction": points.contact_fraction.values.tolist(),
+        "half_width": points.friction_half_width.values.tolist(),
+        "temperature": None if kelvin.isnull().any() else kelvin.values.tolist(),
+    }
 
 
 def measured_of(case: Case, measured: MeasuredFriction | str | Path | None) -> MeasuredFriction:

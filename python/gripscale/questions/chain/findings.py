@@ -35,15 +35,12 @@ def conditions_notes(view: PredictionView) -> Iterator[str]:
 
 
 def _of_waves(flagged: np.ndarray, words: str) -> Iterator[str]:
-    if waves := _named_waves(flagged):
-        yield f"{waves}: {words}."
-
-
-def _named_waves(flagged: np.ndarray) -> str:
     numbers = [str(at + 1) for at in np.flatnonzero(flagged)]
+    waves = f"Wave{'s' if len(numbers) > 1 else ''} {', '.join(numbers)}"
     if len(numbers) > 1 and len(numbers) == flagged.size:
-        return f"All {len(numbers)} waves"
-    return f"Wave{'s' if len(numbers) > 1 else ''} {', '.join(numbers)}" if numbers else ""
+        waves = f"All {len(numbers)} waves"
+    if numbers:
+        yield f"{waves}: {words}."
 
 
 def _share(value: float) -> str:

@@ -10,22 +10,10 @@ import numpy as np
 from gripscale.charts.draw import panels_on_page
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS
 from gripscale.experiment.design import CONVERGED
-from gripscale.io.table import (
-    Column,
-    Table,
-    fixed,
-    significant,
-    whole_number,
-)
+from gripscale.io.table import Column, Table, fixed, significant, whole_number
 from gripscale.model import with_adhesive
+from gripscale.questions.answer import variables
 from gripscale.questions.answer.reliance import is_measured
-from gripscale.questions.answer.variables import (
-    JUDGE,
-    OF_THE_PAPER,
-    SYMBOLS,
-    answer_number,
-    has_answer,
-)
 from gripscale.questions.chain.charts import contact_sheet
 from gripscale.questions.chain.findings import (
     conditions_notes,
@@ -162,7 +150,7 @@ def waves_in_brief(chain: xr.Dataset) -> Table:
     dropped = ("slope", "friction_from_dissipation")
     kept = (replace(column, group="") for column in OF_WAVES if column.name not in dropped)
     columns = [filled(view, column) for column in kept]
-    title = f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}"
+    title = f"{variables.OF_THE_PAPER[0].upper()}{variables.OF_THE_PAPER[1:]}"
     return Table("waves", [numbers("wave", view.waves, "#"), *columns], title, bad=~view.converged)
 
 
@@ -170,18 +158,18 @@ def judgement(chain: xr.Dataset, answer: xr.Dataset) -> str:
     """Return how the chain of waves compares with the answer of a measured surface, or failed."""
     view = PredictionView(chain)
     if not view.complete:
-        return f"For comparison, {OF_THE_PAPER}: {totals(chain)}"
+        return f"For comparison, {variables.OF_THE_PAPER}: {totals(chain)}"
     texts = []
-    for name in reversed(SYMBOLS) if view.moving else ["contact_fraction"]:
+    for name in reversed(variables.SYMBOLS) if view.moving else ["contact_fraction"]:
         both = with_adhesive(chain) if name == "friction" else None
         value = view.total(name) if both is None else float(both)
-        text = f"{SYMBOLS[name]} = {significant(value)}"
-        if has_answer(answer):
-            ratio = significant(value / answer_number(answer, name).value, 2)
+        text = f"{variables.SYMBOLS[name]} = {significant(value)}"
+        if variables.has_answer(answer):
+            ratio = significant(value / variables.answer_number(answer, name).value, 2)
             text += f", {ratio} times that of the answer"
         texts.append(text)
     return (
-        f"For comparison, {OF_THE_PAPER}: {'; '.join(texts)}. "
+        f"For comparison, {variables.OF_THE_PAPER}: {'; '.join(texts)}. "
         "`gripscale compare` shows the cost of each assumption."
     )
 
@@ -192,11 +180,14 @@ def chain_section(chain: xr.Dataset, answer: xr.Dataset) -> Section:
     title, judge = "Contact and friction, wave by wave", None
     elements: list[Element] = []
     if is_measured(answer):
-        title, judge = f"{OF_THE_PAPER[0].upper()}{OF_THE_PAPER[1:]}, for comparison", answer
+        title, judge = (
+            f"{variables.OF_THE_PAPER[0].upper()}{variables.OF_THE_PAPER[1:]}, for comparison",
+            answer,
+        )
         elements.append(Text(judgement(chain, answer)))
     waves, *heat = chain_tables(chain)
     elements += [replace(waves, name="chain"), *heat]
     if view.waves:
-        models = {view.name: chain, **({} if judge is None else {JUDGE: judge})}
+        models = {view.name: chain, **({} if judge is None else {variables.JUDGE: judge})}
         elements += panels_on_page(panel for panel in contact_sheet(models).panels if panel.marks)
     return Section("chain", title, elements)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -94,7 +93,6 @@ def compare_command(
     work.finish(
         result,
         "tables and figures",
-        text=f"{Path(result.file).stem}.txt",
         drawings="",
         page=lambda page: write_report(target, page),
     )

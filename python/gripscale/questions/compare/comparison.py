@@ -26,10 +26,9 @@ from gripscale.model import Doubtful
 from gripscale.questions.answer import estimate as estimates
 from gripscale.questions.answer import samples as reduce
 from gripscale.questions.answer.calibrated import Contact
-from gripscale.questions.answer.estimate import Factor
+from gripscale.questions.answer.estimate import Factor, estimate_of_waves
 from gripscale.questions.answer.intervals import half_width
 from gripscale.questions.answer.variables import ANSWER_NUMBERS, LARGE_STRAIN, LARGE_STRAIN_NUMBERS
-from gripscale.questions.answer.waves import estimate_of_waves
 from gripscale.questions.calibration import measured_comparison as friction
 from gripscale.questions.compare.ladder import ComparedModel, ComparisonSetup
 from gripscale.questions.vary.axis import Axis
@@ -251,7 +250,7 @@ def at_measured(
     The result is that of `gripscale.questions.residuals`, with the area term of the case's
     conditions; None where no friction was measured or no model predicts. Of several samples of a
     model the means; beside the direct contact the `answer` of the case, which has its factors on
-    friction and area. Raises `InputError` or `FileError` as `predictions_at`.
+    friction and area. Raises `InputError` or `FileError` as `Bench.solve`.
 
     Parameters
     ----------

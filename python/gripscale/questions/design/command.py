@@ -108,5 +108,5 @@ def design_command(
         **work.solving(workers),
     )
     write_targets(result.data, work.target)
-    contents = "figure, and master curve, Prony series and rubber of each point (target_*)"
+    contents = "figure, and master curve and rubber of each point (target_*)"
     work.finish(result, contents, drawings="")

@@ -27,15 +27,7 @@ from gripscale.experiment.task import Task
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
 from gripscale.questions.answer.variables import believed
-from gripscale.questions.design.compound_limits import (
-    PointLimit,
-    all_moduli,
-    band_in_words,
-    changed,
-    modulus_parts,
-    require_shift,
-    rolling_ratio,
-)
+from gripscale.questions.design import compound_limits
 from gripscale.questions.design.compound_search import (
     LARGEST_FACTOR,
     LEAST_GAP,
@@ -51,11 +43,10 @@ from gripscale.questions.vary.inputs import at_temperature, model_of
 from gripscale.questions.vary.ranking import at_one_temperature
 from gripscale.rubber import Rubber
 
-DESIGN_FILE = "design.nc"
 # Attribute of a design: levels that are left out because a lower one has as much friction.
 FRUITLESS = "levels_without_more_friction"
 # The loss factor that is the rule of thumb for wet grip.
-WET = PointLimit("loss_factor", 0.0, 1.0, 10.0, ZERO_CELSIUS)
+WET = compound_limits.PointLimit("loss_factor", 0.0, 1.0, 10.0, ZERO_CELSIUS)
 FREQUENCIES_PER_DECADE = 8  # frequencies of a stored master curve in a decade
 EXCITED = 0.01  # share of the friction below and above the frequencies that count as excited
 
@@ -105,7 +96,7 @@ def todays_compound(
             "title": "Design of a compound: friction against rolling resistance",
             "rubber": f"{rubber.name}; {rubber.source}".strip("; "),
             "rolling_condition": problem.rolling[0].condition,
-            "rolling_band": band_in_words(problem.rolling),
+            "rolling_band": compound_limits.band_in_words(problem.rolling),
             "wet_condition": "" if rubber.shift is None else WET.within_shift(rubber).condition,
             "reference_temperature": math.nan if kelvin is None else kelvin,
             "largest_factor": problem.limits.largest_factor,
@@ -138,7 +129,7 @@ def _of_compound(
 ) -> Quantities:
     """Return friction and contact at the goals, moduli and master curve of a compound."""
     omega = 2.0 * math.pi * _frequencies(problem.rubber)
-    storage, loss = (parts.sum(axis=-1) for parts in modulus_parts(rubber, omega))
+    storage, loss = (parts.sum(axis=-1) for parts in compound_limits.modulus_parts(rubber, omega))
     lost, traction, area = (
         problem.friction.averaged([getattr(contact, name) for contact in contacts])
         for name in ("friction_from_dissipation", "friction", "contact_fraction")
@@ -150,7 +141,7 @@ def _of_compound(
         "friction": (lost, "friction coefficient from the energy lost", "1", "goal"),
         "friction_from_traction": (traction, "the same from the traction", "1", "goal"),
         "contact_fraction": (area, "real over nominal contact area", "1", "goal"),
-        "modulus": (all_moduli(rubber), text, "Pa", "term"),
+        "modulus": (compound_limits.all_moduli(rubber), text, "Pa", "term"),
         "storage": (storage, "storage modulus", "Pa", "frequency"),
         "loss": (loss, "loss modulus", "Pa", "frequency"),
         "rolling_loss_factor": (rolling, "tan(delta) at the first rolling condition"),
@@ -178,14 +169,14 @@ def solved_point(
     optima = [best_change(friction, admissible, start) for start in starts]
     best = max(optima, key=lambda optimum: optimum.log_friction)
     optimum = nearest_design(friction, admissible, best)
-    rubber = changed(problem.rubber, optimum.ratio)
+    rubber = compound_limits.changed(problem.rubber, optimum.ratio)
     compound = SolvedCompound.of(friction, rubber, problem.rubber)
     error = series_error(compound.series - today.series)
     result = gain(friction, today.contacts, compound.contacts, error)
     worth = problem.worth_of_limits(level, best.slope)
     least, _ = friction.log_friction(problem.unchanged)
     searched, sought = (math.expm1(end.log_friction - least) for end in (optimum, best))
-    rolling = rolling_ratio(problem.rolling, rubber, problem.rubber)
+    rolling = compound_limits.rolling_ratio(problem.rolling, rubber, problem.rubber)
     limited_ratio = [point.ratio(rubber, problem.rubber) for point in admissible.points]
     numbers = {
         "rolling_level": (level, "largest rolling resistance over today's"),
@@ -217,7 +208,7 @@ def solved_point(
 
 
 def todays_answers(
-    case: Case, problem: DesignProblem, folder: Path | None, on_task: OnTask | None
+    case: Case, problem: DesignProblem, folder: str | Path | None, on_task: OnTask | None
 ) -> Array:
     """Return the friction of today's compound at each goal, as `gripscale.answer` states it [-]."""
     model, tasks = model_of(DirectContact.name, case), {}
@@ -257,8 +248,10 @@ def other_compounds(
         rolling = math.nan
         try:
             for point in problem.rolling:
-                require_shift(rubber, point.temperature, f"the rolling resistance of {name}")
-            rolling = rolling_ratio(problem.rolling, rubber, problem.rubber)
+                compound_limits.require_shift(
+                    rubber, point.temperature, f"the rolling resistance of {name}"
+                )
+            rolling = compound_limits.rolling_ratio(problem.rolling, rubber, problem.rubber)
         except InputError as why:
             notes = (*notes, f"not known: {why}")
         numbers = {

@@ -19,11 +19,8 @@ radius 1/2c about i/2c. The tangent where tan(delta) is t keeps it there,
 
     sin(2 delta) E'(w) - cos(2 delta) E''(w) >= sin(delta)^2/c,    tan(delta) = t = high t_0.
 
-Rolling resistance is what a tyre loses at the frequencies and temperatures it meets: it is cooler
-before it has rolled for an hour, and each turn has harmonics. A compound made for one frequency and
-temperature pays at their neighbours: held at 10 Hz and 60 C alone, the loss factor of a design was
-1.5 times today's at 40 C and at 50 Hz. At a stated strain losses follow tan(delta), at a stated
-force J''. Both are therefore kept over a band, and the worst of them is the ratio that counts.
+Rolling resistance is tan(delta), the loss at a stated strain, and J'', that at a stated force, over
+a band of frequencies and temperatures; the worst of them counts (docs/compound-design.md).
 """
 
 from __future__ import annotations

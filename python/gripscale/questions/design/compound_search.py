@@ -7,14 +7,11 @@ The objective is smooth in r, its gradient g comes from one adjoint solution a c
 
     gap = max g . (s - r)  over all admissible s
 
-says how much more any admissible change could gain in ln mu, to first order. Where the limits
-decide, the optimum is a corner of the polytope, and steps to the best corner find it in a few
-gradients (M. Frank & P. Wolfe, Nav. Res. Logist. Q. 3 (1956) 95). Where a gap is left, sequential
-quadratic programming goes on (scipy's SLSQP; D. Kraft, DFVLR-FB 88-28 (1988)).
-
-A corner also changes moduli that hardly matter on the road. The design is therefore the change
-nearest to today's compound, with the least sum of ln(r_i)^2, among those that give away 0.1 % of
-the friction of the optimum to first order; where it gives away more, it moves back.
+says how much more any admissible change could gain in ln mu, to first order. Steps to the best
+corner of the polytope find the optimum where the limits decide (M. Frank & P. Wolfe, Nav. Res.
+Logist. Q. 3 (1956) 95), sequential quadratic programming elsewhere (scipy's SLSQP; D. Kraft,
+DFVLR-FB 88-28 (1988)). The design is the change nearest to today's compound, with the least sum of
+ln(r_i)^2, among those that give away 0.1 % of the friction of the optimum.
 """
 
 from __future__ import annotations

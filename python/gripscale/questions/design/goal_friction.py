@@ -16,11 +16,10 @@ How much friction one compound has over another on the same road is
     G = sum_k W_k ln(mu_k / mu_k,0),    gain = exp(G) - 1
 
 over the goals with weights W_k, of direct contacts by the energy lost. Both compounds slide on the
-same pieces of the same profiles, so that most of what a short profile leaves open cancels; what is
-left is in `gripscale.questions.vary.friction_ratio`. The design multiplies E*(w) by a function of
-frequency, whatever series fits today's measurement: series k changes G by the difference of its
-effects on both. Another compound was measured by itself, and both errors count. Finite strain and
-the step from lines to a surface multiply both frictions alike and are left out.
+same pieces of the same profiles (`gripscale.questions.vary.friction_ratio`). The design multiplies
+E*(w) by a function of frequency, whatever series fits today's measurement: series k changes G by
+the difference of its effects on both. Another compound was measured by itself, and both errors
+count.
 """
 
 from __future__ import annotations

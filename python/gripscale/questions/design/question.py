@@ -10,31 +10,24 @@ import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import cycle
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
 from gripscale.case import Case
-from gripscale.charts.draw import Picture
+from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series
+from gripscale.charts.draw import Picture, Sheet
+from gripscale.charts.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, SKY, YELLOW
 from gripscale.core import InputError, checks, doubt, parse_quantity
+from gripscale.core.units import MEGA
 from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask
-from gripscale.io import netcdf
-from gripscale.io.folders import make_folder, write_csv, write_text
+from gripscale.io.folders import make_folder, write_text
 from gripscale.io.table import Column, Table, change, fixed, percent, significant
-from gripscale.questions.design.charts import SAME, answering_point, design_figure
-from gripscale.questions.design.compound_design import (
-    DESIGN_FILE,
-    FRUITLESS,
-    left_out,
-    other_compounds,
-    rising_levels,
-    solved_point,
-    todays_answers,
-    todays_compound,
-)
+from gripscale.questions.design import compound_design
 from gripscale.questions.design.compound_limits import (
     LIMITED_QUANTITIES,
     CompoundLimits,
@@ -49,7 +42,98 @@ from gripscale.questions.vary.axis import values_by_name
 from gripscale.questions.vary.inputs import measured_rubber_of, reading_notes
 from gripscale.rubber import MasterCurve, Rubber, write_master_curve
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 OnPoint = Callable[[xr.Dataset], object]
+PERCENT = 100.0
+SAME = 5e-3  # relative difference of rolling resistances that is none
+_FREQUENCY = PlotAxis("frequency [Hz]", log=True, numbers=5)
+# Difference of rolling resistances over today's from which both curves can be told apart.
+_APART = 0.05
+COMPOUND_COLOURS = (PURPLE, YELLOW, SKY, GREY)
+
+
+def answering_point(data: xr.Dataset) -> int:
+    """Return the last point whose rolling resistance is at most today's; without one the last."""
+    allowed = np.flatnonzero(data.rolling_ratio.values <= 1.0 + 1e-6)
+    return int(allowed[-1]) if allowed.size else data.sizes["point"] - 1
+
+
+def design_figure(data: xr.Dataset) -> Figure:
+    """Draw the trade-off curve of a design, and moduli, loss factor and change of some points.
+
+    `data` is that of `gripscale.design`.
+    """
+    ratio, answer = data.rolling_ratio.values, answering_point(data)
+    colours = {0: BLUE, data.sizes["point"] - 1: ORANGE, answer: GREEN}
+    # The answer, and ends apart from it.
+    drawn = {
+        at: colours[at]
+        for at in sorted(colours)
+        if at == answer or abs(ratio[at] - ratio[answer]) > _APART
+    }
+    panels = [_trade_off_panel(data, drawn), *_master_curve_panels(data, drawn)]
+    return Sheet(panels, 2, height=5.6, legend_columns=4).on_paper()
+
+
+def _trade_off_panel(data: xr.Dataset, drawn: dict[int, str]) -> Panel:
+    rolling = PERCENT * (data.rolling_ratio.values - 1.0)
+    low, gain, high = (PERCENT * data[name].values for name in ("gain_low", "gain", "gain_high"))
+    marks: list[Mark] = [
+        CrossLine(0.0, width=0.7),
+        CrossLine(0.0, width=0.7, upright=True),
+        Series(rolling, gain, INK, marker="o", size=3.0, low=low, high=high),
+        Series([0.0], [0.0], INK, "today", "", marker="s", size=6.0),
+    ]
+    for at, colour in drawn.items():
+        label = f"rolling resistance {rolling[at]:+.0f} %"
+        if abs(rolling[at]) < PERCENT * SAME:
+            label = "same rolling resistance"
+        marks.append(
+            Series([rolling[at]], [gain[at]], colour, label, "", marker="o", size=6.0, order=3.0)
+        )
+    names = data.compound.values.tolist() if "compound" in data.dims else ()
+    for at, (name, colour) in enumerate(zip(names, cycle(COMPOUND_COLOURS), strict=False)):
+        x, y, low, high = (
+            PERCENT * data[f"compound_{key}"].values[[at]]
+            for key in ("rolling_ratio", "gain", "gain_low", "gain_high")
+        )
+        marks.append(
+            Series(x - PERCENT, y, colour, name, "", marker="D", size=5.0, low=low, high=high)
+        )
+    return Panel(
+        PlotAxis("change of rolling resistance [%]"),
+        PlotAxis("friction gained [%]", margin=0.1),
+        marks,
+    )
+
+
+def _master_curve_panels(data: xr.Dataset, drawn: dict[int, str]) -> list[Panel]:
+    """Return moduli, loss factor, and moduli over today's; dotted lines enclose those excited."""
+    ends = ((data.excited_low, "98 % of the friction between"), (data.excited_high, ""))
+    excited: list[Mark] = [
+        CrossLine(float(end), GREY, label, "dotted", upright=True) for end, label in ends
+    ]
+    frequency, (moduli, factor, change) = data.frequency.values, ([*excited] for _ in range(3))
+    today = data.today_storage, data.today_loss
+    for storage, loss, colour, width in (
+        (*today, INK, 1.6),
+        *((data.storage[at], data.loss[at], colour, 1.0) for at, colour in drawn.items()),
+    ):
+        for modulus, old, name, dash in (
+            (storage, today[0], "$E'$", "dashdot"),
+            (loss, today[1], "$E''$", "solid"),
+        ):
+            label = name if colour == INK else ""
+            moduli.append(Series(frequency, modulus / MEGA, colour, label, dash, width=width))
+            change.append(Series(frequency, modulus / old, colour, "", dash, width=width))
+        factor.append(Series(frequency, loss / storage, colour, width=width))
+    return [
+        Panel(_FREQUENCY, PlotAxis("modulus [MPa]", log=True), moduli),
+        Panel(_FREQUENCY, PlotAxis("loss factor tan δ [-]", low=0.0), factor),
+        Panel(_FREQUENCY, PlotAxis("modulus over today's [-]"), change),
+    ]
 
 
 class CompoundDesign(Result):
@@ -73,7 +157,9 @@ class CompoundDesign(Result):
             lines.append(f"  Or the same friction with rolling resistance {change(least - 1.0)}.")
         elif float(data.gain[0]) >= 0.0 and data.sizes["point"] > 1:
             lines.append(f"  Or friction {_trade(data.isel(point=0))}.")
-        if json.loads(attrs.get(FRUITLESS, "[]"))[-1:] > [float(data.rolling_level[-1])]:
+        if json.loads(attrs.get(compound_design.FRUITLESS, "[]"))[-1:] > [
+            float(data.rolling_level[-1])
+        ]:
             last = change(float(data.rolling_ratio[-1]) - 1.0)
             lines.append(f"  More rolling resistance than {last} gives no more friction.")
         worth = zip(chosen.widened.values, np.expm1(chosen.limit_worth.values), strict=True)
@@ -221,7 +307,7 @@ def design(
     roads : mapping, optional
         Surfaces of the goals by the names that the goals use.
     folder : path, optional
-        Keeps the result as `design.nc`.
+        Keeps the answers of today's compound, which are not solved again.
     workers : int, optional
         Threads; one per core by default.
     on_point : callable, optional
@@ -229,25 +315,22 @@ def design(
     on_task : callable, optional
         Called with today's answer at each goal, as for `gripscale.experiment.Bench`.
     """
-    target = None if folder is None else Path(folder)
-    if target is not None:
-        make_folder(target)
     problem = design_problem(case, goals, limits, workers, roads)
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
     named = rubbers or {}
-    now = todays_answers(case, problem, target, on_task)
+    now = compound_design.todays_answers(case, problem, folder, on_task)
     problem.friction.log_friction(problem.unchanged)  # all contacts start from these
     reference = SolvedCompound.of(problem.friction, problem.rubber, problem.rubber)
     compounds = {name: measured_rubber_of(value, case) for name, value in named.items()}
     rubbers_by_name = {name: each.rubber for name, each in compounds.items()}
-    others, notes = other_compounds(problem, reference, rubbers_by_name)
-    base = todays_compound(problem, reference.contacts, now).merge(others)
+    others, notes = compound_design.other_compounds(problem, reference, rubbers_by_name)
+    base = compound_design.todays_compound(problem, reference.contacts, now).merge(others)
     base = base.assign_attrs(
         case.attributes,
         kind=CompoundDesign.kind,
         rubber_parameters=json.dumps(problem.rubber.to_dict()),
         notes="\n".join(notes),
-        left_out=left_out(case),
+        left_out=compound_design.left_out(case),
     )
     loads = [
         replace(case.load, speed=goal.speed, pressure=goal.pressure)
@@ -255,12 +338,11 @@ def design(
     ]
     of_compounds = [doubt(text) for text in reading_notes(named.values())]
     of_compounds += [d.about(name) for name, each in compounds.items() for d in each.doubts]
-    inputs = record.inputs(case, problem.roads.values(), loads, of_compounds)
     points: list[xr.Dataset] = []
     fruitless: set[float] = set()
-    rising = rising_levels(wanted, problem)
+    rising = compound_design.rising_levels(wanted, problem)
     for level in rising:
-        point = solved_point(problem, reference, level, points[-1:])
+        point = compound_design.solved_point(problem, reference, level, points[-1:])
         answers = base.today_answer_friction * (point.friction / base.today_friction)
         text = "friction of the answer with the design"
         point["answer_friction"] = answers.assign_attrs(variable_attributes(text))
@@ -274,10 +356,8 @@ def design(
             fruitless |= {higher for higher in rising if higher > level}
             break
     data = base.merge(xr.concat(points, "point", combine_attrs="override"))
-    data.attrs[FRUITLESS] = json.dumps(sorted(fruitless))
-    if target is not None:
-        netcdf.save(data, target / DESIGN_FILE, {"inputs": inputs})
-    return CompoundDesign(data, inputs)
+    data.attrs[compound_design.FRUITLESS] = json.dumps(sorted(fruitless))
+    return CompoundDesign(data, record.inputs(case, problem.roads.values(), loads, of_compounds))
 
 
 # What a goal may state beside `weight` and `road`.
@@ -342,13 +422,11 @@ def designed_rubber(data: xr.Dataset, point: int) -> Rubber:
 
 
 def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
-    """Write master curve (CSV), Prony series (CSV) and rubber (JSON) of each point.
+    """Write master curve (CSV) and rubber (JSON) of each point.
 
     The number in the name is tan(delta) at the rolling condition in per cent of today's. The JSON
     file is what `gripscale export rubber` takes. Returns the paths.
     """
-    import pandas as pd
-
     target = Path(folder)
     make_folder(target)
     paths = []
@@ -363,14 +441,6 @@ def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
             f"design of gripscale, not measured; from {data.attrs['rubber']}",
         )
         paths.append(write_master_curve(target / f"{rubber.name}.csv", curve))
-        series = pd.DataFrame(
-            {
-                "relaxation_time [s]": data.relaxation_time.values,
-                "modulus [Pa]": point.modulus.values,
-                "modulus_over_today [-]": point.modulus_ratio.values,
-            }
-        )
-        paths.append(write_csv(series, target / f"{rubber.name}_prony.csv"))
         text = json.dumps(rubber.to_dict(), indent=1)
         paths.append(write_text(target / f"{rubber.name}.json", text))
     return paths

@@ -12,18 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gripscale.charts import draw
-from gripscale.charts.chart import (
-    ColourBar,
-    CrossLine,
-    Mark,
-    Panel,
-    PlotAxis,
-    Series,
-    ShadedBand,
-)
+from gripscale.charts.chart import ColourBar, CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Chart, Sheet
 from gripscale.charts.style import BLUE, COLOURS, GREEN, GREY, INK, NARROW, ORANGE, shades
 from gripscale.core import Array, InputError
@@ -154,17 +146,12 @@ def moduli_panels(
     ]
 
 
-def _left_out(inputs: xr.Dataset) -> NDArray[np.bool_]:
-    if "master_left_out" not in inputs:
-        return np.zeros(inputs.sizes["row"], dtype=bool)
-    return np.asarray(inputs["master_left_out"].values != 0)
-
-
 def _rows(
     inputs: xr.Dataset, values: Array, colour: str, name: str, *, listed: bool = True
 ) -> Iterator[Series]:
     """Yield the measured rows, those left out of the fit as crosses."""
-    omega, out = 2.0 * math.pi * inputs["master_frequency"].values, _left_out(inputs)
+    omega = 2.0 * math.pi * inputs["master_frequency"].values
+    out = inputs.get("master_left_out", xr.zeros_like(inputs.master_frequency)).values != 0
     yield Series(omega[~out], values[~out], colour, f"{name}, measured", "", marker=".", size=3.5,
                  alpha=0.6, listed=listed)  # fmt: skip
     if out.any():

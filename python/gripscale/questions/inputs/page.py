@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core.units import MEGA, MILLI, ZERO_CELSIUS, display_unit_of, in_mm
-from gripscale.io.table import NONE, Column, Flags, Table, digits, fixed, significant, whole_number
+from gripscale.io.table import NONE, Column, Table, digits, fixed, significant, whole_number
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.inputs.charts_of_surface import correlation_charts, profile_charts
 from gripscale.questions.inputs.record import InputRecord, rubber_variables
@@ -38,9 +38,9 @@ if TYPE_CHECKING:
 GIGA = 1e9
 
 
-def numbers(name: str, count: int, heading: str | None = None, bad: Flags = ()) -> Column:
+def numbers(name: str, count: int, heading: str | None = None) -> Column:
     """Return a column of numbers from 1."""
-    return Column(name, list(range(1, count + 1)), heading, format="{:.0f}".format, bad=bad)
+    return Column(name, list(range(1, count + 1)), heading, format="{:.0f}".format)
 
 
 def waves_table(wavelength: ArrayLike, amplitude: ArrayLike) -> Table:

@@ -28,7 +28,13 @@ from gripscale.half_space.model import resolved_wavelength
 from gripscale.io.table import Column, Table, percent
 from gripscale.model import FRICTION_OUTSIDE_BAND, OUTSIDE_BAND, STATUS, STATUS_WORD, Load
 from gripscale.questions.answer.direct_contact import direct_contact_totals
-from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, LINES_TO_SURFACE, SampledErrors
+from gripscale.questions.answer.estimate import (
+    DIRECT,
+    ESTIMATED,
+    LINES_TO_SURFACE,
+    SampledErrors,
+    answer_of_waves,
+)
 from gripscale.questions.answer.intervals import LogError, combined
 from gripscale.questions.answer.samples import SAMPLED_QUANTITIES, running, usable
 from gripscale.questions.answer.variables import (
@@ -37,7 +43,6 @@ from gripscale.questions.answer.variables import (
     SYMBOLS,
     of_hysteresis,
 )
-from gripscale.questions.answer.waves import answer_of_waves
 from gripscale.questions.uncertainty.sampling import SampleSet
 from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES
 from gripscale.questions.uncertainty.variance_shares import shares

@@ -148,4 +148,4 @@ def compare_rubbers(
     compounds = dict(zip(names_of(rubbers), read, strict=True))
     solving = work.solving(workers)
     ranking = compare_compounds(work.case, compounds, temperature=kelvin, **solving)
-    work.finish(ranking, "table and figures", text="compounds.txt", drawings="")
+    work.finish(ranking, "table and figures", drawings="")

@@ -8,17 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import CliRunner
 
 import gripscale as gs
-from gripscale.cli import app
+from examples.slip_curve import friction_table, question
+from examples.slip_curve.__main__ import main
+from examples.slip_curve.brush import Brush
+from examples.slip_curve.friction_table import AXES, FORMULAS, TABLE, TableFriction
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
-from gripscale.questions.slip import friction_table, question
-from gripscale.questions.slip.friction_table import AXES, FORMULAS, TABLE, TableFriction
-from gripscale.theory import Brush
 from tests.questions.answer.test_answer_object import CASE
-from tests.samples import Shell
 
 INTERFACE = '\n[conditions.shear_stress]\nkind = "constant"\nstress_0 = "6 MPa"\n'
 DRY, WET = (1.2801, 23.99, 0.52), (0.857, 33.82, 0.347)
@@ -39,9 +37,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a case and the results of its command."""
     folder = tmp_path_factory.mktemp("slip")
     (folder / "case.toml").write_text(CASE + INTERFACE, encoding="utf-8")
-    words = ["slip", str(folder / "case.toml"), "--output", str(folder / "slip")]
-    ended = CliRunner().invoke(app, words)
-    assert ended.exit_code == 0, ended.output
+    main(folder / "case.toml", output=folder / "slip")
     return folder
 
 
@@ -52,12 +48,12 @@ def case(folder: Path) -> gs.Case:
 
 
 @pytest.fixture
-def curve(folder: Path) -> gs.SlipCurve:
+def curve(folder: Path) -> question.SlipCurve:
     return gs.load(folder / "slip" / "slip.nc")
 
 
 def test_python_has_the_curves_of_the_command_from_its_table(
-    case: gs.Case, folder: Path, curve: gs.SlipCurve, monkeypatch: pytest.MonkeyPatch
+    case: gs.Case, folder: Path, curve: question.SlipCurve, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """From the stored table nothing is solved again."""
 
@@ -65,14 +61,14 @@ def test_python_has_the_curves_of_the_command_from_its_table(
         raise AssertionError("solved again")
 
     monkeypatch.setattr(DirectContact, "predict", refuse)
-    again = gs.slip_curve(case, folder=folder / "slip")
+    again = question.slip_curve(case, folder=folder / "slip")
     xr.testing.assert_equal(again.data.force, curve.data.force)
     assert str(again.lines[0]).startswith("Answer: peak braking force")
     assert str(again) == str(curve)
-    assert (folder / "slip" / "figures" / "slip.png").exists()
+    assert {"slip.nc", "slip.png", "report.html"} <= {p.name for p in (folder / "slip").iterdir()}
 
 
-def test_curves_lie_within_their_bands(curve: gs.SlipCurve) -> None:
+def test_curves_lie_within_their_bands(curve: question.SlipCurve) -> None:
     """The area term adds friction; a higher friction brakes in a shorter distance."""
     low, value, high = (curve.data.force.sel(bound=bound) for bound in ("low", "value", "high"))
     assert (low <= value).all()
@@ -85,7 +81,7 @@ def test_curves_lie_within_their_bands(curve: gs.SlipCurve) -> None:
     assert (distance.sel(bound="low") < distance.sel(bound="high")).all()
 
 
-def test_locked_wheel_has_the_friction_of_the_road_speed(curve: gs.SlipCurve) -> None:
+def test_locked_wheel_has_the_friction_of_the_road_speed(curve: question.SlipCurve) -> None:
     """Weighed by the parabola of the pressure, with mu linear in ln p within the table's ends.
 
     These ends are kinks along the patch: 12 points of quadrature are within 3e-4.
@@ -104,7 +100,7 @@ def test_locked_wheel_has_the_friction_of_the_road_speed(curve: gs.SlipCurve) ->
     assert locked == pytest.approx(float((weight * friction).mean()), rel=3e-4)
 
 
-def test_slip_stiffness_is_that_of_the_bristles(curve: gs.SlipCurve) -> None:
+def test_slip_stiffness_is_that_of_the_bristles(curve: question.SlipCurve) -> None:
     """k L/(2 p_0) at small slip, less by half of sigma/sigma*, as in the closed form."""
     force = float(curve.data.force.isel(kind=1, bound=1, temperature=0, speed=0, slip=0))
     slip = float(curve.data.slip[0])
@@ -193,10 +189,4 @@ def test_formulas_are_found_again(parameters: tuple[float, ...]) -> None:
 )
 def test_options_that_cannot_be_used_are_refused(case: gs.Case, options, words: str) -> None:
     with pytest.raises(InputError, match=words):
-        gs.slip_curve(case, **options)
-
-
-def test_command_refuses_a_single_speed_of_braking(folder: Path, shell: Shell) -> None:
-    ended = shell("slip", folder / "case.toml", "--braking", "80 km/h")
-    assert ended.exit_code == 2
-    assert "two speeds" in ended.output
+        question.slip_curve(case, **options)

@@ -9,8 +9,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from examples.slip_curve.brush import Brush, brush_force
 from gripscale.core.errors import InputError
-from gripscale.theory import Brush, brush_force
 
 LENGTH, PRESSURE, STIFFNESS, ROAD = 0.1, 3e5, 1.5e8, 22.0
 BRUSH = Brush(LENGTH, PRESSURE, STIFFNESS)

@@ -1,11 +1,11 @@
 """Braking force over slip: the friction of a case in the contact patch of a tread.
 
-result = gs.slip_curve(case, speed="80 km/h", temperature=["0 C", "20 C"])
+result = slip_curve(case, speed="80 km/h", temperature=["0 C", "20 C"])
 result.data.force
 
-The tread is a brush (`gripscale.theory.brush`) on the footprint and under the pressure of the case.
-It has no carcass, no pattern and no water: a slip curve shows what friction over speed, pressure
-and temperature does to braking, and is no prediction of a tyre.
+The tread is a brush (`examples.slip_curve.brush`) on the footprint and under the pressure of the
+case. It has no carcass, no pattern and no water: a slip curve shows what friction over speed,
+pressure and temperature does to braking, and is no prediction of a tyre.
 """
 
 from __future__ import annotations
@@ -20,6 +20,16 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from examples.slip_curve.brush import Brush, brush_force
+from examples.slip_curve.friction_table import (
+    BOUNDS,
+    FORMULAS,
+    MISFIT,
+    TABLE,
+    TableFriction,
+    fitted_formulas,
+    friction_table,
+)
 from gripscale.case import Case
 from gripscale.charts import style
 from gripscale.charts.chart import Mark, Panel, PlotAxis, Series, ShadedBand
@@ -31,19 +41,12 @@ from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, significant
 from gripscale.questions.answer.variables import AnswerNumber
 from gripscale.questions.inputs import record
+from gripscale.questions.registry import QUESTIONS
 from gripscale.questions.result import Result
-from gripscale.questions.slip.friction_table import (
-    BOUNDS,
-    FORMULAS,
-    MISFIT,
-    TABLE,
-    TableFriction,
-    fitted_formulas,
-    friction_table,
-)
 from gripscale.questions.vary.axis import axes_of
-from gripscale.theory.brush import Brush, brush_force
 
+KINDS = {"slip": ":SlipCurve"}
+QUESTIONS.append(__name__)  # `gripscale.load` knows its results
 # Of a bristle [Pa/m]: on 100 mm under 3 bar a slip stiffness of 25 loads; tyres have 15 to 30.
 STIFFNESS = 1.5e8
 _SLIPS = np.geomspace(0.003, 1.0, 30)
@@ -194,10 +197,6 @@ def slip_curve(
     on_task: OnTask | None = None,
 ) -> SlipCurve:
     """Return the braking force of a tread over slip.
-
-        >>> curve = gs.slip_curve(case, speed="50 km/h").data
-        >>> f"{curve.peak.sel(bound='value').item():.4f}"
-        '0.0384'
 
     Parameters
     ----------
