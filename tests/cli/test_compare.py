@@ -187,7 +187,7 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
     alone = gs.solve_rough_contact(
         results.rubber, measured.cleaned[0], smallest_wavelength=4e-3, **load
     )
-    assert float(direct.total_friction) == pytest.approx(alone.friction, rel=1e-9)
+    assert float(direct.total_friction) == pytest.approx(alone.friction, rel=1e-7)
     upper = gs.compare(results, models=["chain_upper"]).data.squeeze("model")
     own = {"footprint": 0.1, "solver": "half_plane", "points": 256, "pressure_classes": 8}
     chain = gs.solve_chain(results.rubber, results.surface.sines, **load, **own)
@@ -215,7 +215,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     first = shell(*command)
     assert first.exit_code == 0, first.output
     written = {path.name for path in (tmp_path / "out").iterdir()}
-    tables = {"over_speed.nc", "over_speed.txt", "predictions"}
+    tables = {"over_speed.nc", "predictions"}
     pages = {"report.html", CASE_NOTE}
     assert written == tables | pages | {f"over_speed.{kind}" for kind in FORMATS}
     data = netcdf.load_dataset(tmp_path / "out" / "over_speed.nc")

@@ -119,7 +119,7 @@ def _rubber() -> Iterator[PublicFunction]:
     bar = {"rubber": SOLID, "time": [0.0, 1.0], "stretch": [1.0, 1.1]}
     yield PublicFunction(rubber.uniaxial_stress, bar)
     yield PublicFunction(rubber.springpot_modulus, {"omega": [1.0, 2.0]})
-    yield PublicFunction(rubber.styrene_butadiene, {"band": (1e-2, 1e6), "bulk_modulus": 2e9})
+    yield PublicFunction(rubber.styrene_butadiene, {"bulk_modulus": 2e9})
 
 
 def _conditions() -> Iterator[PublicFunction]:
@@ -206,7 +206,7 @@ def _surface() -> Iterator[PublicFunction]:
     yield PublicFunction(gs.clean_map, {"surface": MAP, **across, "spike_slope": 3.0, "form": 1})
     lags = {"top_height_fraction": 1.0, "max_lag": None}
     yield PublicFunction(gs.height_difference, {"profile": LINE, **lags})
-    yield PublicFunction(gs.fit_self_affine, {"hdc": CORRELATION, "tolerance": 0.02})
+    yield PublicFunction(gs.fit_self_affine, {"hdc": CORRELATION})
     law = (0.8, 1e-2, 1e-3, 1e-3, 1e-2, 0.0)
     yield PublicFunction(surface.SelfAffineFit, dict(zip(FITTED, law, strict=True)))
     waves = {"scales": 2, "smallest_wavelength": None, "cut_off": None, "s_wavelength": 3.0}
@@ -220,7 +220,7 @@ def _surface() -> Iterator[PublicFunction]:
     )
     grid = {"z": MAP.z, "x_step": 4e-4, "y_step": 4e-4, "taper": "hann", "per_decade": 10}
     yield PublicFunction(surface.map_spectrum, grid)
-    yield PublicFunction(surface.areal_spectrum, {"spectrum": SPECTRUM, "per_decade": 10})
+    yield PublicFunction(surface.areal_spectrum, {"spectrum": SPECTRUM})
     yield PublicFunction(surface.slope_by_wavelength, {"surface": LONG})
     yield PublicFunction(SLOPES.down_to, {"wavelength": 1e-3, "of": "surface"})
     yield PublicFunction(SLOPES.reaches, {"slope": 0.1, "of": "surface"})

@@ -11,7 +11,7 @@ import scipy.fft
 
 import gripscale as gs
 from gripscale.continuation import contact_by_cut_off
-from gripscale.half_space.grid import resampled
+from gripscale.half_space.grid import Grid, resampled
 from gripscale.surface.low_pass import transmission
 from tests.samples import ROOT
 from tests.verification.families import tread
@@ -84,7 +84,8 @@ def coarser(line: gs.Profile, octaves: int) -> gs.Profile:
     q = 2.0 * np.pi * scipy.fft.rfftfreq(z.size, line.step)
     if octaves:
         waves = waves * transmission(q, 2.0 * length / points)
-    return gs.Profile(length / points * np.arange(points), resampled(waves, z.shape, (points,)))
+    z = resampled(waves, z.shape, Grid((points,), (length,)))
+    return gs.Profile(length / points * np.arange(points), z)
 
 
 def judged(surfaces: Iterable[Line], octaves: tuple[int, ...] = (1, 2, 3)) -> Iterator[Withheld]:

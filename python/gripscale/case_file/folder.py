@@ -108,7 +108,7 @@ def free_target(
 
 _FIGURES = (
     *("profile", "correlation", "texture_levels", "master_curve", "contact_and_friction"),
-    *("summary", "direct_contact"),
+    "direct_contact",
 )
 # Figures of cases with conditions, or with sweeps at several temperatures.
 AT_TIMES = ("cut_off", "heat", "superposition", "superposition_tests", "shift")

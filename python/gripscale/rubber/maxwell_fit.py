@@ -327,8 +327,8 @@ def _deviation(position: Array, value: Array, kept: Mask) -> Array:
     # Half of the neighbours on each side, more where one side ends.
     split, others = np.searchsorted(members, rows), members.size - kept
     start = np.clip(split - _NEIGHBOURS // 2, 0, np.maximum(others - _NEIGHBOURS, 0))
-    place = start[:, None] + np.arange(min(_NEIGHBOURS, int(others.min())))
-    near = members[place + (kept[:, None] & (place >= split[:, None]))]  # without the row itself
+    order = start[:, None] + np.arange(min(_NEIGHBOURS, int(others.min())))
+    near = members[order + (kept[:, None] & (order >= split[:, None]))]  # without the row itself
     run, rise = position[near] - position[:, None], value[near]
     across = run[:, :, None] - run[:, None]
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -77,7 +77,9 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def data(case):
-    return gs.design(read_case(case), folder=case.parent / "stored", levels=LEVELS).data
+    design = gs.design(read_case(case), folder=case.parent / "stored", levels=LEVELS)
+    design.save(case.parent / "stored" / "design.nc")
+    return design.data
 
 
 def test_the_page_begins_with_the_gain(case, data):
