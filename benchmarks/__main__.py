@@ -15,6 +15,7 @@ from rich.console import Console
 
 from benchmarks import (
     case,
+    cluster,
     conditions,
     gap_flow,
     large_maps,
@@ -45,6 +46,7 @@ SUBJECTS: dict[str, Callable[[Console, Path], None]] = {
     "conditions": lambda console, _: conditions.run(console),
     "rival": lambda console, _: rival.run(console),
     "scaling": lambda console, figures: scaling.run(console, figures / "cost.png"),
+    "cluster": lambda console, _: cluster.run(console),
     "sizes": lambda console, _: sizes.run(console),
     "large_maps": lambda console, _: large_maps.run(console),
     "sparse_factor": lambda console, _: sparse_factor.run(console),

@@ -114,7 +114,8 @@ def _rows(python: str, rubber: gs.Rubber, surface: gs.HeightMap) -> Iterator[Row
         return
     yield _ours("elastic", rubber, surface, 0.0, 1)
     yield _ours("viscoelastic", rubber, surface, SPEED, 1)
-    for precision in ("double", "float") if python else ():
+    both = ("double", "float") if len(surface.x) < LARGEST_OF_BOTH else ("float",)
+    for precision in both if python else ():
         yield _peer(python, rubber, surface, precision)
 
 

@@ -33,7 +33,7 @@ from gripscale.surface import Surface
 KEY_LENGTH = 32  # hexadecimal digits of a key (128 bits)
 
 # Numbers of an array that are written out; of a larger one its bytes are hashed at once.
-MOST_WRITTEN = 10_000
+MOST_WRITTEN = 32
 # Key, result and seconds of a task.
 Solved = tuple[str, xr.Dataset, float]
 
