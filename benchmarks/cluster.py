@@ -7,6 +7,7 @@ after a tenth of the tasks: the same to the last bit.
 
 from __future__ import annotations
 
+import importlib
 import logging
 import os
 import signal
@@ -30,7 +31,7 @@ TASKS, WORKERS = 1000, 2
 def run(console: Console) -> None:
     """Print the times; skip with a sentence where Dask is missing."""
     try:
-        import distributed
+        distributed: Any = importlib.import_module("distributed")
     except ModuleNotFoundError:
         console.print("cluster: skipped, Dask is not installed: pip install gripscale[cluster]\n")
         return

@@ -10,7 +10,7 @@ where it was when it is run again, and ends in the same Dataset to the last bit.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -20,6 +20,7 @@ import numpy as np
 import xarray as xr
 
 from gripscale.case import Case, fitted_for_load
+from gripscale.core.described import Described
 from gripscale.core.provenance import software
 from gripscale.core.units import GIVEN
 from gripscale.experiment.design import (
@@ -130,7 +131,7 @@ OF_A_SURFACE = ("cut_off", "smallest_wavelength")  # inputs that vary the waves 
 STUDY_FILE = "study.nc"  # the Dataset, in the folder of the study
 
 
-class Study:
+class Study(Described):
     """A case with one or two of its inputs varied.
 
     Raises `InputError` or `FileError` for a value or a file that cannot be used.
@@ -179,6 +180,12 @@ class Study:
             inputs.at_temperature(self.model, value)
         for value in values.get("effects", ()):
             inputs.with_effects(self.model, value)
+
+    def shown_rows(self) -> Iterator[tuple[str, str]]:
+        """Yield the case, the model, and the number of values of each axis."""
+        yield "case", self.case.title
+        yield "model", self.model.name
+        yield from ((axis.name, f"{len(axis.values)} values") for axis in self.axes)
 
     @cached_property
     def design(self) -> Design:
