@@ -8,7 +8,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -37,7 +36,7 @@ from gripscale.core.units import (
     stated_units,
 )
 from gripscale.experiment.measured_friction import MeasuredFriction
-from gripscale.experiment.task import Task, canonical_json
+from gripscale.experiment.task import Task, content_hash
 from gripscale.model import FOOTPRINT, Load, LoadTime, Model, load_doubts
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report, temperature_doubts
 from gripscale.rubber.measured_rubber import MeasuredRubber
@@ -394,8 +393,7 @@ class Case(Described):
         parts += [self.filled]
         parts += [] if self.conditions is None else [self.conditions.water]
         parts += [self.below_measurement, self.klueppel_heinrich, self.cleaning]
-        content = json.dumps([canonical_json(part) for part in parts], sort_keys=True)
-        return hashlib.sha256(content.encode()).hexdigest()
+        return content_hash(parts)
 
     def save(self, path: str | Path) -> Path:
         """Write the case as a case file, its measurements in the folder `inputs`; return its path.

@@ -33,7 +33,7 @@ from gripscale.surface import Surface
 KEY_LENGTH = 32  # hexadecimal digits of a key (128 bits)
 
 # Numbers of an array that are written out; of a larger one its bytes are hashed at once.
-MOST_WRITTEN = 32
+MOST_WRITTEN = 10_000
 # Key, result and seconds of a task.
 Solved = tuple[str, xr.Dataset, float]
 
@@ -55,12 +55,12 @@ class Task:
         """
         inputs = {
             "software": software(),
-            "rubber": canonical_json(self.rubber),
-            "surface": canonical_json(self.surface.only(self.model.needs)),
-            "load": canonical_json(self.load),
-            "model": canonical_json(self.model),
+            "rubber": self.rubber,
+            "surface": self.surface.only(self.model.needs),
+            "load": self.load,
+            "model": self.model,
         }
-        return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:KEY_LENGTH]
+        return content_hash(inputs)[:KEY_LENGTH]
 
     def solve(self, stop: threading.Event | None = None, *, on_step: OnProgress = None) -> Solved:
         """Return key, result and seconds; give up between two steps once `stop` is set.
@@ -80,6 +80,12 @@ class Task:
         return self.key, answer.assign_attrs(prediction_key=self.key), seconds
 
 
+def content_hash(value: Any) -> str:
+    """Return the SHA-256 of what `canonical_json` writes of a value."""
+    content = json.dumps(canonical_json(value), sort_keys=True)
+    return hashlib.sha256(content.encode()).hexdigest()
+
+
 def canonical_json(value: Any) -> Any:
     """Return `value` for JSON without losing a bit: floats in hexadecimal, objects by field."""
     if isinstance(value, float):
@@ -88,6 +94,8 @@ def canonical_json(value: Any) -> Any:
         if value.size > MOST_WRITTEN:
             content = hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()
             return {"array": str(value.dtype), "shape": list(value.shape), "sha256": content}
+        if value.ndim == 1 and value.dtype == np.float64:  # most of what a key is made of
+            return list(map(float.hex, value.tolist()))
         return [canonical_json(entry) for entry in value.tolist()]
     if isinstance(value, Mapping):
         return {str(name): canonical_json(entry) for name, entry in value.items()}

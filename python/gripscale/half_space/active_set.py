@@ -160,11 +160,12 @@ class PointsInContact:
 
     def _on_grid(self, values: AnyArray) -> AnyArray:
         """Return values at the points over the grid, zero elsewhere, until the next call."""
-        single = values.dtype == np.float32
-        full = self._single if single else np.zeros(self._single.shape, dtype=values.dtype)
-        full.fill(0.0)
-        full.reshape(-1)[self._where] = values
-        return full
+        if values.dtype != np.float32:
+            double = np.asarray(values, dtype=np.float64)
+            return _on_grid(self._where, double, self._single.size).reshape(self._single.shape)
+        self._single.fill(0.0)
+        self._single.reshape(-1)[self._where] = values
+        return self._single
 
     def correction(self, right: Single, target: float, most: int) -> tuple[Single, float]:
         """Return p with |right - Q K_AA p| <= `target`, or the least after `most` products.

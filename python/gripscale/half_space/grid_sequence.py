@@ -234,7 +234,7 @@ class GridSequence:
     pressure: float
     workers: int
     start: KnownLevels = field(default_factory=dict)  # contacts with another rubber, to start from
-    kept: bool = True  # whether all contacts stay in `solved`, for the next rubber
+    for_next: bool = True  # whether all contacts stay in `solved`, for the next rubber
     solved: dict[Level, LevelContact] = field(default_factory=dict)
     # Contact on other heights of the same lengths, that the first level starts from.
     other: LevelContact | None = None
@@ -271,7 +271,7 @@ class GridSequence:
             in_contact=int(contact.active.sum()),
         )
         self.last = LevelContact(level, height, contact, record)
-        if self.kept:
+        if self.for_next:
             self.solved[level] = self.last
         return self.last
 

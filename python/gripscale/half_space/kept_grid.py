@@ -6,7 +6,6 @@ solved. It is replaced after each grid and removed at the end.
 
 from __future__ import annotations
 
-import hashlib
 import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -15,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from gripscale.core import InputError
-from gripscale.experiment.task import canonical_json
+from gripscale.experiment.task import content_hash
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridRecord, GridSequence, Level, LevelContact
 from gripscale.io.folders import make_folder
@@ -33,7 +32,6 @@ class KeptGrid:
     @classmethod
     def of(cls, folder: str | Path, sequence: GridSequence) -> KeptGrid:
         """Return the file of a sequence; raise `FileError` if the folder cannot be made."""
-        make_folder(Path(folder))
         body = sequence.body
         if body.by_scale is not None:
             raise InputError("folder must be None with softening or heat, which solve many grids")
@@ -42,8 +40,8 @@ class KeptGrid:
         surface = heights.grid.lengths, heights.smallest_wavelength, heights.whole, waves
         rubber = body.layers or body.rubber
         inputs = rubber, body.speed, body.thickness, sequence.pressure, surface
-        content = json.dumps(canonical_json(inputs), sort_keys=True)
-        return cls(Path(folder) / "grid.npz", hashlib.sha256(content.encode()).hexdigest())
+        make_folder(Path(folder))
+        return cls(Path(folder) / "grid.npz", content_hash(inputs))
 
     def load(self, sequence: GridSequence, plan: list[Level]) -> list[GridRecord]:
         """Return the numbers of the grids that were solved, of which the sequence gets the last.

@@ -217,7 +217,7 @@ def solve_rough_contact(
             load,
             threads,
             earlier,
-            kept=iterated,
+            for_next=iterated,
             other=None if iterated else other,
             deadline=deadline,
         )

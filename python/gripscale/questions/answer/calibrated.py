@@ -15,8 +15,6 @@ decade of speed, or 10 K, that of a dry road changes by as much as the area is u
 
 from __future__ import annotations
 
-import hashlib
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -27,7 +25,7 @@ import xarray as xr
 
 from gripscale.case import BelowMeasurement
 from gripscale.conditions.conditions import Conditions
-from gripscale.experiment.task import canonical_json
+from gripscale.experiment.task import content_hash
 from gripscale.model import Load
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
@@ -51,8 +49,7 @@ class Contact(NamedTuple):
         surface = self.surface.only({"waves", "measurement", "cut_off"})
         load = replace(self.load, pressure=1.0, speed=1.0)
         parts = self.rubber, surface, load, replace(effects, off=()), self.below_measurement
-        content = json.dumps([canonical_json(part) for part in parts], sort_keys=True)
-        return hashlib.sha256(content.encode()).hexdigest()[:32]
+        return content_hash(parts)[:32]
 
     def remaining_error(self, contact_fraction: float) -> tuple[float, float]:
         """Return w and the half width of the friction by the fit; 1 and 0 without a fit."""
