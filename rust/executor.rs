@@ -58,6 +58,19 @@ impl<'a> Executor<'a> {
         })?;
         Ok(results.into_iter().flatten().collect())
     }
+
+    /// The same for parts, as `Threads::share` does them; `workspace` makes that of each thread.
+    pub(crate) fn share<P: Send, W: Send>(
+        &self,
+        size: usize,
+        workspace: impl Fn() -> W,
+        parts: impl Iterator<Item = P> + Send,
+        work: impl Fn(&mut W, P) + Sync,
+    ) -> Result<(), Status> {
+        let mut workspaces: Vec<W> =
+            (0..self.threads.count_for(size)).map(|_| workspace()).collect();
+        self.threads.share_until(size, &mut workspaces, parts, || self.cancel.check(), work)
+    }
 }
 
 /// The calling thread and its helpers, which are started when there is enough work.

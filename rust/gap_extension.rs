@@ -32,6 +32,14 @@ impl GapExtension {
         self.points
     }
 
+    /// Extension on a map, if it is one.
+    pub fn on_map(&self) -> Option<&MapExtension> {
+        match &self.kind {
+            Kind::Line(_) => None,
+            Kind::Map(map) => Some(map),
+        }
+    }
+
     /// Set the open points; `values` is the gap in contact, and zero elsewhere.
     pub fn extend(&self, values: &mut [f32]) {
         match &self.kind {
@@ -100,7 +108,7 @@ const STRAIGHT: f32 = 1.0;
 const DIAGONAL: f32 = 0.353_553_4;
 
 /// The open points of a map next to contacts, row after row.
-struct MapExtension {
+pub struct MapExtension {
     rows: usize,
     columns: usize,
     /// Where the points of each row begin, and the end of the last.
@@ -143,24 +151,45 @@ impl MapExtension {
         Self { rows, columns, starts, column, share }
     }
 
+    /// Rows and columns of the map.
+    pub fn shape(&self) -> (usize, usize) {
+        (self.rows, self.columns)
+    }
+
+    /// Set the open points of the row `i` from the gaps in contact there and in the rows beside it.
+    pub fn extend_row(&self, i: usize, above: &[f32], row: &mut [f32], below: &[f32]) {
+        let extended: Vec<f32> = self.open_of_row(i, above, row, below).collect();
+        for (&j, value) in self.column[self.starts[i]..].iter().zip(extended) {
+            row[j as usize] = value;
+        }
+    }
+
+    fn open_of_row<'r>(
+        &'r self,
+        i: usize,
+        above: &'r [f32],
+        row: &'r [f32],
+        below: &'r [f32],
+    ) -> impl Iterator<Item = f32> + 'r {
+        (self.starts[i]..self.starts[i + 1]).map(move |k| {
+            let j = self.column[k] as usize;
+            let (left, right) = beside(j, self.columns);
+            let straight = above[j] + below[j] + row[left] + row[right];
+            let diagonal = above[left] + above[right] + below[left] + below[right];
+            self.share[k] * (STRAIGHT * straight + DIAGONAL * diagonal)
+        })
+    }
+
     fn extend(&self, values: &mut [f32]) {
-        let row = |i: usize| i % self.rows * self.columns;
+        let row = |i: usize| &values[i % self.rows * self.columns..][..self.columns];
         // no point beside a contact may be read as a neighbour after it is set
         let mut extended = Vec::with_capacity(self.column.len());
         for i in 0..self.rows {
-            let [above, here, below] = [row(i + self.rows - 1), row(i), row(i + 1)]
-                .map(|at| &values[at..at + self.columns]);
-            for k in self.starts[i]..self.starts[i + 1] {
-                let j = self.column[k] as usize;
-                let (left, right) = beside(j, self.columns);
-                let straight = above[j] + below[j] + here[left] + here[right];
-                let diagonal = above[left] + above[right] + below[left] + below[right];
-                extended.push(self.share[k] * (STRAIGHT * straight + DIAGONAL * diagonal));
-            }
+            extended.extend(self.open_of_row(i, row(i + self.rows - 1), row(i), row(i + 1)));
         }
         for i in 0..self.rows {
             for k in self.starts[i]..self.starts[i + 1] {
-                values[row(i) + self.column[k] as usize] = extended[k];
+                values[i * self.columns + self.column[k] as usize] = extended[k];
             }
         }
     }

@@ -20,7 +20,8 @@
 //! | `solution` | a solved wave, with reports and counts |
 //! | `solve` | Newton, its linear problem by GMRES or a kept factor, load stepping, meshes, transfer |
 //! | `steady`, `transient` | steady sliding; sliding in time |
-//! | `line_system`, `gap_extension` | points of a line or a map in contact with a half-space, for the bindings |
+//! | `map_filter` | the one file with rustfft: filters of maps in single precision |
+//! | `gap_extension`, `line_system`, `map_system` | points in contact with a half-space, for the bindings |
 //! | `python` | bindings, no numerics |
 //!
 //! `KernelError` means that there is no result: an input was refused, the caller stopped, or the kernel has a
@@ -59,6 +60,10 @@ internal_modules!(contact, fem, linear, material, model, outcome, solve, spectra
 mod gap_extension;
 #[cfg_attr(not(feature = "python"), allow(dead_code))]
 mod line_system;
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
+mod map_filter;
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
+mod map_system;
 #[cfg(feature = "python")]
 mod python;
 #[cfg(test)]

@@ -64,7 +64,8 @@ impl LineSystem<'_> {
     }
 }
 
-fn without_mean(mut values: Vec<f32>) -> Vec<f32> {
+/// `values` less their mean.
+pub fn without_mean(mut values: Vec<f32>) -> Vec<f32> {
     let sum: f64 = values.iter().map(|&value| f64::from(value)).sum();
     let mean = (sum / values.len() as f64) as f32;
     values.iter_mut().for_each(|value| *value -= mean);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use numpy::{
-    PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1,
+    PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1,
     PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
@@ -17,6 +17,8 @@ use crate::executor::{Executor, Threads};
 use crate::gap_extension::GapExtension;
 use crate::line_system::LineSystem;
 use crate::linear::single_gmres;
+use crate::map_filter::{MapFilter, RowBuffers};
+use crate::map_system::MapSystem;
 use crate::material::maxwell;
 use crate::problem::{Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
 use crate::settings::Settings;
@@ -223,26 +225,36 @@ fn settings(changes: &Bound<'_, PyMapping>) -> PyResult<Settings> {
     Ok(Settings::new(changes)?)
 }
 
-/// Run `solve` with the interpreter released. Every now and then the interpreter is asked whether to go on:
-/// a signal such as Ctrl-C or an exception of `look` stops the work, and is raised in the end.
+/// `cancellable` with the threads and the time limit of `work`.
 fn run_cancellable<T: Send>(
     py: Python<'_>,
     work: WorkItems,
     solve: impl FnOnce(&Executor<'_>) -> Result<T, KernelError> + Send,
 ) -> PyResult<T> {
+    cancellable(py, &Threads::new(work.workers), &work.look, work.time_limit, solve)
+}
+
+/// Run `solve` with the interpreter released. Every now and then the interpreter is asked whether to go on:
+/// a signal such as Ctrl-C or an exception of `look` stops the work, and is raised in the end.
+fn cancellable<T: Send>(
+    py: Python<'_>,
+    threads: &Threads,
+    look: &Py<PyAny>,
+    time_limit: Option<f64>,
+    solve: impl FnOnce(&Executor<'_>) -> Result<T, KernelError> + Send,
+) -> PyResult<T> {
     let raised: OnceLock<PyErr> = OnceLock::new();
     let stop_requested = || {
-        let ask = |py: Python<'_>| py.check_signals().and_then(|()| work.look.call0(py));
+        let ask = |py: Python<'_>| py.check_signals().and_then(|()| look.call0(py));
         if let Err(error) = Python::attach(ask) {
             // The first exception is kept.
             raised.get_or_init(|| error);
         }
         raised.get().is_some()
     };
-    let threads = Threads::new(work.workers);
     let result = py.detach(|| {
-        let cancel = Cancel::new(&stop_requested, work.time_limit)?;
-        solve(&Executor::new(&threads, cancel))
+        let cancel = Cancel::new(&stop_requested, time_limit)?;
+        solve(&Executor::new(threads, cancel))
     });
     match raised.into_inner() {
         Some(error) => Err(error),
@@ -368,6 +380,103 @@ impl PyLine {
     }
 }
 
+/// Filters and contacts of maps of one shape, as those of `Line`; `look` is called now and then, and may raise.
+#[pyclass(frozen, name = "Map")]
+struct PyMap {
+    filter: MapFilter,
+    threads: Threads,
+    look: Py<PyAny>,
+    /// Of numpy: it asks for large pages.
+    memory: Py<PyArray1<Complex32>>,
+}
+
+#[pymethods]
+impl PyMap {
+    #[new]
+    fn new(py: Python<'_>, rows: usize, columns: usize, threads: usize, look: Py<PyAny>) -> Self {
+        let filter = MapFilter::new(rows, columns);
+        let memory = PyArray1::zeros(py, filter.memory(), false).unbind();
+        Self { filter, threads: Threads::new(threads), look, memory }
+    }
+
+    /// Values with each of their waves times its factor.
+    fn filtered<'py>(
+        &self,
+        py: Python<'py>,
+        values: PyReadonlyArray2<'py, f32>,
+        factors: PyReadonlyArray2<'py, Complex32>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let (rows, columns) = (self.filter.rows(), self.filter.columns());
+        let out = PyArray2::<f32>::zeros(py, [rows, columns], false);
+        let mut writable = out.readwrite();
+        let (values, to) = (values.as_slice()?, writable.as_slice_mut()?);
+        if values.len() != rows * columns {
+            return Err(PyValueError::new_err("expected a value for each point"));
+        }
+        let mut memory = self.memory.bind(py).readwrite();
+        let (factors, memory) = (self.factors(&factors)?, memory.as_slice_mut()?);
+        let read = |i: usize, buffers: &mut RowBuffers| {
+            buffers.row.copy_from_slice(&values[i * columns..][..columns]);
+        };
+        let write = |_: usize, row: &[f32], to: &mut [f32]| to.copy_from_slice(row);
+        let to = to.chunks_mut(columns).collect();
+        let filter = |executor: &Executor<'_>| {
+            let filtered = self.filter.apply(executor, factors, memory, read, to, write);
+            filtered.map_err(|_| KernelError::Stopped)
+        };
+        cancellable(py, &self.threads, &self.look, None, filter)?;
+        drop(writable);
+        Ok(out)
+    }
+
+    /// Solution of Q K p = r at `places`; see `Line.close_gap`.
+    fn close_gap<'py>(
+        &self,
+        py: Python<'py>,
+        right: PyReadonlyArray1<'py, f32>,
+        places: PyReadonlyArray1<'py, i64>,
+        filters: [PyReadonlyArray2<'py, Complex32>; 2],
+        extension: PyRef<'py, PyGapExtension>,
+        numbers: (f64, usize),
+    ) -> PyResult<(Bound<'py, PyArray1<f32>>, f64, usize)> {
+        let no_map = || PyValueError::new_err("expected points and an extension of the map");
+        let [compliance, stiffness] = &filters;
+        let mut memory = self.memory.bind(py).readwrite();
+        let memory = memory.as_slice_mut()?;
+        let system = MapSystem {
+            filter: &self.filter,
+            places: places.as_slice()?,
+            compliance: self.factors(compliance)?,
+            stiffness: self.factors(stiffness)?,
+            extension: extension.0.on_map().ok_or_else(no_map)?,
+        };
+        let right = right.as_slice()?.to_vec();
+        if !system.fits(right.len()) {
+            return Err(no_map());
+        }
+        let (target, most) = numbers;
+        let solve = |executor: &Executor<'_>| {
+            let solution = system.solution(executor, right, target, most, memory);
+            solution.map_err(|_| KernelError::Stopped)
+        };
+        let found = cancellable(py, &self.threads, &self.look, None, solve)?;
+        Ok((PyArray1::from_vec(py, found.x), found.residual, found.products))
+    }
+}
+
+impl PyMap {
+    fn factors<'a>(
+        &self,
+        factors: &'a PyReadonlyArray2<'_, Complex32>,
+    ) -> PyResult<&'a [Complex32]> {
+        let factors = factors.as_slice()?;
+        if factors.len() == self.filter.waves() {
+            return Ok(factors);
+        }
+        Err(PyValueError::new_err("expected a factor for each wave"))
+    }
+}
+
 /// Solution of A x = `right`, its residual and the products it took; `operator` gives A x.
 #[pyfunction]
 fn gmres<'py>(
@@ -454,6 +563,6 @@ mod kernel {
     #[pymodule_export]
     use super::{
         default_settings, gmres, relaxing_moduli, solve_steady, solve_transient, statuses,
-        strain_energies, PyGapExtension, PyLine, PyRun, PySolution,
+        strain_energies, PyGapExtension, PyLine, PyMap, PyRun, PySolution,
     };
 }

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 __all__ = [
     "GapExtension",
     "Line",
+    "Map",
     "Run",
     "Solution",
     "default_settings",
@@ -39,6 +40,23 @@ class Line:
         filters: list[NDArray[np.complex64]],
         extension: GapExtension,
         numbers: tuple[float, float, int],
+    ) -> tuple[NDArray[np.float32], float, int]: ...
+
+@final
+class Map:
+    def __new__(
+        cls, rows: int, columns: int, threads: int, look: Callable[[], None]
+    ) -> Map: ...
+    def filtered(
+        self, values: NDArray[np.float32], factors: NDArray[np.complex64]
+    ) -> NDArray[np.float32]: ...
+    def close_gap(
+        self,
+        right: NDArray[np.float32],
+        places: NDArray[np.int64],
+        filters: list[NDArray[np.complex64]],
+        extension: GapExtension,
+        numbers: tuple[float, int],
     ) -> tuple[NDArray[np.float32], float, int]: ...
 
 @final

@@ -1,5 +1,6 @@
 //! Linear algebra: dense matrices, small complex blocks, and GMRES.
 
+use crate::linear::vectors::dot;
 use crate::linear::{add, gmres, invert, norm, single_gmres, Factor, Matrix};
 use crate::spectral::Complex64;
 
@@ -88,4 +89,12 @@ fn single_precision_solves_a_system_that_is_not_symmetric() {
     let few = single_gmres::gmres(apply, right.clone(), 1e-5, 3).unwrap();
     assert!(few.products == 3 && few.residual > 1e-5);
     assert!(single_gmres::gmres(|_| Err(()), right, 1e-5, 3).is_err());
+}
+
+/// Added one after the other in single precision, a sum of ones ends at 2^24 in each register.
+#[test]
+fn a_long_scalar_product_keeps_its_digits() {
+    let ones = vec![0.1_f32; 40_000_000];
+    let sum = dot(&ones, &ones);
+    assert!((sum / (4e7 * f64::from(0.1_f32).powi(2)) - 1.0).abs() < 1e-4, "{sum}");
 }

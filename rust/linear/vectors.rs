@@ -4,12 +4,18 @@ use crate::spectral::Real;
 
 /// Sums of a scalar product that are taken at once, so that the compiler uses vector registers.
 const LANES: usize = 16;
+/// Values whose sums are taken in the precision of the values: that of more would lose digits.
+const BLOCK: usize = 1 << 16;
 
 pub fn norm<T: Real>(x: &[T]) -> f64 {
     dot(x, x).sqrt()
 }
 
 pub fn dot<T: Real>(a: &[T], b: &[T]) -> f64 {
+    a.chunks(BLOCK).zip(b.chunks(BLOCK)).map(|(a, b)| dot_of_block(a, b)).sum()
+}
+
+fn dot_of_block<T: Real>(a: &[T], b: &[T]) -> f64 {
     pulp::Arch::new().dispatch(|| {
         let mut sums = [T::default(); LANES];
         let (whole_a, whole_b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));

@@ -172,15 +172,11 @@ class PointsInContact:
 
         The second value is this residual as GMRES estimates it. `right` has unit length.
         """
-        response = self._response
-        if len(response.grid.shape) > 1:
+        if self._averaged is not None:
             return gmres(self._image, right, target, most)[:2]
-        pressure, residual, products = response.line.close_gap(
-            right,
-            self._where,
-            [response.compliance_single, response.stiffness],
-            self._extension,
-            (SHORTFALL if self._lossy_line else 1.0, target, most),
+        numbers = (SHORTFALL if self._lossy_line else 1.0, target, most)
+        pressure, residual, products = self._response.correction(
+            right, self._where, self._extension, numbers
         )
         self.products += products
         return pressure, residual

@@ -21,13 +21,13 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from gripscale._kernel import Line
+from gripscale._kernel import GapExtension, Line, Map
 from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import Array, ComplexArray, InputError, checks
 from gripscale.half_space.grid import (
@@ -171,6 +171,11 @@ class OutOfTime(Exception):
     """The time of a solution is over."""
 
 
+def _require_time(deadline: float) -> None:
+    if time.monotonic() > deadline:
+        raise OutOfTime
+
+
 @dataclass(frozen=True)
 class Response:
     """Products with the response of the half-space on one grid, and with its inverse.
@@ -237,8 +242,7 @@ class Response:
 
     def displacement(self, pressure: AnyArray) -> AnyArray:
         """Return the displacement [m] under `pressure` [Pa], of zero mean, shape of the grid."""
-        if time.monotonic() > self.deadline:
-            raise OutOfTime
+        _require_time(self.deadline)
         if pressure.dtype == np.float32:
             return self._filtered_single(pressure, self.compliance_single)
         return self._filtered(pressure, self.compliance)
@@ -256,15 +260,37 @@ class Response:
         single = displacement.astype(np.float32, copy=False)
         return self._filtered_single(single, self.stiffness)
 
+    def correction(
+        self,
+        right: Single,
+        where: NDArray[np.intp],
+        extension: GapExtension,
+        numbers: tuple[float, float, int],
+    ) -> tuple[Single, float, int]:
+        """Return the pressure whose Q K is `right`, its residual, and the products it took.
+
+        Q with the `extension` is that of `gripscale.half_space.active_set`; `numbers` are its
+        factor, the target of the residual and the most products. `right` has unit length.
+        """
+        filters = [self.compliance_single, self.stiffness]
+        if len(self.grid.shape) == 1:
+            return self._line.close_gap(right, where, filters, extension, numbers)
+        return self._map.close_gap(right, where, filters, extension, numbers[1:])
+
     @cached_property
-    def line(self) -> Line:
+    def _line(self) -> Line:
         """Filters and contacts of the line in single precision."""
         return Line(self.grid.points)
 
+    @cached_property
+    def _map(self) -> Map:
+        """Filters and contacts of the map in single precision."""
+        return Map(*self.grid.shape, self.workers, partial(_require_time, self.deadline))
+
     def _filtered_single(self, values: Single, transfer: SingleComplex) -> Single:
         if values.ndim == 1:
-            return self.line.filtered(values, transfer)
-        return np.asarray(self._filtered(values, transfer))
+            return self._line.filtered(values, transfer)
+        return self._map.filtered(values, transfer)
 
     def _filtered(self, values: AnyArray, transfer: AnyComplexArray) -> AnyArray:
         spectrum = scipy.fft.rfftn(values, workers=self.workers)
