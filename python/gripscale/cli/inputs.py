@@ -13,7 +13,6 @@ import typer
 from gripscale.cli.keys import takes_keys
 from gripscale.cli.new import naming_options
 from gripscale.core.errors import about_keys
-from gripscale.io.text_table import files_read_once
 from gripscale.questions.terminal import (
     READING,
     argument,
@@ -185,7 +184,6 @@ def _ambiguity(prepared: Surface) -> Iterator[str]:
 
 
 @command
-@files_read_once()
 @takes_keys(
     *("terms", "frequency_unit", "modulus_unit", "modulus", "frequency", "bulk_modulus"),
     *("reference_temperature", "temperature_unit", "columns", "sheet", "header"),
@@ -208,6 +206,7 @@ def fit_rubber(
     from gripscale.case_file import RubberSource, prepare_rubber, validate
     from gripscale.case_file.rubber_tables import StrainSweeps
     from gripscale.io.folders import require_writable
+    from gripscale.io.text_table import files_read_once
     from gripscale.questions.inputs import page
     from gripscale.rubber.strain_sweeps import holds_strain_sweeps
 
@@ -215,11 +214,11 @@ def fit_rubber(
     show_step(console, READING)
     layout = {key: keys[key] for key in ("columns", "sheet") if key in keys}
     of_strain = layout if "strain" in layout.get("columns", ()) else {}
-    by_strain = [name for name in file if holds_strain_sweeps(name, **of_strain)]
-    file = [name for name in file if name not in by_strain]
     if output is not None:
         require_writable(output)
-    with naming_options():
+    with files_read_once(), naming_options():
+        by_strain = [name for name in file if holds_strain_sweeps(name, **of_strain)]
+        file = [name for name in file if name not in by_strain]
         if by_strain:
             values = {key: keys[key] for key in StrainSweeps.model_fields if key in keys}
             if file:

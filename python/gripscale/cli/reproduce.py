@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any
 
-from gripscale.core import InputError, checks
+from gripscale.core import InputError
 from gripscale.questions import terminal
 from gripscale.questions.terminal import argument, command, option
 
@@ -67,6 +67,8 @@ def reproduce(
 
 def factor_pair(text: str) -> tuple[float, float]:
     """Return magnification factors of a text such as 3.5/2.4; raise `InputError` for others."""
+    from gripscale.core import checks
+
     try:
         first, second = (float(part) for part in text.split("/"))
     except ValueError as error:

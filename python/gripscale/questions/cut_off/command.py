@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-from gripscale.core.units import si_value
 from gripscale.questions import terminal
 from gripscale.questions.terminal import CasePath, OwnFolder, Workers, case_command, option
 
@@ -36,7 +35,7 @@ def cut_off_command(
     """Contact and friction against the cut-off, down below what the profiles resolve."""
     import numpy as np
 
-    from gripscale.core.units import in_mm
+    from gripscale.core.units import in_mm, si_value
     from gripscale.questions.cut_off.question import cut_off
 
     end = si_value("--down-to", down_to, "m")
