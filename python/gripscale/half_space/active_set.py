@@ -208,10 +208,10 @@ def close_gap(
     """
     points = PointsInContact(response, where, averaged)
     pressure = start.copy()
-    size, most = float(np.linalg.norm(pressure)), _SHORTEST
+    size, most = _length(pressure), _SHORTEST
     for run in range(RUNS + 1):
         residual = points.missing(room - gap[where])
-        norm = float(np.linalg.norm(residual))
+        norm = _length(residual)
         size = size or norm
         if norm <= tolerance * size or run == RUNS or not np.isfinite(norm):
             break
@@ -339,6 +339,11 @@ def solve_grid(
         products=products,
         missing=closed.missing,
     )
+
+
+def _length(values: AnyArray) -> float:
+    """Return the root of the sum of squares; `np.linalg.norm` wakes the threads of BLAS."""
+    return math.sqrt(np.square(values).sum(dtype=np.float64))
 
 
 def _on_grid(where: _Index, values: Array, points: int) -> Array:
