@@ -80,7 +80,7 @@ def test_a_temperature_all_can_be_brought_to() -> None:
 
 def test_temperatures_that_cannot_be_one_are_refused_or_said() -> None:
     fixed = {"cold": solid(COLD, shift=False), "room": solid(ROOM, shift=False)}
-    with pytest.raises(InputError, match=r"got cold for 0\.0 °C, room for 20\.0 °C without one"):
+    with pytest.raises(InputError, match=r"room holds for 20\.0 °C and cannot be brought to 0\.0"):
         at_one_temperature(fixed)
     with pytest.raises(InputError, match=r"cold holds for 0\.0 °C and cannot be brought to 20\.0"):
         at_one_temperature(fixed, ROOM)

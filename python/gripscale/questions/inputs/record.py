@@ -1,8 +1,6 @@
 """The record of the inputs of a case beside its results, and as pages read it.
 
-A report needs nothing but the result file. Group `inputs`: the input files with their checksums,
-the profiles as drawn, their cleaning, the height difference correlation and its fits, the master
-curve and its Prony series, the curves as the fits themselves evaluate them.
+Its variables are listed in docs/reference/result-files.md: a report needs only the result file.
 """
 
 from __future__ import annotations
@@ -31,7 +29,6 @@ from gripscale.surface.cut_off import DEFINITIONS
 from gripscale.surface.sine_fit import as_fitted
 
 BINS = 1200  # pieces a profile is cut into; each keeps its lowest and its highest height
-CLOSE_UP = 30e-3  # length of the piece of a profile that is shown point by point [m]
 
 
 def envelope(x: ArrayLike, z: ArrayLike, bins: int = BINS) -> Array:
@@ -50,10 +47,10 @@ def envelope(x: ArrayLike, z: ArrayLike, bins: int = BINS) -> Array:
     return out
 
 
-def close_up(profile: Profile) -> Array:
+def close_up(profile: Profile, length: float = 30e-3) -> Array:
     """Return abscissa and height [m] of a piece from the middle of a profile, shape (2, points)."""
     start = 0.5 * (profile.x[0] + profile.x[-1])
-    inside = (profile.x >= start) & (profile.x <= start + CLOSE_UP)
+    inside = (profile.x >= start) & (profile.x <= start + length)
     return np.array([profile.x[inside], profile.z[inside]])
 
 
@@ -136,17 +133,14 @@ def inputs(
     if omega.size:
         attrs["excited_low_rad_per_s"] = float(omega.min())
         attrs["excited_high_rad_per_s"] = float(omega.max())
-    if surface.measured is not None and surface.correlation is not None:
-        data |= _profiles(surface.measured)
-        if surface.measured.longest is not None:
-            attrs["long_waves_beyond_m"] = surface.measured.longest
-            attrs["long_waves_share"] = surface.measured.long_share
-        texture = surface.measured.texture.variables
-        data |= {str(name): values for name, values in texture.items()}
-        for variables, about in (
-            _cut_off(surface, surface.measured),
-            _correlation(surface.correlation, surface.measured, surface.sines),
-        ):
+    measured = surface.measured
+    if measured is not None and surface.correlation is not None:
+        data |= _profiles(measured) | {str(k): v for k, v in measured.texture.variables.items()}
+        if measured.longest is not None:
+            attrs["long_waves_beyond_m"] = measured.longest
+            attrs["long_waves_share"] = measured.long_share
+        parts = _cut_off(surface, measured), _correlation(surface.correlation, measured, sines)
+        for variables, about in parts:
             data |= variables
             attrs |= about
     return xr.Dataset(data, attrs={k: value for k, value in attrs.items() if value is not None})
@@ -333,13 +327,6 @@ class InputRecord:
         return "texture_of" in self.data and "map" in self.data["texture_of"].values
 
     @property
-    def relaxation_times(self) -> tuple[ArrayLike, ArrayLike]:
-        """Times [s] and moduli [Pa] of the Maxwell elements."""
-        names = ("term_relaxation_time", "term_modulus")
-        times, moduli = (self.data.get(name, xr.DataArray(np.zeros(0))).values for name in names)
-        return times, moduli
-
-    @property
     def findings(self) -> list[str]:
         """What the fit of the Prony series found."""
         return self.text("prony_findings").splitlines()
@@ -353,9 +340,6 @@ class InputRecord:
                 "profiles, fits, master curve and doubts about the inputs are missing here."
             )
             yield Finding(Severity.WARNING, text, topic=Topic.SOURCE)
-
-
-LARGE_RESIDUAL = 0.1  # of the heights of the sine waves
 
 
 def input_findings(record: InputRecord) -> list[Finding]:
@@ -404,7 +388,7 @@ def misfits(record: InputRecord) -> Iterator[Finding]:
     """Yield by how much the sine waves miss their heights."""
     residual = record.number("sines_residual_decades")
     height = 10.0 ** (0.5 * residual) - 1.0  # C_z goes with the square of the height
-    if height > LARGE_RESIDUAL:
+    if height > 0.1:
         yield Finding(
             Severity.WARNING,
             f"The sine waves miss the measured correlation by {significant(residual, 2)} decades: "

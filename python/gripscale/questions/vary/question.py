@@ -56,7 +56,6 @@ class Variation(Result):
 
     @property
     def noun(self) -> str:
-        """What one of its predictions is called."""
         return "prediction"
 
     @property
