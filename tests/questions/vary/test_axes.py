@@ -25,8 +25,8 @@ from gripscale.questions.vary.axis import axes_of, parse_axes
         ("speed", np.geomspace(0.01, 1.0, 3), (0.01, 0.1, 1.0)),
         ("speed", np.array(["0.1 m/s", "36 km/h"]), (0.1, 10.0)),
         ("speed", xr.DataArray([0.1, 1.0], dims="speed"), (0.1, 1.0)),
-        ("temperature", ["60 C"], (333.15,)),
         ("temperature", np.array([293.15, 313.15]), (293.15, 313.15)),
+        ("temperature", [293.15, "40 C"], (293.15, 313.15)),
         ("smallest_wavelength", "0.01 mm:1 mm:log3", (1e-5, 1e-4, 1e-3)),
         ("cut_off", "0.1 mm, 1 mm", (1e-4, 1e-3)),
         ("rubber", "case,here/dma.txt", ("case", "here/dma.txt")),
@@ -39,6 +39,7 @@ def test_values_are_read(name: str, given: Any, values: tuple[Any, ...]) -> None
 
 
 def test_labels_are_short_unless_they_would_be_equal() -> None:
+    assert axes_of({"temperature": [293.15, "40 C"]})[0].labels == ("20 C", "40 C")
     assert axes_of({"rubber": "case,a/dma.txt"})[0].labels == ("case", "dma")
     assert axes_of({"rubber": "b/dma.txt,a/dma.txt"})[0].labels == ("b/dma.txt", "a/dma.txt")
 

@@ -32,16 +32,9 @@ from gripscale.questions import view
 from gripscale.questions.answer.variables import believed, is_estimated
 from gripscale.questions.inputs.charts_of_rubber import compound_moduli_figure
 from gripscale.questions.inputs.page import rubbers_of, texture_table
+from gripscale.questions.vary import inputs
 from gripscale.questions.vary.charts import ranking_figure, roads_statistics_figure
 from gripscale.questions.vary.friction_ratio import RANKED, FrictionRatio, answer_ratio
-from gripscale.questions.vary.inputs import (
-    AnswerModel,
-    default_model,
-    measured_rubber_of,
-    model_of,
-    reading_notes,
-    surface_of,
-)
 from gripscale.questions.vary.question import Variation
 from gripscale.questions.vary.study import Study, study_numbers
 from gripscale.report.elements import Card
@@ -271,13 +264,13 @@ def compare_compounds(
         As for `gripscale.experiment.Bench`.
     """
     require_some("rubbers", rubbers, "compounds")
-    measured = {name: measured_rubber_of(value, case) for name, value in rubbers.items()}
+    measured = {name: inputs.measured_rubber_of(value, case) for name, value in rubbers.items()}
     if temperature is None and case.conditions is not None:
         temperature = case.conditions.temperature
     compounds = {name: each.rubber for name, each in measured.items()}
     together, notes = at_one_temperature(compounds, temperature)
-    model = model_of(default_model(case), case)
-    if isinstance(model, AnswerModel):
+    model = inputs.model_of(inputs.default_model(case), case)
+    if isinstance(model, inputs.AnswerModel):
         model = replace(model, compared=True)
     study = Study(case, {"rubber": together}, model=model)
     data = ranked_answers(study, folder, workers, on_task)
@@ -288,7 +281,7 @@ def compare_compounds(
             [*study.surfaces, *measured.values()], loads, case.units, case.softening_doubts
         ),
         title="Compounds on one surface, by friction",
-        **{READING_NOTES: "\n".join([*reading_notes(rubbers.values()), *notes])},
+        **{READING_NOTES: "\n".join([*inputs.reading_notes(rubbers.values()), *notes])},
         **({TEMPERATURE: kelvins[0]} if None not in kelvins and len({*kelvins}) == 1 else {}),
     )
     return Compounds(data)
@@ -325,14 +318,14 @@ def compare_surfaces(
         # a synthetic road with its profile, for the direct contact
         name: with_profile(value)
         if isinstance(value, str) and value in SYNTHETIC_SURFACES
-        else surface_of(value, case)
+        else inputs.surface_of(value, case)
         for name, value in surfaces.items()
     }
     data = ranked_answers(Study(case, {"surface": roads}), folder, workers, on_task)
     waves = [f"{name} was not measured" for name, road in roads.items() if road.measured is None]
     heights = {name: road.measured and road.measured.heights for name, road in roads.items()}
     data = data.assign(textures(heights, "surface")).assign(_statistics(roads))
-    notes = "\n".join([*reading_notes(surfaces.values()), *waves])
+    notes = "\n".join([*inputs.reading_notes(surfaces.values()), *waves])
     title = "Surfaces under one rubber, by friction"
     return Surfaces(data.assign_attrs(title=title, **{READING_NOTES: notes}))
 

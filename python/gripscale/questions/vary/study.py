@@ -294,7 +294,6 @@ class Study(Described):
             "footprint": load.footprint,
             **({} if load.thickness is None else {"thickness": load.thickness}),
             "conditions": json.dumps(None if conditions is None else conditions.to_dict()),
-            "varied": json.dumps({axis.name: list(axis.labels) for axis in self.axes}),
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
             "surface_measured": int(all(s.measured is not None for s in self.surfaces)),
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in rubbers),
