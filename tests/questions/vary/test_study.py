@@ -91,18 +91,6 @@ def test_speed_zero_is_static_contact(case: Path, tmp_path: Path) -> None:
     assert len(list((tmp_path / "predictions").iterdir())) == 2
 
 
-def test_rubbers_and_surfaces_may_be_given_as_objects(case: Path, tmp_path: Path) -> None:
-    elastic = gs.Rubber(equilibrium_modulus=5e6)
-    study = Study(
-        read_case(case),
-        {"rubber": {"elastic": elastic, "lossy": "styrene_butadiene"}, "surface": {"hand": WAVES}},
-    )
-    result = study.run(tmp_path)
-    assert result.rubber.values.tolist() == ["elastic", "lossy"]
-    assert abs(result.total_friction.sel(rubber="elastic", surface="hand")) < 1e-9
-    assert result.total_friction.sel(rubber="lossy", surface="hand") > 0.01
-
-
 def test_failed_chain_is_a_status(
     case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

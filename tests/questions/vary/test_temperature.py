@@ -1,4 +1,4 @@
-"""Temperature and effects as axes: one curve over a_T v with nothing else on, none with heat."""
+"""Temperature and effects as axes: one curve over a_T v with nothing else on."""
 
 from __future__ import annotations
 
@@ -93,16 +93,6 @@ def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -
     assert float(np.ptp(result.total_friction.values)) > 0.05
     assert apart(result, "total_friction") < 1e-5
     assert apart(result, "total_contact_fraction") < 1e-5
-
-
-@pytest.mark.parametrize(
-    "model",
-    [Chain(HalfPlane(points=256), conditions=Conditions(heat=HEAT)), direct(heat=HEAT)],
-    ids=["chain", "direct"],
-)
-def test_heat_makes_them_several(case: Path, model: Any) -> None:
-    result = over(case, model, COMMON[1:], "0.1:10:log5")
-    assert apart(result, "total_friction") > 2e-3  # 200 times that of one curve
 
 
 def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:

@@ -474,7 +474,7 @@ def rubber_section(record: InputRecord, moving: xr.Dataset | None = None) -> lis
     """
     if not record.has("equilibrium_modulus_Pa"):
         return []
-    elements = [rubber_facts(record), *rubber_charts(record.data, moving)]
+    elements: list[Element] = [rubber_facts(record), *rubber_charts(record.data, moving)]
     if "term_modulus" in record.data:
         times, moduli = record.data["term_relaxation_time"], record.data["term_modulus"]
         elements.append(prony_table(times.values, moduli.values))

@@ -47,10 +47,10 @@ def envelope(x: ArrayLike, z: ArrayLike, bins: int = BINS) -> Array:
     return out
 
 
-def close_up(profile: Profile, length: float = 30e-3) -> Array:
-    """Return abscissa and height [m] of a piece from the middle of a profile, shape (2, points)."""
+def close_up(profile: Profile) -> Array:
+    """Return abscissa and height [m] of 30 mm from the middle of a profile, shape (2, points)."""
     start = 0.5 * (profile.x[0] + profile.x[-1])
-    inside = (profile.x >= start) & (profile.x <= start + length)
+    inside = (profile.x >= start) & (profile.x <= start + 30e-3)
     return np.array([profile.x[inside], profile.z[inside]])
 
 
@@ -106,8 +106,7 @@ def inputs(
     Its findings are those of `surfaces` and `loads` where the answer is not of those of the case,
     and `further` ones, of measured friction and of rubbers beside that of the case.
     """
-    surface = case.surface
-    omega, rubber = excited(case), case.measured_rubber
+    surface, rubber, omega = case.surface, case.measured_rubber, excited(case)
     # what the measurement does not carry stands in `cut_off_beyond_measurement`
     findings = [*further, *case.findings(surfaces, loads, extrapolated=False)]
     series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, omega)
@@ -208,11 +207,9 @@ def _correlation(hdc: HeightDifference, measured: Measured, sines: SineStack) ->
     lag = np.asarray(hdc.lag)
     fine = np.geomspace(lag[0], min(float(sines.wavelength[0]), lag[-1]), _POINTS)
     curves: dict[str, Any] = {
-        "correlation_value": hdc.value,
-        "correlation_lower": hdc.lower,
-        "correlation_upper": hdc.upper,
-        "correlation_sines": sine_curves(sines, lag)[0],
+        f"correlation_{end}": getattr(hdc, end) for end in ("value", "lower", "upper")
     }
+    curves["correlation_sines"] = sine_curves(sines, lag)[0]
     if fit is not None:
         curves["correlation_self_affine"] = fit.evaluate(lag)
     fitted, pure = sine_curves(sines, fine)

@@ -323,7 +323,9 @@ def compare_surfaces(
     }
     data = ranked_answers(Study(case, {"surface": roads}), folder, workers, on_task)
     waves = [f"{name} was not measured" for name, road in roads.items() if road.measured is None]
-    heights = {name: road.measured and road.measured.heights for name, road in roads.items()}
+    heights = {
+        name: road.measured.heights if road.measured else None for name, road in roads.items()
+    }
     data = data.assign(textures(heights, "surface")).assign(_statistics(roads))
     notes = "\n".join([*inputs.reading_notes(surfaces.values()), *waves])
     title = "Surfaces under one rubber, by friction"
