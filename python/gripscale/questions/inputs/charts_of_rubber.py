@@ -1,7 +1,4 @@
-"""Charts of rubber: moduli and Prony series, superposed sweeps, shift factors, softening.
-
-The master curve with its Prony series and the frequencies that the waves excite is figure 2 of LW.
-"""
+"""Charts of rubber: moduli and Prony series (LW, figure 2), sweeps, shift factors, softening."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Charts of a study: the answer over what was varied, what makes it, speed and temperature.
-
-Contact area and friction against wavelength over a study are figures 5 to 9 of LW.
-"""
+"""Charts of a study: the answer over what was varied, and what makes it (LW, figures 5 to 9)."""
 
 from __future__ import annotations
 

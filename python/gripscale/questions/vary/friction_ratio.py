@@ -190,15 +190,14 @@ class ComparedContact(DirectContact):
             return answer
         piece = PIECE * float(surface.sines.wavelength[0])
         before = rubber if self.conditions is None else self.conditions.before(rubber)
-        values: tuple[tuple[str, str | tuple[()], Array | float], ...] = (
+        for name, dim, value in (
             ("profile_friction_from_dissipation", (), contact.friction_from_dissipation),
             ("profile_friction", (), contact.friction),
             ("profile_coarse_friction", (), coarse_friction(contact)),
             ("carrying_pieces", (), pieces_that_carry(contact, piece)),
             ("piece_residual", "piece", friction_residuals(contact, piece)),
             ("series_change", "series", series_changes(contact, before)),
-        )
-        for name, dim, value in values:
+        ):
             answer[name] = labelled(dim, value, "1", RATIO_BASIS[name], self.name)
         return answer
 

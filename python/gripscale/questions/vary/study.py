@@ -266,8 +266,9 @@ class Study(Described):
             both = result[HYSTERESIS].fillna(result["answer_friction"])
             result[HYSTERESIS] = both.assign_attrs(result[HYSTERESIS].attrs)
         if "factor_label" in result:
-            labels = result["factor_label"].isel(dict.fromkeys(self.design.sizes, 0))
-            result["factor_label"] = labels
+            result["factor_label"] = result["factor_label"].isel(
+                dict.fromkeys(self.design.sizes, 0)
+            )
         result = result.assign_coords(coordinates(self.axes, self.case.units))
         result = result.assign(beyond_shift(self.design))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
