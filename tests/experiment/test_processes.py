@@ -27,7 +27,8 @@ Compare = Callable[[xr.Dataset, xr.Dataset], None]
 def test_processes_change_nothing(case: Path, tmp_path: Path, same_bytes: Compare) -> None:
     study = Study(read_case(case), {"speed": [0.01, 0.1, 1.0]})
     result = study.run(tmp_path / "processes", client=PROCESSES, workers=2)
-    same_bytes(result, study.run(tmp_path / "threads"))
+    same_bytes(result, study.run(tmp_path / "threads", workers=3))
+    same_bytes(result, study.run(tmp_path / "one", workers=1))
 
 
 @dataclass(frozen=True)

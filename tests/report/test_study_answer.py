@@ -11,7 +11,6 @@ import xarray as xr
 from gripscale.case_file import read_case
 from gripscale.io.table import significant
 from gripscale.questions import Study, Variation
-from gripscale.questions.answer.answer import answer
 from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts import totals_figure
 from gripscale.questions.view import course
@@ -42,23 +41,6 @@ def solved(folder: Path) -> xr.Dataset:
     study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]})
     assert study.model.name == "direct"
     return study.run(folder / "study")
-
-
-def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Dataset) -> None:
-    """Number, factors and interval: the same model on the same surface."""
-    run = answer(read_case(folder / "case.toml")).data
-    assert run is not None
-    point = solved.isel(speed=0)
-    for name in ("friction", "contact_fraction"):
-        for end in ("", "_half_width", "_factor", "_sampling_error"):
-            np.testing.assert_allclose(
-                point[f"answer_{name}{end}"], run[f"answer_{name}{end}"], rtol=1e-12
-            )
-        low, high = (float(point[f"answer_{name}_{end}"]) for end in ("low", "high"))
-        value = float(point[f"answer_{name}"])
-        assert low * high == pytest.approx(value**2) or (name, high) == ("contact_fraction", 1.0)
-        half_width = float(run[f"answer_{name}_half_width"])
-        assert (high - low) / (2.0 * value) == pytest.approx(half_width)
 
 
 def test_lines_say_numbers_load_and_factors(solved: xr.Dataset) -> None:
@@ -132,10 +114,3 @@ def test_names_are_said_by_lowest_and_highest() -> None:
     )
     words = "friction coefficient μ from 0.100 at a, 0.1 m/s to 0.400 at b, 0.1 m/s"
     assert course(data, "total_friction") == words
-
-
-def test_cards_are_the_range(solved: xr.Dataset) -> None:
-    friction, area = Variation(solved).cards()
-    assert friction.value == " to ".join(significant(float(x)) for x in solved.answer_friction)
-    assert friction.detail.endswith("(90 %)")
-    assert area.label == "Real contact area A_r/A_0"

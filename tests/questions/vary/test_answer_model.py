@@ -59,6 +59,8 @@ def test_a_varied_row_is_the_answer_of_the_varied_case(folder: Path) -> None:
 def test_friction_by_octave_and_by_relaxation_time_add_up(folder: Path) -> None:
     data = gs.vary(read_case(folder / "profiles.toml"), speed=[0.3, 3.0]).data
     np.testing.assert_allclose(data.octave_friction.sum("octave"), data.answer_friction, rtol=1e-9)
+    octave = np.log2(data.octave.values / 1e-3)
+    np.testing.assert_allclose(octave, np.round(octave))
     by_decade = data.friction_by_decade.fillna(0.0)
     np.testing.assert_allclose(by_decade.sum("decade"), data.answer_friction, rtol=1e-9)
     # ten times the speed is lost by relaxation times a tenth as long

@@ -19,33 +19,27 @@ from gripscale.questions.vary.axis import axes_of, parse_axes
         ("speed", "1 mm/s:10 m/s:log5", (0.001, 0.01, 0.1, 1.0, 10.0)),
         ("speed", "0:2:lin3", (0.0, 1.0, 2.0)),
         ("speed", "0, 36 km/h", (0.0, 10.0)),
-        ("speed", [0.3, "300 furlong/s"], None),
         ("pressure", "1 bar,3 bar", (1e5, 3e5)),
         ("pressure", 2e5, (2e5,)),
-        ("pressure", "3 bar", (3e5,)),
         ("pressure", ["1 bar", "300 kPa", 2e5], (1e5, 3e5, 2e5)),
         ("speed", np.geomspace(0.01, 1.0, 3), (0.01, 0.1, 1.0)),
         ("speed", np.array(["0.1 m/s", "36 km/h"]), (0.1, 10.0)),
         ("speed", xr.DataArray([0.1, 1.0], dims="speed"), (0.1, 1.0)),
-        ("temperature", ["60 C"], (333.15,)),
         ("temperature", np.array([293.15, 313.15]), (293.15, 313.15)),
+        ("temperature", [293.15, "40 C"], (293.15, 313.15)),
         ("smallest_wavelength", "0.01 mm:1 mm:log3", (1e-5, 1e-4, 1e-3)),
         ("cut_off", "0.1 mm, 1 mm", (1e-4, 1e-3)),
-        ("speed", "1 m/s:100 m/s:log3", (1.0, 10.0, 100.0)),
         ("rubber", "case,here/dma.txt", ("case", "here/dma.txt")),
     ],
 )
-def test_values_are_read(name: str, given: Any, values: tuple[Any, ...] | None) -> None:
-    if values is None:
-        with pytest.raises(InputError, match="unknown unit 'furlong/s'"):
-            axes_of({name: given})
-        return
+def test_values_are_read(name: str, given: Any, values: tuple[Any, ...]) -> None:
     axis = axes_of({name: given})[0]
     assert axis.values == values
     assert len(axis.labels) == len(values)
 
 
 def test_labels_are_short_unless_they_would_be_equal() -> None:
+    assert axes_of({"temperature": [293.15, "40 C"]})[0].labels == ("20 C", "40 C")
     assert axes_of({"rubber": "case,a/dma.txt"})[0].labels == ("case", "dma")
     assert axes_of({"rubber": "b/dma.txt,a/dma.txt"})[0].labels == ("b/dma.txt", "a/dma.txt")
 
@@ -57,13 +51,9 @@ def test_labels_are_short_unless_they_would_be_equal() -> None:
         ({"speed": [1], "thickness": [2], "pressure": [3]}, "one or two of .*; got 3"),
         ({"sped": [1]}, "vary must be one of speed, .*; got 'sped'"),
         ({"speed": []}, "speed must have 1 to 1000 values; got 0"),
-        ({"speed": "1:10"}, "third part is missing in '1:10'"),
-        (
-            {"speed": "1:10:sqrt3"},
-            "such as \"0.01 m/s:10 m/s:log7\"; 'sqrt3' is neither lin nor log",
-        ),
-        ({"speed": "1 m/s:10 m/s"}, "the third part is missing in '1 m/s:10 m/s'"),
-        ({"speed": "1:2:3:log4"}, "it has 4 parts"),
+        ({"speed": "1:10:sqrt3"}, 'such as "0.01 m/s:10 m/s:log7"; got .1:10:sqrt3.'),
+        ({"speed": "1 m/s:10 m/s"}, "must be a range of .*; got '1 m/s:10 m/s'"),
+        ({"speed": "1:2:3:log4"}, "must be a range of .*; got '1:2:3:log4'"),
         ({"speed": "1:10:log1"}, "number of values must be a whole number from 2"),
         ({"speed": "10:1:log3"}, "speed must go from low to high"),
         ({"speed": "0:1:log3"}, "log range must be greater than zero"),

@@ -111,6 +111,8 @@ def test_waves_by_hand_are_cut_off() -> None:
     road = surface_of(STACK, read_case(EXAMPLE))
     assert len(road.varied(waves=2).sines) == 2
     assert len(road.varied(smallest_wavelength=1e-3).sines) == 3
+    with pytest.raises(InputError, match="smallest_wavelength must not exceed"):
+        road.varied(smallest_wavelength=1.0)
 
 
 def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path) -> None:

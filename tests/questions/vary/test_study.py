@@ -15,9 +15,8 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
-from gripscale.case_file.named_inputs import read_named_inputs
 from gripscale.chain import Chain
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import InputError
 from gripscale.core.provenance import SHOWING, fingerprint
 from gripscale.core.status import Status
 from gripscale.core.units import display_unit_of
@@ -25,7 +24,6 @@ from gripscale.experiment import Progress, Task, task
 from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.questions import Study
-from gripscale.questions.vary import study as study_module
 from gripscale.surface import Surface
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine
@@ -91,39 +89,6 @@ def test_speed_zero_is_static_contact(case: Path, tmp_path: Path) -> None:
     assert result.total_contact_fraction[0] == alone.total_contact_fraction
     assert result.total_contact_fraction[0] > result.total_contact_fraction[1]
     assert len(list((tmp_path / "predictions").iterdir())) == 2
-
-
-def test_number_of_workers_changes_nothing(case: Path, tmp_path: Path, same_bytes: Compare) -> None:
-    study = Study(read_case(case), {"speed": "0.01:1:log4"})
-    same_bytes(study.run(tmp_path / "one", workers=1), study.run(tmp_path / "three", workers=3))
-
-
-def test_rubbers_and_surfaces_may_be_given_as_objects(case: Path, tmp_path: Path) -> None:
-    elastic = gs.Rubber(equilibrium_modulus=5e6)
-    study = Study(
-        read_case(case),
-        {"rubber": {"elastic": elastic, "lossy": "styrene_butadiene"}, "surface": {"hand": WAVES}},
-    )
-    result = study.run(tmp_path)
-    assert result.rubber.values.tolist() == ["elastic", "lossy"]
-    assert abs(result.total_friction.sel(rubber="elastic", surface="hand")) < 1e-9
-    assert result.total_friction.sel(rubber="lossy", surface="hand") > 0.01
-
-
-@pytest.mark.parametrize(
-    ("vary", "error", "words"),
-    [
-        ({"rubber": "nowhere.txt"}, FileError, "rubber nowhere.txt is neither a file here or"),
-        ({"surface": "nowhere.txt"}, FileError, "surface nowhere.txt is neither a file"),
-        ({"smallest_wavelength": "1 m"}, InputError, "smallest_wavelength must not exceed"),
-    ],
-)
-def test_what_is_not_there_is_one_sentence(
-    case: Path, vary: dict[str, Any], error: type[Exception], words: str
-) -> None:
-    file = read_case_file(case)
-    with pytest.raises(error, match=words):
-        _ = Study(read_case(file), read_named_inputs(vary, file)).points
 
 
 def test_failed_chain_is_a_status(
@@ -213,18 +178,6 @@ def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_p
     assert fingerprint(home, kernel) != whole
     kernel.write_bytes(b"compiled anew")
     assert fingerprint(home, kernel, SHOWING) != before
-
-
-def test_changed_material_is_never_served_old_results(
-    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    study = Study(read_case(case), {"speed": [1.0]})
-    study.run(tmp_path)
-    for module in (task, study_module):
-        monkeypatch.setattr(module, "software", lambda: "gripscale with another material.py")
-    told: list[Progress] = []
-    Study(read_case(case), {"speed": [1.0]}).run(tmp_path, on_task=told.append)
-    assert [t.stored for t in told] == [False]
 
 
 def test_decades_of_relaxation_share_out_the_friction(case: Path, tmp_path: Path) -> None:

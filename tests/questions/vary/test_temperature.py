@@ -1,4 +1,4 @@
-"""Temperature and effects as axes: one curve over a_T v with nothing else on, none with heat."""
+"""Temperature and effects as axes: one curve over a_T v with nothing else on."""
 
 from __future__ import annotations
 
@@ -18,12 +18,10 @@ from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
 from gripscale.io.table import as_text
 from gripscale.questions import Study, Variation
-from gripscale.questions.vary.axis import axes_of
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane, KlueppelHeinrich, Persson
 from tests.samples import THERMAL as HEAT
-from tests.samples import Shell
 
 CASE = """
 [surface]
@@ -95,16 +93,6 @@ def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -
     assert float(np.ptp(result.total_friction.values)) > 0.05
     assert apart(result, "total_friction") < 1e-5
     assert apart(result, "total_contact_fraction") < 1e-5
-
-
-@pytest.mark.parametrize(
-    "model",
-    [Chain(HalfPlane(points=256), conditions=Conditions(heat=HEAT)), direct(heat=HEAT)],
-    ids=["chain", "direct"],
-)
-def test_heat_makes_them_several(case: Path, model: Any) -> None:
-    result = over(case, model, COMMON[1:], "0.1:10:log5")
-    assert apart(result, "total_friction") > 2e-3  # 200 times that of one curve
 
 
 def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:
@@ -214,19 +202,3 @@ def test_rubber_without_shift_is_refused_before_anything_is_solved(case: Path) -
     with pytest.raises(InputError, match="time-temperature shift is missing"):
         study.run(case.parent / "out")
     assert not list((case.parent / "out").rglob("*.nc"))
-
-
-def test_kelvin_from_python_and_units_from_texts() -> None:
-    axis = axes_of({"temperature": [293.15, "40 C"]})[0]
-    assert axis.values == (293.15, 313.15)
-    assert axis.labels == ("20 C", "40 C")
-
-
-def test_command_draws_map_and_master_curve_of_the_direct_contact(shell: Shell, case: Path) -> None:
-    asked = ("--vary", "speed=0.1:1:log3", "--vary", "temperature=20 C:60 C:lin2")
-    result = shell("study", case, "--model", "direct", *asked)
-    assert result.exit_code == 0, result.output
-    figures = {path.stem for path in (case.parent / "results/study/figures").glob("*.png")}
-    assert {"friction_master_curve", "totals"} <= figures
-    for words in ("60 °C *", "predictions lie beyond"):
-        assert words in result.output

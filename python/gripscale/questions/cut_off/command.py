@@ -5,32 +5,31 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated
 
 from gripscale.questions import terminal
-from gripscale.questions.terminal import CasePath, OwnFolder, Workers, case_command, option
 
 if TYPE_CHECKING:
     from gripscale.half_space.result import RoughContact
 
 
-@case_command
+@terminal.case_command
 def cut_off_command(
-    case: CasePath,
+    case: terminal.CasePath,
     down_to: Annotated[
         str | None,
-        option(
+        terminal.option(
             "Shortest wavelength, such as '10 um'; that of [below_measurement] by default.",
             metavar="LENGTH",
         ),
     ] = None,
     hurst: Annotated[
         float | None,
-        option(
+        terminal.option(
             "Hurst exponent of the roughness below the measurement, in place of that of the "
             "faces that touch.",
             metavar="NUMBER",
         ),
     ] = None,
-    output: OwnFolder = None,
-    workers: Workers = None,
+    output: terminal.OwnFolder = None,
+    workers: terminal.Workers = None,
 ) -> None:
     """Contact and friction against the cut-off, down below what the profiles resolve."""
     import numpy as np

@@ -14,12 +14,11 @@ from gripscale.core import Finding, InputError, Severity, Topic, in_mm
 from gripscale.experiment.design import surface_numbers, variable_attributes
 from gripscale.experiment.solve import Bench
 from gripscale.experiment.task import Task
-from gripscale.model import STATUS, Load
+from gripscale.model import Load
 from gripscale.surface import RmsSlope, Surface, find_cut_off
 
 # Name of the wavelength [m] that the roughness of an answer is continued to.
 CONTINUED_TO = "continued_to"
-STATUSES = (STATUS, f"{STATUS}_word")
 FRICTION, AREA = "curve_friction_from_dissipation", "curve_contact_fraction"
 SLOPE_IN_CONTACT = "curve_slope_in_contact"
 # Rms slope in contact of the rule that ends the roughness where small strain ends.
@@ -57,11 +56,11 @@ def cut_off_curve(
 def contact_curves(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the last cut-off, and the curves."""
     kept = surface_numbers(answer, task)
-    kept = kept.assign(answer[["nominal_pressure", "nominal_speed", *STATUSES]].variables)
+    kept = kept.assign(answer[["nominal_pressure", "nominal_speed"]].variables)
     if "cut_off" not in answer.dims:
         return kept
-    curves = [str(name) for name in answer if answer[name].dims == ("cut_off",)]
-    return kept.merge(answer[[*curves, *(name for name in FACTS if name in answer)]])
+    curves = [name for name in answer if answer[name].dims == ("cut_off",) or name in FACTS]
+    return kept.merge(answer[curves])
 
 
 def refusals(data: xr.Dataset) -> Iterator[Finding]:

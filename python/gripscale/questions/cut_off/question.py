@@ -7,7 +7,7 @@ result.data.curve_friction_from_dissipation
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -45,14 +45,10 @@ _CURVES = {
     AREA: ("contact area $A_r/A_0$ [-]", BLUE),
     SLOPE_IN_CONTACT: ("rms slope in contact [-]", GREY),
 }
-_SAME = 0.01  # relative distance of two rules that lie on each other in a figure
 
 
 def cut_off_sheet(data: xr.Dataset) -> draw.Sheet:
-    """Describe friction, contact and the slope in contact over the same cut-offs.
-
-    Curves are solid where the roughness was measured and dotted where it is continued.
-    """
+    """Describe friction, contact and the slope in contact by cut-off, continued parts dotted."""
     lengths, measured = data.cut_off.values / MILLI, data.curve_measured.values.astype(bool)
     x = replace(
         chart.wavelength_axis(lengths), label="cut-off: shortest wavelength of the surface [mm]"
@@ -82,12 +78,12 @@ def cut_off_sheet(data: xr.Dataset) -> draw.Sheet:
 
 
 def _rules(data: xr.Dataset) -> Iterator[chart.CrossLine]:
-    """Yield the rules of cut-off that lie on the axis; those at the same place are one line."""
+    """Yield the rules of cut-off that lie on the axis; those within 1 % of each other are one."""
     first, last = data.cut_off.values[[0, -1]]
     names: dict[float, list[str]] = {}
     for name, at in zip(data.rule.values, data.rule_cut_off.values, strict=True):
         if last <= at <= first:
-            length = next((other for other in names if abs(at / other - 1.0) < _SAME), float(at))
+            length = next((other for other in names if abs(at / other - 1.0) < 0.01), float(at))
             names.setdefault(length, []).append(str(name))
     for i, (at, alike) in enumerate(names.items()):
         colour = COLOURS[(i + 2) % len(COLOURS)]
@@ -108,23 +104,19 @@ class CutOff(Result):
         data = self.data
         if self.failure:
             return [f"Answer: none. {self.failure}"]
-        last = in_mm(float(self.data.cut_off[-1]), 3)
-        numbers = [f"{SYMBOLS[name]} = {self._last(curve)}" for name, curve in self._curves]
-        level = "" if bool(data.curve_measured[-1]) else f" ({_LEVEL} bands)"
+        measured, resolved = bool(data.curve_measured[-1]), float(data.resolved)
+        level = "" if measured else f" ({_LEVEL} bands)"
         if any(refusals(data)):
             level = ", where the measurement ends: it foretells no octave"
+        numbers, last = self._in_words(self._last), in_mm(float(data.cut_off[-1]), 3)
         load = " and ".join(load_in_words(data))
         lines = [
-            f"Answer: {', '.join(numbers)} with roughness down to {last}{level}",
+            f"Answer: {numbers} with roughness down to {last}{level}",
             f"  for {load}; direct contact of the measured surface, without factors",
         ]
-        if not bool(data.curve_measured[-1]):
-            resolved = float(data.resolved)
-            measured = ", ".join(
-                f"{SYMBOLS[name]} = {significant(at_cut_off(data, curve, resolved))}"
-                for name, curve in self._curves
-            )
-            lines.append(f"  measured down to {in_mm(resolved, 3)}: {measured}")
+        if not measured:
+            numbers = self._in_words(lambda name: significant(at_cut_off(data, name, resolved)))
+            lines.append(f"  measured down to {in_mm(resolved, 3)}: {numbers}")
         return lines
 
     @property
@@ -146,14 +138,16 @@ class CutOff(Result):
         """Return the cut-off of each rule, with friction and contact there."""
         data = self.data
         columns = [
-            Column("rule", data.rule.values.tolist(), "rule"),
+            Column("rule", data.rule.values.tolist()),
             Column("rule_cut_off", data.rule_cut_off.values, "cut-off", "mm", MILLI),
         ]
-        for name, _ in self._curves:
-            columns.append(Column(f"rule_{name}", data[f"rule_{name}"].values, SYMBOLS[name]))
+        columns += [
+            Column(f"rule_{name}", data[f"rule_{name}"].values, SYMBOLS[name])
+            for name, _ in self._curves
+        ]
         beyond = bool(np.isnan(data.rule_contact_fraction.values).any())
         notes = ["Without numbers: beyond the curve."] if beyond else []
-        return Table("rules", columns, "Rules of cut-off", notes, keys=1)
+        return Table("rules", columns, "Rules of cut-off", notes)
 
     def table(self) -> Table:
         data, measured = self.data, self.data.curve_measured.values.astype(bool)
@@ -168,7 +162,7 @@ class CutOff(Result):
             columns.append(Column(f"{name}_band", ends, f"{_LEVEL} band"))
         columns.append(Column("slope", data[SLOPE_IN_CONTACT].values, "slope in contact"))
         notes = [] if measured[-1] else [f"Continued {_source(data)}."]
-        return Table("curve", columns, "By octave of the cut-off", notes, keys=1)
+        return Table("curve", columns, "By octave of the cut-off", notes)
 
     def pictures(self) -> Iterator[Picture]:
         if not self.failure:
@@ -187,6 +181,9 @@ class CutOff(Result):
         area = ("contact_fraction", AREA)
         return [("friction", FRICTION), area] if float(self.data.nominal_speed) > 0.0 else [area]
 
+    def _in_words(self, number: Callable[[str], object]) -> str:
+        return ", ".join(f"{SYMBOLS[name]} = {number(curve)}" for name, curve in self._curves)
+
     def _last(self, curve: str) -> AnswerNumber:
         """Return a number at the last cut-off, with its band where this is continued."""
         last = self.data[[curve, f"{curve}_lower", f"{curve}_upper"]].isel(cut_off=-1)
@@ -198,12 +195,12 @@ class CutOff(Result):
 def _source(data: xr.Dataset) -> str:
     """Return where the continued roughness comes from, and how well it did."""
     if "slope_ratio" not in data:
+        text = "with the slopes of the finer measurement; "
         overlap = float(data.get("overlap", math.nan))
-        compared = "no wavelength is measured by both"
-        if math.isfinite(overlap):
-            times = f"{significant(overlap, 2)} times as steep"
-            compared = f"the faces that touch are {times} where both are measured"
-        return f"with the slopes of the finer measurement; {compared}"
+        if math.isnan(overlap):
+            return f"{text}no wavelength is measured by both"
+        times = significant(overlap, 2)
+        return f"{text}the faces that touch are {times} times as steep where both are measured"
     ends = [data.get("withheld_slope_ratio", data.slope_ratio), data.slope_ratio]
     first, end = (significant(float(ratio), 3) for ratio in ends)
     text = f"with slopes {end} times those of the octave above"

@@ -1,7 +1,4 @@
-"""Charts of rubber: moduli and Prony series, superposed sweeps, shift factors, softening.
-
-The master curve with its Prony series and the frequencies that the waves excite is figure 2 of LW.
-"""
+"""Charts of rubber: moduli and Prony series (LW, figure 2), sweeps, shift factors, softening."""
 
 from __future__ import annotations
 
@@ -56,13 +53,20 @@ def master_curve_figure(
 ) -> Figure:
     """Draw moduli [MPa] and loss factor against angular frequency.
 
-    The Prony series of `rubber` is drawn as lines, dashed beyond the measured band, whose ends are
-    marked; the measured points of `master` with those that `fit` left out as crosses; the angular
-    frequencies `excitation` of the waves [rad/s] as marks on the curves.
+    The Prony series of `rubber` is drawn as lines, dashed beyond the measured band; the measured
+    points of `master` with those that `fit` left out as crosses; the angular frequencies
+    `excitation` of the waves [rad/s] as marks on the curves.
     """
     omega = np.asarray(excitation, dtype=float)
     variables, attrs = rubber_variables(rubber, master, fit, omega)
-    panels = moduli_panels(xr.Dataset(variables, attrs=attrs), omega, rubber)
+    panels = moduli_panels(xr.Dataset(variables, attrs=attrs))
+    if omega.size:
+        at = rubber.complex_modulus(omega)
+        look: dict[str, Any] = {"dash": "", "marker": "o", "size": 3.8, "filled": False}
+        storage = Series(omega, at.real / MEGA, INK, "$\\omega_i$ of the waves", **look)
+        loss = Series(omega, at.imag / MEGA, INK, **look)
+        factor = Series(omega, at.imag / at.real, INK, **look)
+        panels = [panels[0].with_marks([storage, loss]), panels[1].with_marks([factor])]
     sheet = Sheet(panels, 1, NARROW, 4.9, legend_columns=2, gap=0.02, layout=_TWO_TO_ONE)
     return sheet.on_paper()
 
@@ -87,11 +91,9 @@ def rubber_charts(inputs: xr.Dataset, excited: xr.Dataset | None) -> list[Chart]
     return draw.panels_on_page(panels)
 
 
-def moduli_panels(
-    inputs: xr.Dataset, excitation: ArrayLike = (), rubber: Rubber | None = None
-) -> list[Panel]:
-    """Return moduli and loss factor of recorded inputs; `rubber` at what it is excited with."""
-    omega, excitation = inputs["series_omega"].values, np.asarray(excitation, dtype=float)
+def moduli_panels(inputs: xr.Dataset) -> list[Panel]:
+    """Return moduli and loss factor of recorded inputs."""
+    omega = inputs["series_omega"].values
     ends = [inputs.attrs.get(f"band_{end}_rad_per_s") for end in ("low", "high")]
     low, high = ends[0] or 0.0, math.inf if ends[1] is None else ends[1]
     beyond = (omega < low) | (omega > high)
@@ -116,19 +118,11 @@ def moduli_panels(
     label = "ends of the measured band"
     borders = [CrossLine(end, GREY, label * (end == marked[0]), "dotted", 0.9, upright=True)
                for end in marked]  # fmt: skip
-    waves: list[list[Mark]] = [[], []]
-    if rubber is not None and excitation.size:
-        at = rubber.complex_modulus(excitation)
-        curves = (at.real / MEGA, at.imag / MEGA, at.imag / at.real)
-        for k, curve in enumerate(curves):
-            label = "" if k else "$\\omega_i$ of the waves"
-            waves[k == 2].append(Series(excitation, curve, INK, label, "", marker="o", size=3.8,
-                                        filled=False))  # fmt: skip
     return [
         Panel(
             OMEGA,
             MODULUS,
-            [*moduli, *borders, *waves[0]],
+            [*moduli, *borders],
             name="master-curve",
             caption="Storage and loss modulus: measured, and the Prony series that is solved with.",
             alt="Storage and loss modulus against angular frequency on logarithmic axes.",
@@ -137,7 +131,7 @@ def moduli_panels(
         Panel(
             OMEGA,
             LOSS_FACTOR,
-            [*loss, *borders, *waves[1]],
+            [*loss, *borders],
             name="loss-factor",
             caption="Loss factor: measured, and of the Prony series.",
             alt="Loss factor against angular frequency.",
@@ -237,7 +231,6 @@ def superposition_figure(sweeps: Sweeps, master: MasterCurve) -> Figure:
 
 
 def _temperatures(sweeps: Sweeps) -> ColourBar:
-    """Return what the colours of sweeps mean, cold blue to warm yellow."""
     celsius = sweeps.temperatures - ZERO_CELSIUS
     return ColourBar(celsius[0], celsius[-1], "Plasma", CELSIUS.label)
 

@@ -1,7 +1,6 @@
 """What a result rests on: load, files, cleaning, surface, rubber, conditions.
 
-`gripscale run` prints it from the prepared inputs, a page reads it from the group `inputs` of the
-result file: `InputRecord` is the one place that knows the names in this group.
+`gripscale run` prints it from the prepared inputs, a page reads it from an `InputRecord`.
 """
 
 from __future__ import annotations
@@ -35,8 +34,6 @@ if TYPE_CHECKING:
     from gripscale.rubber.measured_rubber import MeasuredRubber
     from gripscale.surface import HeightMap, SineStack, SlopeByWavelength, Surface
 
-GIGA = 1e9
-
 
 def numbers(name: str, count: int, heading: str | None = None) -> Column:
     """Return a column of numbers from 1."""
@@ -68,10 +65,11 @@ def rms_slopes_table(slopes: SlopeByWavelength) -> Table:
 def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") -> Table:
     """Return the texture of surfaces along `dim`, without the numbers that none of them has."""
     columns = [Column(dim, data[dim].values.astype(str).tolist(), heading)]
+    units = {"m": ("mm", MILLI), "rad": ("°", math.radians(1.0))}
     for name, (symbol, unit, _) in TEXTURE_NUMBERS.items():
         values = data[name].values.astype(float) if name in data else np.full(1, np.nan)
         if np.nan_to_num(values).any():
-            printed, size = _TEXTURE_UNITS.get(unit, ("", 1.0))
+            printed, size = units.get(unit, ("", 1.0))
             form = whole_number if name == "depth_segments" else significant
             columns.append(Column(name, values, symbol, printed, size, format=form))
     notes = [str(text) for text in data[DEPTH_NOTE].values]
@@ -82,18 +80,13 @@ def texture_table(data: xr.Dataset, dim: str = "texture_of", heading: str = "") 
     return Table("texture", columns, title, [other_road] if other_road else [])
 
 
-# Units in which texture is shown, with their sizes.
-_TEXTURE_UNITS = {"m": ("mm", MILLI), "rad": ("°", math.radians(1.0))}
-
-
 def texture_levels_table(data: xr.Dataset) -> Table:
     """Return texture levels by wavelength, as `gripscale.surface.texture`."""
     columns = [
         Column("wavelength", data.wavelength.values, "λ", "mm", MILLI, format=digits(3)),
         Column("level", data.level.values, "L_tx", "dB", format=fixed(1)),
     ]
-    title = "Third-octave texture levels re 1 µm: ISO 13473-4"
-    return Table("levels", columns, title, keys=1)
+    return Table("levels", columns, "Third-octave texture levels re 1 µm: ISO 13473-4")
 
 
 def prony_table(times: ArrayLike, moduli: ArrayLike) -> Table:
@@ -142,11 +135,11 @@ def softening_parts(law: SofteningTable) -> Iterator[str | Table]:
         kept[at, :, (strains < measured[0]) | (strains > measured[-1])] = math.nan
     kelvin = np.full(len(law.strain), math.nan) if law.temperature is None else law.temperature
     columns = [Column("temperature", kelvin, unit="°C", zero=ZERO_CELSIUS, format=fixed(1))]
-    for row, (name, symbol) in enumerate((("storage", "E'"), ("loss", "E''"))):
-        columns += [
-            Column(f"{name}_{strain:g}", kept[:, row, at], f"{symbol} at {100 * strain:g} %")
-            for at, strain in enumerate(strains)
-        ]
+    columns += [
+        Column(f"{name}_{strain:g}", kept[:, row, at], f"{symbol} at {100 * strain:g} %")
+        for row, (name, symbol) in enumerate((("storage", "E'"), ("loss", "E''")))
+        for at, strain in enumerate(strains)
+    ]
     yield Table("softening", columns, "Moduli over those of the master curve, by strain")
     yield from (f"assumed: {text}" for text in assumptions(law))
 
@@ -174,12 +167,14 @@ def cleaning_tables(record: InputRecord) -> Iterator[Table]:
     }
     for i, profile in enumerate(data["profile_name"].values):
         part = data.isel(profile=i)
-        columns = [Column("step", data["cleaning_step_name"].values)]
-        columns += [
-            Column(name, part[f"cleaning_{name}"].values, heading, format=whole_number)
-            for name, heading in headings.items()
+        columns = [
+            Column("step", data["cleaning_step_name"].values),
+            *(
+                Column(name, part[f"cleaning_{name}"].values, heading, format=whole_number)
+                for name, heading in headings.items()
+            ),
+            Column("note", part["cleaning_note"].values, "what was done", words=True),
         ]
-        columns.append(Column("note", part["cleaning_note"].values, "what was done", words=True))
         ends = (part[f"profile_{end}"] for end in ("step", "length"))
         step, length = (number_text(value, MILLI, digits(4)) for value in ends)
         points = number_text(part["profile_points"], format=whole_number)
@@ -380,37 +375,25 @@ def rubber_facts(record: InputRecord) -> Facts:
     pairs = [
         end("slow_end", "Relaxed modulus", "Slow end of the data, E′"),
         end("fast_end", "Glassy modulus", "Fast end of the data, E′"),
-        ("Bulk modulus", record.quantity("bulk_modulus_Pa", "GPa", GIGA)),
-        ("Maxwell elements", str(np.size(record.relaxation_times[0]))),
+        ("Bulk modulus", record.quantity("bulk_modulus_Pa", "GPa", 1e9)),
+        ("Maxwell elements", str(record.data.sizes.get("maxwell_element", 0))),
         ("Measured band", f"{low} to {high} rad/s ({slow} to {fast} Hz)"),
         ("Temperature", f"{number_text(kelvin)} K ({number_text(kelvin - ZERO_CELSIUS)} °C)"),
     ]
     if record.has("prony_rms_storage"):
-        names = {
-            "rms_storage": "Rms error of E′",
-            "rms_loss": "Rms error of E″",
-            "rms_loss_factor": "Rms error of E″/E′",
-            "mean_loss_factor_error": "Mean error of E″/E′",
-            "storage_scatter": "Scatter of measured E′",
-            "loss_scatter": "Scatter of measured E″",
-        }
-        pairs += [
-            (label, percent_text(record.number(f"prony_{key}"))) for key, label in names.items()
-        ]
+        for name, label in (
+            ("rms_storage", "Rms error of E′"),
+            ("rms_loss", "Rms error of E″"),
+            ("rms_loss_factor", "Rms error of E″/E′"),
+            ("mean_loss_factor_error", "Mean error of E″/E′"),
+            ("storage_scatter", "Scatter of measured E′"),
+            ("loss_scatter", "Scatter of measured E″"),
+        ):
+            pairs.append((label, percent_text(record.number(f"prony_{name}"))))
         left_out = record.data["master_frequency"].values[record.data["master_left_out"].values > 0]
         texts = ", ".join(number_text(frequency) for frequency in left_out)
         pairs.append(("Rows left out as outliers", f"{texts} Hz" if texts else "none"))
     return Facts(record.text("rubber_name") or "Rubber", pairs)
-
-
-# Keys of [load]: attribute of a study, and what they are called.
-_LOAD = {
-    "pressure": ("nominal_pressure", "Nominal pressure"),
-    "speed": ("nominal_speed", "Sliding speed"),
-    "footprint": ("footprint", "Footprint"),
-}
-# Effects of the conditions of a study.
-_CONDITIONS = ("temperature", "softening", "heat", "shear_stress")
 
 
 def input_sections(data: xr.Dataset) -> list[Section]:
@@ -424,12 +407,14 @@ def input_sections(data: xr.Dataset) -> list[Section]:
         return unit.text(attrs[attribute]) if attribute in attrs else NONE
 
     effects = json.loads(attrs.get("conditions", "null")) or {}
-    names = (name for name in _CONDITIONS if effects.get(name) is not None)
-    conditions = ", ".join(name.replace("_", " ") for name in names)
+    names = ("temperature", "softening", "heat", "shear_stress")
+    conditions = ", ".join(n.replace("_", " ") for n in names if effects.get(n) is not None)
     load = Facts(
         "Load and model",
         [
-            *((label, quantity(key, attribute)) for key, (attribute, label) in _LOAD.items()),
+            ("Nominal pressure", quantity("pressure", "nominal_pressure")),
+            ("Sliding speed", quantity("speed", "nominal_speed")),
+            ("Footprint", quantity("footprint", "footprint")),
             ("Conditions", conditions or ("none" if "conditions" in attrs else NONE)),
             ("Model", str(attrs.get("model", NONE)).replace("_", " ")),
             ("Surface", without_folder(str(attrs.get("surfaces", NONE)))),
@@ -444,7 +429,11 @@ def input_sections(data: xr.Dataset) -> list[Section]:
         )
         if (length == length[0]).all() and (height == height[0]).all():  # of all predictions
             waves.append(waves_table(length[0], height[0]))
-    rubbers = [_facts_of(rubber) for rubber in rubbers_of(data)]
+    rubbers = []
+    for rubber in rubbers_of(data):
+        variables, about = rubber_variables(rubber, None, None, np.zeros(0))
+        about["reference_temperature_K"] = rubber.reference_temperature
+        rubbers.append(rubber_facts(InputRecord(xr.Dataset(variables, attrs=about))))
     return [
         Section("inputs", "Inputs and their origin", [load]),
         Section("surface", "Surface", waves),
@@ -455,13 +444,6 @@ def input_sections(data: xr.Dataset) -> list[Section]:
 def rubbers_of(data: xr.Dataset) -> list[Rubber]:
     """Return the rubbers of a study; none of a file that does not hold them."""
     return list(map(Rubber.from_dict, json.loads(data.attrs.get("rubber_parameters", "[]"))))
-
-
-def _facts_of(rubber: Rubber) -> Facts:
-    variables, attrs = rubber_variables(rubber, None, None, np.zeros(0))
-    if rubber.reference_temperature is not None:
-        attrs["reference_temperature_K"] = rubber.reference_temperature
-    return rubber_facts(InputRecord(xr.Dataset(variables, attrs=attrs)))
 
 
 def surface_section(record: InputRecord, waves: SineStack | None = None) -> list[Element]:
@@ -492,6 +474,8 @@ def rubber_section(record: InputRecord, moving: xr.Dataset | None = None) -> lis
     """
     if not record.has("equilibrium_modulus_Pa"):
         return []
-    times, moduli = record.relaxation_times
-    series = [prony_table(times, moduli)] if np.size(times) else []
-    return [rubber_facts(record), *rubber_charts(record.data, moving), *series]
+    elements: list[Element] = [rubber_facts(record), *rubber_charts(record.data, moving)]
+    if "term_modulus" in record.data:
+        times, moduli = record.data["term_relaxation_time"], record.data["term_modulus"]
+        elements.append(prony_table(times.values, moduli.values))
+    return elements

@@ -1,8 +1,6 @@
 """The record of the inputs of a case beside its results, and as pages read it.
 
-A report needs nothing but the result file. Group `inputs`: the input files with their checksums,
-the profiles as drawn, their cleaning, the height difference correlation and its fits, the master
-curve and its Prony series, the curves as the fits themselves evaluate them.
+Its variables are listed in docs/reference/result-files.md: a report needs only the result file.
 """
 
 from __future__ import annotations
@@ -31,7 +29,6 @@ from gripscale.surface.cut_off import DEFINITIONS
 from gripscale.surface.sine_fit import as_fitted
 
 BINS = 1200  # pieces a profile is cut into; each keeps its lowest and its highest height
-CLOSE_UP = 30e-3  # length of the piece of a profile that is shown point by point [m]
 
 
 def envelope(x: ArrayLike, z: ArrayLike, bins: int = BINS) -> Array:
@@ -51,9 +48,9 @@ def envelope(x: ArrayLike, z: ArrayLike, bins: int = BINS) -> Array:
 
 
 def close_up(profile: Profile) -> Array:
-    """Return abscissa and height [m] of a piece from the middle of a profile, shape (2, points)."""
+    """Return abscissa and height [m] of 30 mm from the middle of a profile, shape (2, points)."""
     start = 0.5 * (profile.x[0] + profile.x[-1])
-    inside = (profile.x >= start) & (profile.x <= start + CLOSE_UP)
+    inside = (profile.x >= start) & (profile.x <= start + 30e-3)
     return np.array([profile.x[inside], profile.z[inside]])
 
 
@@ -109,8 +106,7 @@ def inputs(
     Its findings are those of `surfaces` and `loads` where the answer is not of those of the case,
     and `further` ones, of measured friction and of rubbers beside that of the case.
     """
-    surface = case.surface
-    omega, rubber = excited(case), case.measured_rubber
+    surface, rubber, omega = case.surface, case.measured_rubber, excited(case)
     # what the measurement does not carry stands in `cut_off_beyond_measurement`
     findings = [*further, *case.findings(surfaces, loads, extrapolated=False)]
     series, about_series = rubber_variables(rubber.rubber, rubber.master, rubber.fit, omega)
@@ -136,17 +132,14 @@ def inputs(
     if omega.size:
         attrs["excited_low_rad_per_s"] = float(omega.min())
         attrs["excited_high_rad_per_s"] = float(omega.max())
-    if surface.measured is not None and surface.correlation is not None:
-        data |= _profiles(surface.measured)
-        if surface.measured.longest is not None:
-            attrs["long_waves_beyond_m"] = surface.measured.longest
-            attrs["long_waves_share"] = surface.measured.long_share
-        texture = surface.measured.texture.variables
-        data |= {str(name): values for name, values in texture.items()}
-        for variables, about in (
-            _cut_off(surface, surface.measured),
-            _correlation(surface.correlation, surface.measured, surface.sines),
-        ):
+    measured = surface.measured
+    if measured is not None and surface.correlation is not None:
+        data |= _profiles(measured) | {str(k): v for k, v in measured.texture.variables.items()}
+        if measured.longest is not None:
+            attrs["long_waves_beyond_m"] = measured.longest
+            attrs["long_waves_share"] = measured.long_share
+        parts = _cut_off(surface, measured), _correlation(surface.correlation, measured, sines)
+        for variables, about in parts:
             data |= variables
             attrs |= about
     return xr.Dataset(data, attrs={k: value for k, value in attrs.items() if value is not None})
@@ -214,11 +207,9 @@ def _correlation(hdc: HeightDifference, measured: Measured, sines: SineStack) ->
     lag = np.asarray(hdc.lag)
     fine = np.geomspace(lag[0], min(float(sines.wavelength[0]), lag[-1]), _POINTS)
     curves: dict[str, Any] = {
-        "correlation_value": hdc.value,
-        "correlation_lower": hdc.lower,
-        "correlation_upper": hdc.upper,
-        "correlation_sines": sine_curves(sines, lag)[0],
+        f"correlation_{end}": getattr(hdc, end) for end in ("value", "lower", "upper")
     }
+    curves["correlation_sines"] = sine_curves(sines, lag)[0]
     if fit is not None:
         curves["correlation_self_affine"] = fit.evaluate(lag)
     fitted, pure = sine_curves(sines, fine)
@@ -333,13 +324,6 @@ class InputRecord:
         return "texture_of" in self.data and "map" in self.data["texture_of"].values
 
     @property
-    def relaxation_times(self) -> tuple[ArrayLike, ArrayLike]:
-        """Times [s] and moduli [Pa] of the Maxwell elements."""
-        names = ("term_relaxation_time", "term_modulus")
-        times, moduli = (self.data.get(name, xr.DataArray(np.zeros(0))).values for name in names)
-        return times, moduli
-
-    @property
     def findings(self) -> list[str]:
         """What the fit of the Prony series found."""
         return self.text("prony_findings").splitlines()
@@ -353,9 +337,6 @@ class InputRecord:
                 "profiles, fits, master curve and doubts about the inputs are missing here."
             )
             yield Finding(Severity.WARNING, text, topic=Topic.SOURCE)
-
-
-LARGE_RESIDUAL = 0.1  # of the heights of the sine waves
 
 
 def input_findings(record: InputRecord) -> list[Finding]:
@@ -404,7 +385,7 @@ def misfits(record: InputRecord) -> Iterator[Finding]:
     """Yield by how much the sine waves miss their heights."""
     residual = record.number("sines_residual_decades")
     height = 10.0 ** (0.5 * residual) - 1.0  # C_z goes with the square of the height
-    if height > LARGE_RESIDUAL:
+    if height > 0.1:
         yield Finding(
             Severity.WARNING,
             f"The sine waves miss the measured correlation by {significant(residual, 2)} decades: "

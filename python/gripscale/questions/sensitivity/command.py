@@ -7,15 +7,14 @@ from typing import Annotated
 import typer
 
 from gripscale.questions import terminal
-from gripscale.questions.terminal import CasePath, Modulus, OwnFolder, Workers, case_command, option
 
 
-@case_command
+@terminal.case_command
 def sensitivity_command(
-    case: CasePath,
+    case: terminal.CasePath,
     vary: Annotated[
         list[str] | None,
-        option(
+        terminal.option(
             "Derivatives at several values of an input, once or twice: speed=0.003:30:log5, "
             "temperature='0 C,20 C,60 C', pressure, smallest_wavelength, rubber, surface.",
             metavar="NAME=VALUES",
@@ -40,9 +39,9 @@ def sensitivity_command(
             "change of speed, pressure or temperature: six further solutions a point.",
         ),
     ] = False,
-    modulus: Modulus = None,
-    output: OwnFolder = None,
-    workers: Workers = None,
+    modulus: terminal.Modulus = None,
+    output: terminal.OwnFolder = None,
+    workers: terminal.Workers = None,
 ) -> None:
     """Tell which part of the master curve, and which input, decides the friction of a case."""
     from gripscale.case_file.named_inputs import read_named_inputs

@@ -46,8 +46,7 @@ FEEDBACK = "_with_feedback"
 # bends where an asperity comes into contact; smaller steps are single asperities.
 LOG_STEP, KELVIN_STEP = 0.1, 2.0
 
-# Names of derivatives, with the number that they are of; without those by Prony terms, which
-# rubbers do not share.
+# Derivatives with the number that they are of; none by Prony terms, which rubbers do not share.
 _DERIVATIVES = {
     f"d_ln_{quantity}_d_{name}{end}": quantity
     for quantity in ("friction", "contact_fraction")
@@ -128,10 +127,9 @@ class FrictionSensitivity(DirectContact):
         for name, step in steps.items():
             low, high = (log_friction(name, by) for by in (-step, step))
             end, unit = (name, "1/K") if name == "temperature" else (f"ln_{name}", "1")
-            text = f"d ln friction by {end}, with the rubber's answer to it"
-            derivatives[f"d_ln_friction_d_{end}{FEEDBACK}"] = xr.Variable(
-                (), (high - low) / (2.0 * step), variable_attributes(text, unit)
-            )
+            about = variable_attributes(f"d ln friction by {end}, with the rubber's answer", unit)
+            value = xr.Variable((), (high - low) / (2.0 * step), about)
+            derivatives[f"d_ln_friction_d_{end}{FEEDBACK}"] = value
         return derivatives
 
 
@@ -150,20 +148,20 @@ def _of_all(parts: list[xr.Dataset], lengths: list[float]) -> xr.Dataset:
 
 def derivatives_of_answer(answer: xr.Dataset, task: Task) -> xr.Dataset:
     """Return the numbers of the whole surface, and the derivatives."""
-    names = [name for name in answer if name in _DERIVATIVES]
-    kept = answer[[*names, *trace_variables(answer)]]
+    kept = [*(name for name in answer if name in _DERIVATIVES), *trace_variables(answer)]
     numbers = surface_numbers(answer, task).assign(basis_numbers(answer))
-    return numbers.assign(kept.variables)
+    return numbers.assign(answer[kept].variables)
 
 
 def with_rules_of_thumb(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     """Return the Dataset with the master curve of its rubber, and the rules of thumb on it."""
     shift, reference = rubber.shift, rubber.reference_temperature
-    kelvin = at = np.empty(0)
+    names, at = list[str](), np.empty(0)
     if shift is not None and reference is not None:  # the rules within the shift
         low, high = shift.limits
-        kelvin = np.array([each for each in _RULES.values() if low <= each <= high])
-        at = 2.0 * np.pi * RULE_FREQUENCY * shift.a(kelvin, reference)
+        names = [name for name, kelvin in _RULES.items() if low <= kelvin <= high]
+        kelvins = np.array([_RULES[name] for name in names])
+        at = 2.0 * np.pi * RULE_FREQUENCY * shift.a(kelvins, reference)
     drawn = np.array([*data.frequency.values, *at])
     omega = np.geomspace(drawn.min() / _MARGIN, drawn.max() * _MARGIN, MASTER_POINTS)
     modulus = rubber.complex_modulus(omega)
@@ -174,7 +172,6 @@ def with_rules_of_thumb(data: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     )
     if not at.size:
         return data
-    names = [name for name, each in _RULES.items() if each in kelvin]
     effect, distance = data[LOSS], np.abs(np.log10(data.frequency.values[:, None] / at))
     near = xr.DataArray(distance <= 0.5, dims=("frequency", "rule"))
     share = (effect * near).sum("frequency") / effect.sum("frequency")

@@ -48,7 +48,6 @@ from gripscale.questions.sensitivity.friction_sensitivity import (
 from gripscale.questions.vary.axis import axes_of
 from gripscale.questions.vary.inputs import reading_notes
 from gripscale.questions.vary.study import Study, coordinates
-from gripscale.questions.view import dimensions, load_in_words, points
 from gripscale.report.elements import Section
 from gripscale.report.failures import failures_in, first_of
 
@@ -88,7 +87,7 @@ def sensitivity_figure(data: xr.Dataset) -> Figure:
     return Sheet(panels, 1, NARROW, 6.4, gap=0.03, layout=layout).on_paper()
 
 
-# What may be varied: derivatives are taken at each value.
+# Inputs at whose values derivatives are taken.
 DERIVED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "rubber", "surface")
 _BY = "d_ln_friction_d_"
 # Ends of the names of derivatives by one number, with their headings and units.
@@ -101,15 +100,6 @@ SCALARS = {
 }
 _MOST_POINTS = 6  # points that the table by decade has columns for
 signed = fixed(2, "+")
-
-
-def effect_sentence(data: xr.Dataset) -> str:
-    """Return what a per cent of both moduli does to the friction."""
-    loss, storage = (data[name].sum("frequency") for name in (LOSS, STORAGE))
-    return (
-        f"1 % more E″ gives {least_to_most(loss, digits(2))} % more friction; 1 % less E′ gives "
-        f"{least_to_most(-storage, digits(2))} % more"
-    )
 
 
 def frequencies_of(effect: xr.DataArray, share: float) -> Array:
@@ -130,10 +120,16 @@ class Sensitivity(Result):
         if STORAGE not in data:
             reasons = sorted({failure.sentence for failure in failures_in(self.data)})
             return [f"Answer: none. No contact was solved: {'; '.join(reasons)}"]
-        load = " and ".join(load_in_words(data))
-        where = f", at {load}" if load else ""
-        lines = [f"Answer: {effect_sentence(data)}{where}."]
-        for text, point in points(data):
+        loss, storage = (
+            least_to_most(sign * data[name].sum("frequency"), digits(2))
+            for name, sign in ((LOSS, 1.0), (STORAGE, -1.0))
+        )
+        load = " and ".join(view.load_in_words(data))
+        lines = [
+            f"Answer: 1 % more E″ gives {loss} % more friction; 1 % less E′ gives {storage} % more"
+            f"{load and f', at {load}'}."
+        ]
+        for text, point in view.points(data):
             if np.isfinite(point[LOSS].values).all():
                 low, high = frequencies_of(point[LOSS].clip(min=0.0), 0.5)
                 where = f" at {text}" if data[LOSS].size > data.sizes["frequency"] else ""
@@ -151,10 +147,7 @@ class Sensitivity(Result):
         yield self.table()
         yield self.decades_table()
         if "rule" not in self.data.dims:
-            yield (
-                "The rubber has no temperature shift: tan δ at 0 °C and 60 °C has no known place "
-                "on this axis."
-            )
+            yield "Without a temperature shift, tan δ at 0 °C and 60 °C have no place on this axis."
             return
         for i, name in enumerate(self.data.rule.values):
             shares = least_to_most(self.data.rule_share.isel(rule=i), percent)
@@ -166,7 +159,7 @@ class Sensitivity(Result):
 
     def table(self) -> Table:
         """Return the derivatives by each input, the moduli summed over frequency."""
-        listed = list(points(self.data))
+        listed = list(view.points(self.data))
         columns = [Column("point", [text for text, _ in listed], "")]
         for name, (key, symbol, _) in _MODULI.items():
             sums = self.data[name].sum("frequency").values.ravel()
@@ -178,18 +171,18 @@ class Sensitivity(Result):
                 size, unit_text = (0.01, "%/K") if unit == "1/K" else (1.0, "")
                 if np.isfinite(values).any():
                     column = Column(f"{name}{end}", values, heading, unit_text, size, format=signed)
-                    columns.append(column.of(values, group=group))
+                    columns.append(replace(column, group=group))
         if f"{_BY}ln_speed{FEEDBACK}" in self.data:
             notes.append("With feedback strain and temperature of the rubber follow the change.")
         elif self.data.attrs["iterated"]:
             notes.append("Strain and temperature of the rubber stay; with feedback they follow.")
-        return Table("sums", columns, "What the friction depends on", notes, keys=1)
+        return Table("sums", columns, "What the friction depends on", notes)
 
     def decades_table(self) -> Table:
         """Return what E'' and E' of each decade of frequency are worth, at the first few points."""
         decade = np.floor(np.log10(self.data.frequency.values) + 1e-9).astype(int)
         rows = np.arange(decade.min(), decade.max() + 1)
-        listed = list(points(self.data))
+        listed = list(view.points(self.data))
         columns = [Column("decade", [f"1e{row} to 1e{row + 1}" for row in rows], "rad/s")]
         for i, (text, point) in enumerate(listed[:_MOST_POINTS]):
             unit = text if len(listed) > 1 else ""
@@ -199,8 +192,7 @@ class Sensitivity(Result):
         notes = []
         if (rest := len(listed) - _MOST_POINTS) > 0:
             notes.append(f"{rest} more points are in the result file.")
-        title = "What each decade of the master curve is worth"
-        return Table("decades", columns, title, notes, keys=1)
+        return Table("decades", columns, "What each decade of the master curve is worth", notes)
 
     def pictures(self) -> Iterator[Picture]:
         if STORAGE in self.data:
@@ -227,7 +219,9 @@ class Sensitivity(Result):
         """Traces at the first point, which show what heights of the surface are worth."""
         if STORAGE not in self.data:
             return []
-        return named_traces(self.data.isel(dict.fromkeys(dimensions(self.data), 0)), self.inputs)
+        return named_traces(
+            self.data.isel(dict.fromkeys(view.dimensions(self.data), 0)), self.inputs
+        )
 
 
 @overload
@@ -345,7 +339,6 @@ def sensitivity(
         "model": "direct",
         "bands_per_decade": bands,
         "iterated": int(conditions is not None and conditions.iterated),
-        "softens": int(conditions is not None and conditions.softening is not None),
     }
     loads = [point.task.load for point in study.points]
     notes = [doubt(text, topic=Topic.RUBBER) for text in reading_notes(study.measured_rubbers)]

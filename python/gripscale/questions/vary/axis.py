@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -53,7 +53,6 @@ VARIED_INPUTS = {
 
 COLDEST = 100.0  # temperature [K] below which a number without a unit is taken for degrees
 MOST_VALUES = 1000
-MOST_AXES = 2
 
 _RANGE = re.compile(r"\s*([^:]+?)\s*:\s*([^:]+?)\s*:\s*(lin|log)(\d+)\s*")
 
@@ -86,10 +85,8 @@ class Axis:
         twice = {label for label in labels if labels.count(label) > 1}
         if twice:
             raise InputError(f"{name} must have different values; got {min(twice)} more than once")
-        units: Iterable[str | None] = ()
-        if name in KEYS:
-            texts = re.split("[,:]", value) if isinstance(value, str) else _entries(name, value)
-            units = (unit_of(text, VARIED_INPUTS[name].quantity) for text in texts)
+        texts = re.split("[,:]", value) if isinstance(value, str) else _entries(name, value)
+        units = (unit_of(text, VARIED_INPUTS[name].quantity) for text in texts if name in KEYS)
         return cls(name, values, labels, next(filter(None, units), ""))
 
     @property
@@ -100,10 +97,7 @@ class Axis:
         )
 
     def display_unit(self, units: Mapping[str, str]) -> DisplayUnit | None:
-        """Return how its values are shown in a study of a case that states `units`.
-
-        None of what is no pressure, speed or length.
-        """
+        """Return the unit of its values beside the `units` of a case; None for other quantities."""
         if not self.numeric or self.name not in KEYS:
             return None
         return display_unit(self.name, {self.name: self.unit} if self.unit else units)
@@ -153,10 +147,9 @@ def axes_of(vary: Mapping[str, Any]) -> tuple[Axis, ...]:
 
     Raises `InputError` if there are none or more than two, or a value cannot be used.
     """
-    if not 1 <= len(vary) <= MOST_AXES:
-        raise InputError(
-            f"a study varies one or two of {', '.join(VARIED_INPUTS)}; got {len(vary)}"
-        )
+    if len(vary) not in (1, 2):
+        inputs = ", ".join(VARIED_INPUTS)
+        raise InputError(f"a study varies one or two of {inputs}; got {len(vary)}")
     return tuple(Axis.of(name, values) for name, values in vary.items())
 
 
@@ -176,17 +169,16 @@ def values_by_name(texts: Iterable[str], option: str, example: str) -> dict[str,
     return values
 
 
-def parse_axes(texts: Sequence[str], names: Iterable[str] = VARIED_INPUTS) -> dict[str, str]:
+def parse_axes(texts: Sequence[str], names: Collection[str] = VARIED_INPUTS) -> dict[str, str]:
     """Return the values of inputs, each one of `names`, from texts such as `speed=0.1,1`.
 
     Raises `InputError` if two texts name one input, or one is no such text.
     """
-    values, options = values_by_name(texts, "vary", "speed=0.003:30:log9"), [*names]
-    return {checks.one_of("vary", name, options): value for name, value in values.items()}
+    values = values_by_name(texts, "vary", "speed=0.003:30:log9")
+    return {checks.one_of("vary", name, names): value for name, value in values.items()}
 
 
 def _label(name: str, value: Any, unit: str) -> str:
-    """Return what a value is called: a temperature in degrees C, other numbers with a `unit`."""
     if isinstance(value, str | RmsSlope):
         return str(value)
     return f"{value - ZERO_CELSIUS:.6g} C" if name == "temperature" else f"{value:.6g}{unit}"
@@ -196,26 +188,15 @@ def _entries(name: str, value: Any) -> Iterable[Any]:
     """Return single values of a list, a text `a,b,c`, a text `a:b:log5`, or a single value."""
     if not isinstance(value, str):
         return value if isinstance(value, Iterable) else [value]
-    match = _RANGE.fullmatch(value)
-    if match is not None:
-        return _spaced(name, *match.groups())
     if ":" not in value:
         return [part.strip() for part in value.split(",")]
-    parts = value.split(":")
-    if len(parts) == 2:
-        wrong = "the third part is missing"
-    elif len(parts) == 3 and parts[0].strip() and parts[1].strip():
-        wrong = f"{parts[2].strip()!r} is neither lin nor log with a number"
-    else:
-        wrong = f"it has {len(parts)} parts, or an empty one"
-    raise InputError(
-        f"{name} must be a range of first value, last value and spacing with the number of values, "
-        f'such as "{VARIED_INPUTS[name].example}"; {wrong} in {value!r}'
-    )
-
-
-def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[float]:
-    """Return evenly spaced values between two ends in SI units, the ends exactly."""
+    match = _RANGE.fullmatch(value)
+    if match is None:
+        raise InputError(
+            f"{name} must be a range of first value, last value and spacing (lin or log) with the "
+            f'number of values, such as "{VARIED_INPUTS[name].example}"; got {value!r}'
+        )
+    first, last, spacing, count = match.groups()
     if not VARIED_INPUTS[name].quantity:
         raise InputError(f"{name} must be a list, not a range; got {first}:{last}")
     if isinstance(plain_number(first), str) != isinstance(plain_number(last), str):
@@ -224,9 +205,7 @@ def _spaced(name: str, first: str, last: str, spacing: str, count: str) -> list[
     low, high = axis_value(name, first), axis_value(name, last)
     if low >= high:
         raise InputError(f"{name} must go from low to high; got {first}:{last}")
-    if spacing == "lin":
-        values = np.linspace(low, high, number)
-    else:
+    if spacing == "log":
         checks.positive(f"{name} of a log range", low)
-        values = np.geomspace(low, high, number)
-    return [low, *(float(f"{value:.12g}") for value in values[1:-1]), high]
+    spaced = np.geomspace(low, high, number) if spacing == "log" else np.linspace(low, high, number)
+    return [low, *(float(f"{value:.12g}") for value in spaced[1:-1]), high]

@@ -1,12 +1,10 @@
-"""Charts of a study: the answer over what was varied, what makes it, speed and temperature.
-
-Contact area and friction against wavelength over a study are figures 5 to 9 of LW.
-"""
+"""Charts of a study: the answer over what was varied, and what makes it (LW, figures 5 to 9)."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,10 +28,8 @@ if TYPE_CHECKING:
 def totals_figure(data: xr.Dataset) -> Figure:
     """Draw A_r/A_0 and friction over the first numeric axis, a line for each value of the other.
 
-    They are the answers with their 90 % intervals where there are any, else the totals.
-    Without a numeric axis they are drawn as points over the names of the first one. Predictions
-    that did not converge leave gaps. What rests on the rubber beyond its measured band is dashed,
-    of names has a star.
+    They are the answers with their 90 % intervals where there are any, else the totals; without a
+    numeric axis points over the names of the first one.
     """
     along = (view.numeric(data) or view.dimensions(data))[0]
     friction, area = (view.panel(data, name, along) for name in view.answers(data))
@@ -47,11 +43,7 @@ def totals_figure(data: xr.Dataset) -> Figure:
 
 
 def friction_master_figure(result: xr.Dataset) -> Figure:
-    """Draw friction and A_r/A_0 of all temperatures over the reduced speed a_T v.
-
-    Where temperature does nothing but shift the relaxation times, they are one curve. Dashed is
-    what rests on the rubber beyond its measured band.
-    """
+    """Draw friction and A_r/A_0 of all temperatures over the reduced speed a_T v."""
     names = view.answers(result)
     panels = [view.panel(result, name, "speed", over=REDUCED_SPEED) for name in names]
     return Sheet(panels, height=3.3, legend_columns=6).on_paper()
@@ -121,7 +113,6 @@ def study_pictures(result: xr.Dataset) -> Iterator[Picture]:
 
 
 CUBIC_MM = 1e-9
-LEAST_POWER_SHARE = 0.02  # share of the largest part of the friction from which one is drawn
 
 
 def ranking_figure(data: xr.Dataset, dim: str) -> Figure:
@@ -154,7 +145,7 @@ def _running_panel(data: xr.Dataset, name: str, words: str) -> Panel:
     stacks = data[name].attrs["stacks"]
     parts = data[name].fillna(0.0).sortby(stacks, stacks != "octave")
     lost = np.abs(parts.transpose(..., stacks).values).max(axis=0)
-    seen = np.flatnonzero(lost > LEAST_POWER_SHARE * lost.max(initial=0.0))
+    seen = np.flatnonzero(lost > 0.02 * lost.max(initial=0.0))
     running = parts.cumsum(stacks).assign_coords({stacks: parts[stacks]})
     running = running.assign_attrs({"long_name": f"friction of this and {words}", "symbol": "μ"})
     if seen.size:
@@ -164,20 +155,13 @@ def _running_panel(data: xr.Dataset, name: str, words: str) -> Panel:
 
 
 def roads_statistics_figure(data: xr.Dataset) -> Figure:
-    """Draw C_z [mm^2] over lag and the spectrum of lines [mm^3] over wavenumber of each road.
-
-    `data` is that of `gripscale.questions.Surfaces`.
-    """
+    """Draw C_z [mm^2] over lag and the spectrum of lines [mm^3] over wavenumber of each road."""
     panels = []
-    for name, places, size, area, x, y in (
-        ("correlation", "lag", MILLI, SQUARE_MM, "lag $l$ [mm]",
-         "height difference $C_z$ [mm$^2$]"),
-        ("spectrum", "wavenumber", 1.0 / MILLI, CUBIC_MM, "wavenumber $q$ [rad/mm]",
-         "spectrum $C_1$ [mm$^3$]"),
-    ):  # fmt: skip
-        curves: list[Mark] = []
-        for road, colour in zip(data.surface.values, COLOURS, strict=False) if name in data else ():
-            value = data[name].sel(surface=road).values / area
-            curves.append(Series(data[places].values / size, value, colour, str(road)))
-        panels.append(Panel(PlotAxis(x, log=True), PlotAxis(y, log=True), curves))
+    for name, along, size, label in (
+        ("correlation", "lag", SQUARE_MM, "height difference $C_z$ [mm$^2$]"),
+        ("spectrum", "wavenumber", CUBIC_MM, "spectrum $C_1$ [mm$^3$]"),
+    ):
+        curves = data.assign({name: data[name] / size})
+        panel = view.panel(curves, name, along, flags=xr.DataArray(False))
+        panels.append(replace(panel, y=PlotAxis(label, log=True)))
     return Sheet(panels, height=3.2).on_paper()

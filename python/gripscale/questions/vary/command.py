@@ -10,25 +10,11 @@ import typer
 
 from gripscale.core.errors import InputError
 from gripscale.questions import terminal
-from gripscale.questions.terminal import (
-    CasePath,
-    Cluster,
-    Modulus,
-    OwnFolder,
-    SurfaceChannel,
-    SurfaceCrop,
-    SurfaceUnit,
-    Workers,
-    argument,
-    case_command,
-    option,
-    surface_keys,
-)
 
 
-@case_command
+@terminal.case_command
 def study_command(
-    case: CasePath,
+    case: terminal.CasePath,
     vary: Annotated[
         list[str],
         typer.Option(
@@ -38,10 +24,10 @@ def study_command(
             metavar="NAME=VALUES",
         ),
     ],
-    output: OwnFolder = None,
+    output: terminal.OwnFolder = None,
     model: Annotated[
         str | None,
-        option(
+        terminal.option(
             "What predicts: direct (the whole measured surface at once), the default where the "
             "surface was measured, or chain (of sine waves), the default elsewhere."
         ),
@@ -49,9 +35,9 @@ def study_command(
     tolerance: Annotated[
         float, typer.Option(help="Estimated relative error of each direct contact.")
     ] = 0.05,
-    workers: Workers = None,
-    cluster: Cluster = None,
-    modulus: Modulus = None,
+    workers: terminal.Workers = None,
+    cluster: terminal.Cluster = None,
+    modulus: terminal.Modulus = None,
 ) -> None:
     """Vary one or two inputs of a case: table, figures, one result file; resumes where stopped."""
     from gripscale.case_file import folder
@@ -71,7 +57,8 @@ def study_command(
 
 
 CaseOfRest = Annotated[
-    Path | None, option("Case of all else; by default the first case given.", metavar="CASE.toml")
+    Path | None,
+    terminal.option("Case of all else; by default the first case given.", metavar="CASE.toml"),
 ]
 
 
@@ -86,23 +73,23 @@ def case_of(arguments: Sequence[str], case: Path | None, what: str) -> Path:
     return chosen
 
 
-@case_command
+@terminal.case_command
 def compare_surfaces_command(
     surfaces: Annotated[
         list[str],
-        argument(
+        terminal.argument(
             "Two to six surfaces: files of profiles, cases (their surface), or surfaces known by "
             "name.",
             "SURFACE...",
         ),
     ],
     case: CaseOfRest = None,
-    x_unit: SurfaceUnit = None,
-    z_unit: SurfaceUnit = None,
-    channel: SurfaceChannel = None,
-    crop: SurfaceCrop = None,
-    output: OwnFolder = None,
-    workers: Workers = None,
+    x_unit: terminal.SurfaceUnit = None,
+    z_unit: terminal.SurfaceUnit = None,
+    channel: terminal.SurfaceChannel = None,
+    crop: terminal.SurfaceCrop = None,
+    output: terminal.OwnFolder = None,
+    workers: terminal.Workers = None,
 ) -> None:
     """Rank surfaces under one rubber by friction: how surely, and by which wavelengths."""
     from gripscale.case_file.named_inputs import names_of, read_surface
@@ -110,18 +97,18 @@ def compare_surfaces_command(
 
     work = terminal.CaseCommand(case_of(surfaces, case, "the rubber and the load"))
     work.open_results(output, "surfaces")
-    keys = surface_keys(x_unit=x_unit, z_unit=z_unit, channel=channel, crop=crop)
+    keys = terminal.surface_keys(x_unit=x_unit, z_unit=z_unit, channel=channel, crop=crop)
     read = [read_surface(value, work.file, keys) for value in surfaces]
     roads = dict(zip(names_of(surfaces), read, strict=True))
     ranking = compare_surfaces(work.case, roads, **work.solving(workers))
     work.finish(ranking, "tables and figures", drawings="")
 
 
-@case_command
+@terminal.case_command
 def compare_rubbers(
     rubbers: Annotated[
         list[str],
-        argument(
+        terminal.argument(
             "Two to six compounds: files of moduli, cases (their rubber), or rubbers known by "
             "name.",
             "RUBBER...",
@@ -129,11 +116,12 @@ def compare_rubbers(
     ],
     case: CaseOfRest = None,
     temperature: Annotated[
-        str | None, option('Such as "20 C"; by default one that all have or can be shifted to.')
+        str | None,
+        terminal.option('Such as "20 C"; by default one that all have or can be shifted to.'),
     ] = None,
-    modulus: Modulus = None,
-    output: OwnFolder = None,
-    workers: Workers = None,
+    modulus: terminal.Modulus = None,
+    output: terminal.OwnFolder = None,
+    workers: terminal.Workers = None,
 ) -> None:
     """Rank compounds on one surface by friction: with what confidence, and why."""
     from gripscale.case_file.named_inputs import names_of, read_rubber

@@ -1,15 +1,6 @@
-"""Which waves and which relaxation times of the rubber make the friction.
+"""Friction by octave of wavelength, and by decade of relaxation time, in small-strain terms.
 
-By octave of wavelength, and by decade of relaxation time: an estimate in small-strain terms. On a
-half-plane of modulus E*, harmonic p_k of the contact pressure of a wave dissipates
-
-    D_k = |p_k|^2 E''(w_k) / |E*(w_k)|^2,       w_k = 2 pi k v / lambda,
-
-and E'' is a sum over the Maxwell elements (Ferry, Viscoelastic Properties of Polymers, 3rd ed.
-(1980), ch. 3). The parts are scaled to the friction that was solved. An octave of a direct contact
-counts as one harmonic at its middle, w = 2 pi v / (sqrt(2) lambda) with its lower end lambda. An
-element stands for the times up to half way to its neighbours (Ferry, ch. 4): else a whole share
-would jump from one decade into the next as a temperature shifts the times.
+Derived in docs/derivations.md, "Friction by wavelength and relaxation time".
 """
 
 from __future__ import annotations

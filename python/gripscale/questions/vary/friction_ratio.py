@@ -41,7 +41,7 @@ from gripscale.surface import Surface
 
 ERROR_RATIO = 0.4  # error after halving the spacing over the change by it, as in `grid_sequence`
 EXTREME = 3.0  # standard deviations of an admissible series from the best one
-# Names and meanings of what is said of each pair.
+# Numbers of each pair with their meanings.
 RANKED = {
     "friction_ratio": "friction over that of `over`",
     "friction_ratio_low": "low end of its 90 % interval",
@@ -62,10 +62,7 @@ class FrictionRatio:
     def of_sources(
         cls, log_ratio: float, sampling: tuple[float, float], *others: float
     ) -> FrictionRatio:
-        """Return the ratio with a sampling error with its freedom, and `others` that are certain.
-
-        NaN among the others is an error that nobody knows and is left out.
-        """
+        """Return the ratio with a sampling error and its freedom, and other errors but for NaN."""
         pairs = [sampling, *((error, math.inf) for error in others if math.isfinite(error))]
         error = combined([LogError(*map(xr.DataArray, pair)) for pair in pairs])
         return cls(log_ratio, float(error.sigma), float(error.freedom))
@@ -88,10 +85,10 @@ class FrictionRatio:
 
 
 def grid_error(log_ratio: Callable[[str], float]) -> float:
-    """Return the largest error of G from the grids, by G of three frictions.
+    """Return the largest error of G from the grids.
 
-    These are "friction_from_dissipation", "friction" from the traction, and "coarse_friction" from
-    dissipation on the grid before the last.
+    By G of "friction_from_dissipation", of "friction" from the traction, and of "coarse_friction"
+    from dissipation on the grid before the last.
     """
     total = log_ratio("friction_from_dissipation")
     changes = ERROR_RATIO * (total - log_ratio("coarse_friction")), total - log_ratio("friction")
@@ -126,9 +123,9 @@ def series_changes(contact: RoughContact, best: Rubber) -> Array:
 
 
 def _on_few_frequencies(omega: Array, weight: ComplexArray) -> tuple[Array, ComplexArray]:
-    """Return frequencies with weights whose sums are those of linear interpolation in ln w.
+    """Return frequencies, the first at rest, with the weights of linear interpolation in ln w.
 
-    Ratios of moduli are smooth: `NODES_PER_DECADE` of them keep four digits. Rest has a node.
+    Ratios of moduli are smooth: `NODES_PER_DECADE` of them keep four digits.
     """
     moving = omega > 0.0
     low, high = np.log(omega[moving].min()), np.log(omega[moving].max())
@@ -193,17 +190,15 @@ class ComparedContact(DirectContact):
             return answer
         piece = PIECE * float(surface.sines.wavelength[0])
         before = rubber if self.conditions is None else self.conditions.before(rubber)
-        values: dict[str, Array | float] = {
-            "profile_friction_from_dissipation": contact.friction_from_dissipation,
-            "profile_friction": contact.friction,
-            "profile_coarse_friction": coarse_friction(contact),
-            "carrying_pieces": pieces_that_carry(contact, piece),
-            "piece_residual": friction_residuals(contact, piece),
-            "series_change": series_changes(contact, before),
-        }
-        dims = {"piece_residual": ("piece",), "series_change": ("series",)}
-        for name, value in values.items():
-            answer[name] = labelled(dims.get(name, ()), value, "1", RATIO_BASIS[name], self.name)
+        for name, dim, value in (
+            ("profile_friction_from_dissipation", (), contact.friction_from_dissipation),
+            ("profile_friction", (), contact.friction),
+            ("profile_coarse_friction", (), coarse_friction(contact)),
+            ("carrying_pieces", (), pieces_that_carry(contact, piece)),
+            ("piece_residual", "piece", friction_residuals(contact, piece)),
+            ("series_change", "series", series_changes(contact, before)),
+        ):
+            answer[name] = labelled(dim, value, "1", RATIO_BASIS[name], self.name)
         return answer
 
 
@@ -272,10 +267,7 @@ def ratio_changes(over: xr.Dataset, under: xr.Dataset) -> list[float]:
     none = xr.DataArray(
         np.zeros((1, 0)), {"condition": np.array([], "U1")}, ("sample", "condition")
     )
-    high, low = (
-        each.get("friction_condition_error", none).mean("sample").fillna(0.0)
-        for each in (over, under)
-    )
-    high, low = xr.align(high, low, join="outer", fill_value=0.0)
+    pair = (each.get("friction_condition_error", none).mean("sample") for each in (over, under))
+    high, low = xr.align(*(errors.fillna(0.0) for errors in pair), join="outer", fill_value=0.0)
     apart = high.condition.isin([TREADS, SERIES])
     return [*high[apart].values, *low[apart].values, *(high - low)[~apart].values]

@@ -17,6 +17,7 @@ from gripscale.conditions.flash_temperature import ThermalProperties
 from gripscale.core import Checked, InputError, checked, checks
 from gripscale.experiment.design import OF_THE_CASE, solve_design
 from gripscale.experiment.solve import Bench
+from gripscale.experiment.task import Task
 from gripscale.half_space.model import JUDGED_TO, DirectContact
 from gripscale.half_space.solve import relative_tolerance
 from gripscale.model import Load, Model, OnProgress
@@ -94,37 +95,29 @@ class AnswerModel(Checked, model.Model):
         )
         design = direct_contact_design(case, load, tolerance=self.tolerance)
         if design is None:
-            raise InputError(
-                "the direct contact needs a measured profile; got waves stated by hand"
-            )
+            text = "the direct contact needs a measured profile; got waves stated by hand"
+            raise InputError(text)
         if self.compared and load.speed > 0.0:
             contact = ComparedContact(
                 tolerance=self.tolerance, conditions=self.conditions, alternatives=True
             )
             points = [replace(p, task=replace(p.task, model=contact)) for p in design.points]
             design = replace(design, points=points)
+
+        def numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
+            return reduce.sample_numbers(answer, task).assign(ratio_basis(answer).variables)
+
         on_task = None if on_progress is None else (lambda progress: on_progress(progress.result))
-        samples = solve_design(
-            design,
-            Bench(None, on_task=on_task),
-            lambda answer, task: reduce.sample_numbers(answer, task).assign(
-                ratio_basis(answer).variables
-            ),
-        )
+        samples = solve_design(design, Bench(None, on_task=on_task), numbers)
         curve = continued_curve(case, load)
         with _REDUCING:
             answer = direct_contact_totals(samples, case, case.load, curve)
             answer = answer.assign(ratio_basis(samples).reset_coords(drop=True).variables)
-            if float(answer["answer_friction"]) > 0.0:
-                parts = parts_of_answer(answer, samples, case.rubber_before, load.speed)
-                answer = answer.assign(parts)
-            return answer
+            if not float(answer["answer_friction"]) > 0.0:
+                return answer
+            return answer.assign(parts_of_answer(answer, samples, case.rubber_before, load.speed))
 
 
-# Attribute of a comparison of compounds: the temperature that all of them hold for [K].
-TEMPERATURE = "temperature_K"
-# Attribute of what stands side by side: how inputs were read, a line each.
-READING_NOTES = "reading_notes"
 _NAMED_RUBBERS = {"styrene_butadiene": styrene_butadiene}
 
 
@@ -165,15 +158,8 @@ def reading_notes(values: Iterable[Any]) -> tuple[str, ...]:
     return tuple(filter(None, (getattr(value, "note", "") for value in values)))
 
 
-# What conditions do to the contact; the area term does nothing to it.
-_EFFECTS = ("temperature", "softening", "heat", "water")
-
-
 def conditions_of(model: Model) -> Conditions:
-    """Return the conditions of a model, empty ones if it has none.
-
-    Raises `InputError` if the model takes none.
-    """
+    """Return the conditions of a model or empty ones; `InputError` if it takes none."""
     return model.with_conditions(model.conditions).conditions or Conditions()
 
 
@@ -187,14 +173,11 @@ def with_effects(model: Model, selection: str) -> Model:
 
     Raises `InputError` if `selection` is neither "all", "no" one that the model has, nor "none".
     """
-    conditions = conditions_of(model)
-    asked = [effect for effect in _EFFECTS if getattr(conditions, effect) is not None]
+    conditions, effects = conditions_of(model), ("temperature", "softening", "heat", "water")
+    asked = [effect for effect in effects if getattr(conditions, effect) is not None]
     without = {"all": [], **{f"no {effect}": [effect] for effect in asked}, "none": asked}
     nothing = without[checks.one_of("effects", selection, without)]
     return model.with_conditions(conditions.without(*nothing))
-
-
-_OF_NAMED = 293.15  # temperature of the moduli of rubbers known by name [K]
 
 
 def for_rubber(model: Model, rubber: Rubber) -> Model:
@@ -208,7 +191,7 @@ def for_rubber(model: Model, rubber: Rubber) -> Model:
         return model
     if rubber.name in {named().name for named in _NAMED_RUBBERS.values()}:
         effects = replace(effects, softening=None)
-        if rubber.shift is None and effects.temperature == _OF_NAMED:
+        if rubber.shift is None and effects.temperature == 293.15:  # that of its moduli
             effects = replace(effects, temperature=None)
     if rubber.shift is None and effects.heat == ThermalProperties():
         effects = replace(effects, heat=None)
@@ -216,10 +199,7 @@ def for_rubber(model: Model, rubber: Rubber) -> Model:
 
 
 def default_model(case: Case, surfaces: Sequence[Surface] = ()) -> str:
-    """Return the name of what predicts a case by default, on its surface or on `surfaces`.
-
-    The direct contact where every surface was measured, else the chain.
-    """
+    """Return "direct" where the surface of a case, or all `surfaces`, is measured; else "chain"."""
     measured = all(surface.measured is not None for surface in surfaces or [case.surface])
     return DirectContact.name if measured else Chain.name
 

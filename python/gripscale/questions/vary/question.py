@@ -56,7 +56,6 @@ class Variation(Result):
 
     @property
     def noun(self) -> str:
-        """What one of its predictions is called."""
         return "prediction"
 
     @property
@@ -140,7 +139,7 @@ class Variation(Result):
 
 
 def _held(data: xr.Dataset) -> Iterator[str]:
-    """Yield what was not varied, and how many predictions there are."""
+    """Yield what was not varied, and the number of predictions."""
     yield from view.load_in_words(data)
     ends = [float(data[name]) for name in ("cutoff_wavelength", CONTINUED_TO) if name in data]
     if ends:
@@ -153,7 +152,6 @@ def _held(data: xr.Dataset) -> Iterator[str]:
 
 
 def _why_no_interval(data: xr.Dataset) -> str:
-    """Return why the numbers of a study are no answer with an interval."""
     if data.attrs.get("model") == "direct":
         return "no interval: the direct contact alone has none; leave the model out"
     if not data.attrs.get("surface_measured"):
@@ -165,14 +163,16 @@ def _factors(data: xr.Dataset) -> Iterator[str]:
     """Yield the direct contact and each factor on it, friction first; ranges where they vary."""
     yield view.model_in_words(data)
     for at, label in enumerate(data.factor_label.values):
-        ranges = []
-        for name in reversed(SYMBOLS):
-            values = data[f"answer_{name}_factor"].isel(factor=at).values
-            ranges.append(f"{SYMBOLS[name]} × {least_to_most(values)}")
-        error = data["answer_friction_factor_uncertainty"].isel(factor=at)
-        same = all(text.endswith(f"× {significant(1.0)}") for text in ranges)
-        factor = f"1 ± {percent_text(float(error.max()))}" if same else ", ".join(ranges)
-        yield f"{label} ({factor})"
+        part = data.isel(factor=at)
+        ranges = {
+            symbol: least_to_most(part[f"answer_{name}_factor"])
+            for name, symbol in reversed(SYMBOLS.items())
+        }
+        text = ", ".join(f"{symbol} × {values}" for symbol, values in ranges.items())
+        if {*ranges.values()} == {significant(1.0)}:
+            error = float(part["answer_friction_factor_uncertainty"].max())
+            text = f"1 ± {percent_text(error)}"
+        yield f"{label} ({text})"
 
 
 def _rests_on(data: xr.Dataset) -> Iterator[str]:
@@ -187,11 +187,9 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if LINES_TO_SURFACE in data.factor_label.values:
         yield ISOTROPY_ASSUMED
-    if INTERFACE in data:
-        yield f"{least_to_most(data[INTERFACE].values)} of the friction is the area term"
-    if math.isfinite(sampling) and not {"surface", "rubber"} & set(view.dimensions(data)):
-        yield "most of an interval is common to all points: their differences are known better"
     if math.isfinite(sampling):
+        if not {"surface", "rubber"} & set(view.dimensions(data)):
+            yield "most of an interval is common to all points: their differences are known better"
         yield "intervals leave out errors of the master curve"
 
 

@@ -32,18 +32,9 @@ from gripscale.questions import view
 from gripscale.questions.answer.variables import believed, is_estimated
 from gripscale.questions.inputs.charts_of_rubber import compound_moduli_figure
 from gripscale.questions.inputs.page import rubbers_of, texture_table
+from gripscale.questions.vary import inputs
 from gripscale.questions.vary.charts import ranking_figure, roads_statistics_figure
 from gripscale.questions.vary.friction_ratio import RANKED, FrictionRatio, answer_ratio
-from gripscale.questions.vary.inputs import (
-    READING_NOTES,
-    TEMPERATURE,
-    AnswerModel,
-    default_model,
-    measured_rubber_of,
-    model_of,
-    reading_notes,
-    surface_of,
-)
 from gripscale.questions.vary.question import Variation
 from gripscale.questions.vary.study import Study, study_numbers
 from gripscale.report.elements import Card
@@ -53,23 +44,21 @@ from gripscale.surface.surface import SURFACE_KIND
 from gripscale.surface.synthetic import SYNTHETIC_SURFACES, with_profile
 from gripscale.surface.texture import textures
 
+TEMPERATURE = "temperature_K"  # attribute of compounds: the temperature all of them hold for [K]
+READING_NOTES = "reading_notes"  # attribute: how inputs were read, a line each
 _SAME = 0.5  # temperatures that differ by less are one [K]: 20 °C and 293 K
 _PER_DECADE = 12  # lags and wavenumbers at which roads are drawn together
-FEWEST_COMPARED, MOST_COMPARED = 2, 6
-
-
 _RANKING = (
     "Friction over that of the first, with the 90 % interval of the ratio, and μ below it; "
     "friction of all waves down to each wavelength"
 )
 # Confidence from which one lies over another, as outside of a two-sided 90 % interval.
 SIGNIFICANT = 0.95
-_CERTAIN = 0.995
 
 
 def percent_sure(confidence: float) -> str:
     """Return a confidence in per cent."""
-    return "> 99 %" if confidence > _CERTAIN else f"{100.0 * confidence:.0f} %"
+    return "> 99 %" if confidence > 0.995 else f"{100.0 * confidence:.0f} %"
 
 
 class SideBySide(Variation):
@@ -79,7 +68,6 @@ class SideBySide(Variation):
 
     @property
     def names(self) -> list[str]:
-        """What stands side by side is called."""
         return [str(name) for name in self.data[self.dim].values]
 
     @cached_property
@@ -90,23 +78,13 @@ class SideBySide(Variation):
         return dict(sorted(each.items(), key=lambda item: -item[1]))
 
     @property
-    def noun(self) -> str:
-        """What stands side by side."""
-        if self.dim == "rubber":
-            return "compound"
-        return str(self.data.attrs.get(SURFACE_KIND, "surface"))
-
-    @property
     def title(self) -> str:
-        """What stands side by side."""
         return f"{self.noun.capitalize()}s side by side: {', '.join(self.names)}"
 
     def _of_pair(self, name: str, high: str, low: str) -> float:
-        """Return what is said of one over another, such as their `friction_ratio`."""
         return float(self.data[name].sel({self.dim: high, "over": low}))
 
     def _over(self, high: str, low: str) -> str:
-        """Return that one lies over another, and how surely."""
         confidence = self._of_pair("confidence", high, low)
         sure = "" if math.isnan(confidence) else f" ({percent_sure(confidence)} sure)"
         if confidence < SIGNIFICANT:
@@ -115,7 +93,6 @@ class SideBySide(Variation):
 
     @property
     def lines(self) -> Sequence[str]:
-        """The ranking by friction, with the confidence of each step and its causes."""
         steps = list(pairwise(self.friction))
         if not steps:
             return ("Answer: none; no two of them have a friction to be compared.",)
@@ -169,7 +146,6 @@ class SideBySide(Variation):
         return f"{answer}; errors that all have in common cancel"
 
     def cards(self) -> Iterator[Card]:
-        """Yield the friction of each by rank."""
         details = [*(self._over(*step) for step in pairwise(self.friction)), ""]
         for (name, mu), detail in zip(self.friction.items(), details, strict=True):
             yield Card(f"μ of {name}", significant(mu), detail)
@@ -192,17 +168,12 @@ class SideBySide(Variation):
         table = view.table(ranked, columns, f"{self.dim}s", caption)
         return table if any(table.bad) else replace(table, columns=table.columns[:-1])
 
-    @property
-    def notes(self) -> Sequence[str]:
-        """How inputs were read, and what was not measured."""
-        return tuple(str(self.data.attrs.get(READING_NOTES, "")).splitlines())
-
     def parts(self) -> Iterator[str | Table]:
-        """Yield the ranking, the texture of surfaces, and notes."""
         yield self.table()
         if "rms_height" in self.data:
             yield texture_table(self.data, self.dim, self.noun)
-        yield from (f"note: {note}" for note in self.notes)
+        notes = str(self.data.attrs.get(READING_NOTES, "")).splitlines()
+        yield from (f"note: {note}" for note in notes)
 
 
 class Surfaces(SideBySide):
@@ -211,20 +182,24 @@ class Surfaces(SideBySide):
     kind = "surfaces"
     dim = "surface"
 
+    @property
+    def noun(self) -> str:
+        return str(self.data.attrs.get(SURFACE_KIND, "surface"))
+
     def pictures(self) -> Iterator[Picture]:
-        """Yield friction by wavelength, and correlation and spectrum."""
         yield Picture(
             "roads_friction",
             ranking_figure(self.data, self.dim),
             f"{_RANKING}.",
             "A point with an interval and a curve for each surface, rising towards short waves.",
         )
-        yield Picture(
-            "roads_statistics",
-            roads_statistics_figure(self.data),
-            "Height difference correlation and spectrum of each surface.",
-            "Two panels of curves, one for each surface.",
-        )
+        if {"correlation", "spectrum"} <= {*self.data}:
+            yield Picture(
+                "roads_statistics",
+                roads_statistics_figure(self.data),
+                "Height difference correlation and spectrum of each surface.",
+                "Two panels of curves, one for each surface.",
+            )
 
 
 class Compounds(SideBySide):
@@ -232,16 +207,14 @@ class Compounds(SideBySide):
 
     kind = "compounds"
     dim = "rubber"
+    noun = "compound"
 
     @property
     def rubbers(self) -> dict[str, Rubber]:
         """The compounds as they were solved, at one temperature; without strain energy."""
-        rubbers = rubbers_of(self.data)
-        complete = len(rubbers) == len(self.names)
-        return dict(zip(self.names, rubbers, strict=True)) if complete else {}
+        return dict(zip(self.names, rubbers_of(self.data), strict=False))
 
     def pictures(self) -> Iterator[Picture]:
-        """Yield friction by wavelength and relaxation time, and the moduli."""
         yield Picture(
             "compound_friction",
             ranking_figure(self.data, self.dim),
@@ -249,13 +222,12 @@ class Compounds(SideBySide):
             "A point with an interval and two curves for each compound, rising towards short waves "
             "and long times.",
         )
-        if self.rubbers:
-            yield Picture(
-                "compound_moduli",
-                compound_moduli_figure(self.rubbers),
-                "Storage modulus and loss factor of each compound, dashed beyond the measurement.",
-                "Two panels of curves over the frequency, one curve for each compound.",
-            )
+        yield Picture(
+            "compound_moduli",
+            compound_moduli_figure(self.rubbers),
+            "Storage modulus and loss factor of each compound, dashed beyond the measurement.",
+            "Two panels of curves over the frequency, one curve for each compound.",
+        )
 
 
 def compare_compounds(
@@ -292,13 +264,13 @@ def compare_compounds(
         As for `gripscale.experiment.Bench`.
     """
     require_some("rubbers", rubbers, "compounds")
-    measured = {name: measured_rubber_of(value, case) for name, value in rubbers.items()}
+    measured = {name: inputs.measured_rubber_of(value, case) for name, value in rubbers.items()}
     if temperature is None and case.conditions is not None:
         temperature = case.conditions.temperature
     compounds = {name: each.rubber for name, each in measured.items()}
     together, notes = at_one_temperature(compounds, temperature)
-    model = model_of(default_model(case), case)
-    if isinstance(model, AnswerModel):
+    model = inputs.model_of(inputs.default_model(case), case)
+    if isinstance(model, inputs.AnswerModel):
         model = replace(model, compared=True)
     study = Study(case, {"rubber": together}, model=model)
     data = ranked_answers(study, folder, workers, on_task)
@@ -309,7 +281,7 @@ def compare_compounds(
             [*study.surfaces, *measured.values()], loads, case.units, case.softening_doubts
         ),
         title="Compounds on one surface, by friction",
-        **{READING_NOTES: "\n".join([*reading_notes(rubbers.values()), *notes])},
+        **{READING_NOTES: "\n".join([*inputs.reading_notes(rubbers.values()), *notes])},
         **({TEMPERATURE: kelvins[0]} if None not in kelvins and len({*kelvins}) == 1 else {}),
     )
     return Compounds(data)
@@ -346,7 +318,7 @@ def compare_surfaces(
         # a synthetic road with its profile, for the direct contact
         name: with_profile(value)
         if isinstance(value, str) and value in SYNTHETIC_SURFACES
-        else surface_of(value, case)
+        else inputs.surface_of(value, case)
         for name, value in surfaces.items()
     }
     data = ranked_answers(Study(case, {"surface": roads}), folder, workers, on_task)
@@ -354,8 +326,8 @@ def compare_surfaces(
     heights = {
         name: road.measured.heights if road.measured else None for name, road in roads.items()
     }
-    data = data.assign(textures(heights, "surface")).assign(_measured(roads))
-    notes = "\n".join([*reading_notes(surfaces.values()), *waves])
+    data = data.assign(textures(heights, "surface")).assign(_statistics(roads))
+    notes = "\n".join([*inputs.reading_notes(surfaces.values()), *waves])
     title = "Surfaces under one rubber, by friction"
     return Surfaces(data.assign_attrs(title=title, **{READING_NOTES: notes}))
 
@@ -378,21 +350,13 @@ def at_one_temperature(
         if rubber.reference_temperature is not None
     }
     if temperature is None:
-        fixed = {name: t for name, t in temperatures.items() if rubbers[name].shift is None}
-        if fixed and max(fixed.values()) - min(fixed.values()) > _SAME:
-            each = [f"{name} for {celsius(kelvin, '.1f')}" for name, kelvin in fixed.items()]
-            raise InputError(
-                "compounds must hold for one temperature, or have a shift to it; got "
-                f"{', '.join(each)} without one"
-            )
-        temperature = next(iter((fixed or temperatures).values()), None)
-    if temperature is None:
-        return dict(rubbers), temperature_doubts(rubbers)
-    together, shifted, target = dict(rubbers), [], celsius(temperature, ".1f")
+        fixed = [kelvin for name, kelvin in temperatures.items() if rubbers[name].shift is None]
+        temperature = next(iter([*fixed, *temperatures.values()]), math.nan)
+    together, shifted = dict(rubbers), []
     for name, kelvin in temperatures.items():
         if abs(kelvin - temperature) <= _SAME:
             continue
-        before = celsius(kelvin, ".1f")
+        before, target = celsius(kelvin, ".1f"), celsius(temperature, ".1f")
         if rubbers[name].shift is None:
             raise InputError(
                 f"{name} holds for {before} and cannot be brought to {target}: give it a shift, or "
@@ -405,11 +369,8 @@ def at_one_temperature(
 
 def require_some(name: str, mapping: Mapping[str, Any], what: str) -> None:
     """Raise `InputError` unless there are two to six things to be compared."""
-    if not FEWEST_COMPARED <= len(mapping) <= MOST_COMPARED:
-        raise InputError(
-            f"{name} must be {FEWEST_COMPARED} to {MOST_COMPARED} {what} to be compared; got "
-            f"{len(mapping)}"
-        )
+    if len(mapping) not in range(2, 7):
+        raise InputError(f"{name} must be 2 to 6 {what} to be compared; got {len(mapping)}")
 
 
 def ranked_answers(
@@ -435,32 +396,32 @@ def ranked_answers(
     return data.assign_coords(over=("over", names)).assign(columns)
 
 
-def _measured(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
+def _statistics(surfaces: Mapping[str, Surface]) -> dict[str, Any]:
     """Return height difference correlation and spectrum of the roads that were measured.
 
     At common places, NaN beyond the ends of each.
     """
-    curves: dict[str, dict[str, tuple[Array, Array]]] = {"correlation": {}, "spectrum": {}}
-    for name, surface in surfaces.items():
+    correlations, spectra = dict[int, tuple[Array, Array]](), dict[int, tuple[Array, Array]]()
+    for at, surface in enumerate(surfaces.values()):
         if surface.correlation is not None:
-            curves["correlation"][name] = (surface.correlation.lag, surface.correlation.value)
+            correlations[at] = surface.correlation.lag, surface.correlation.value
         if surface.measured is not None:
             spectrum = profile_spectrum(surface.measured.followed).averaged()
-            curves["spectrum"][name] = (spectrum.wavenumber, spectrum.density)
+            spectra[at] = spectrum.wavenumber, spectrum.density
     out: dict[str, Any] = {}
-    for name, axis, unit, units, text in (
-        ("correlation", "lag", "m", "m2", "height difference correlation C_z"),
-        ("spectrum", "wavenumber", "rad/m", "m3", "one-sided power spectrum of lines"),
+    for name, curves, axis, unit, units, text in (
+        ("correlation", correlations, "lag", "m", "m2", "height difference correlation C_z"),
+        ("spectrum", spectra, "wavenumber", "rad/m", "m3", "one-sided power spectrum of lines"),
     ):
-        if not curves[name]:
+        if not curves:
             continue
-        low, high = (pick(float(pick(x)) for x, _ in curves[name].values()) for pick in (min, max))
+        low, high = (pick(float(pick(x)) for x, _ in curves.values()) for pick in (min, max))
         places = np.geomspace(low, high, max(2, int(_PER_DECADE * np.log10(high / low)) + 1))
         values = np.full((len(surfaces), places.size), np.nan)
-        for road, (x, y) in curves[name].items():
+        for at, (x, y) in curves.items():
             good = (x > 0.0) & (y > 0.0)
             logs = np.interp(np.log(places), np.log(x[good]), np.log(y[good]), np.nan, np.nan)
-            values[list(surfaces).index(road)] = np.exp(logs)
+            values[at] = np.exp(logs)
         out[name] = (("surface", axis), values, variable_attributes(text, units))
         out[axis] = (axis, places, variable_attributes(axis, unit))
     return out

@@ -50,10 +50,7 @@ from gripscale.questions.vary.inputs import AnswerModel
 from gripscale.rubber import Rubber
 from gripscale.surface import Surface
 
-_RENAMED = {"temperature": "wave_temperature"}  # variables over waves that have the name of an axis
 _LOAD = ("nominal_pressure", "nominal_speed", "footprint", "thickness")
-# Ends of the roughness, which are stated once where all predictions have them in common.
-_COMMON = ("cutoff_wavelength", CONTINUED_TO)
 
 
 def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
@@ -69,9 +66,13 @@ def study_numbers(answer: xr.Dataset, task: Task) -> xr.Dataset:
         if name in SURFACE
         or (variable.dims == ("scale",) and np.issubdtype(variable.dtype, np.number))
     ]
-    kept = answer[names].rename({old: new for old, new in _RENAMED.items() if old in names})
-    kept = kept.assign(basis_numbers(answer))
-    return kept.assign(over_decades(friction_by_decade(answer, task.rubber)))
+    # an axis may have the name of a variable over waves
+    kept = answer[names].rename(
+        {"temperature": "wave_temperature"} if "temperature" in names else {}
+    )
+    return kept.assign(basis_numbers(answer)).assign(
+        over_decades(friction_by_decade(answer, task.rubber))
+    )
 
 
 def coordinates(axes: Iterable[Axis], units: Mapping[str, str]) -> dict[str, xr.Variable]:
@@ -92,19 +93,18 @@ BEYOND_SHIFT = "rubber_temperature_extrapolated"
 REDUCED_SPEED = "reduced_speed"
 
 
-def beyond_shift(tasks: Sequence[Task], axes: Sequence[Axis]) -> dict[str, xr.DataArray]:
+def beyond_shift(design: Design) -> dict[str, Any]:
     """Return where the temperature before the contact lies beyond those the shift rests on.
 
-    Of the tasks of all points, last axis fastest. Empty where no temperature is stated.
+    Empty where no temperature is stated.
     """
-    pairs = [(task.rubber, task.model.conditions) for task in tasks]
+    pairs = [(point.task.rubber, point.task.model.conditions) for point in design.points]
     if all(conditions is None or conditions.temperature is None for _, conditions in pairs):
         return {}
     before = [rubber if c is None else c.before(rubber) for rubber, c in pairs]
-    sizes = {axis.name: len(axis.values) for axis in axes}
-    flags = np.reshape([rubber.shift_extrapolated for rubber in before], [*sizes.values()])
+    flags = np.reshape([rubber.shift_extrapolated for rubber in before], [*design.sizes.values()])
     text = "whether the temperature lies beyond those the shift of the rubber rests on"
-    return {BEYOND_SHIFT: xr.DataArray(flags, dims=[*sizes], attrs=variable_attributes(text))}
+    return {BEYOND_SHIFT: ([*design.sizes], flags, variable_attributes(text))}
 
 
 def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
@@ -115,12 +115,12 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     assert rubber.shift is not None
     assert rubber.reference_temperature is not None
     kelvin, reference = result.temperature.values, rubber.reference_temperature
-    horizontal = variable_attributes(f"horizontal shift factor a_T to {reference:g} K")
-    vertical = variable_attributes(f"vertical factor b_T to {reference:g} K")
-    result = result.assign_coords(
-        shift_factor=("temperature", rubber.shift.a(kelvin, reference), horizontal),
-        vertical_shift_factor=("temperature", rubber.shift.b(kelvin, reference), vertical),
-    )
+    for name, of, text in (
+        ("shift_factor", rubber.shift.a, "horizontal shift factor a_T"),
+        ("vertical_shift_factor", rubber.shift.b, "vertical factor b_T"),
+    ):
+        about = variable_attributes(f"{text} to {reference:g} K")
+        result = result.assign_coords({name: ("temperature", of(kelvin, reference), about)})
     about = variable_attributes("reduced speed", "m/s") | {"symbol": "a_T v"}
     speed = (result.speed * result.shift_factor).assign_attrs(result.speed.attrs | about)
     return result.assign_coords({REDUCED_SPEED: speed})
@@ -128,7 +128,6 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
 
 OF_THE_LOAD = ("pressure", "speed", "thickness")  # inputs that vary the load
 OF_A_SURFACE = ("cut_off", "smallest_wavelength")  # inputs that vary the waves of a surface
-STUDY_FILE = "study.nc"  # the Dataset, in the folder of the study
 
 
 class Study(Described):
@@ -176,10 +175,6 @@ class Study(Described):
         if model is None:
             model = inputs.default_model(case, self.surfaces)
         self.model = inputs.model_of(model, case, tolerance)
-        for value in values.get("temperature", ()):
-            inputs.at_temperature(self.model, value)
-        for value in values.get("effects", ()):
-            inputs.with_effects(self.model, value)
 
     def shown_rows(self) -> Iterator[tuple[str, str]]:
         """Yield the case, the model, and the number of values of each axis."""
@@ -224,7 +219,7 @@ class Study(Described):
 
     @property
     def points(self) -> Sequence[Point]:
-        """All points of `design`, last axis fastest; a speed of zero is rubber at rest."""
+        """All points of `design`, last axis fastest."""
         return self.design.points
 
     def run(
@@ -253,27 +248,29 @@ class Study(Described):
             data = self.assemble(answers).assign_attrs(kind="study")
         if folder is None:
             return data
-        return netcdf.load_dataset(netcdf.save(data, Path(folder) / STUDY_FILE))
+        return netcdf.load_dataset(netcdf.save(data, Path(folder) / "study.nc"))
 
     def assemble(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the Dataset of the study from its predictions by their keys."""
         result = with_decades(self.design.dataset(answers)).drop_vars("seconds")
         if {"friction", "wavelength"} <= set(result):
             result = result.assign(waves_by_octave(result))
-        for name in _COMMON:
-            if name in result:
-                common, *others = np.unique(result[name].values)
+        ends = [name for name in ("cutoff_wavelength", CONTINUED_TO) if name in result]
+        for name in ends:  # stated once where all predictions have them in common
+            common, *others = np.unique(result[name].values)
+            result = result.drop_vars(name)
+            if not others:
                 attrs = variable_attributes("shortest wavelength of the roughness", "m")
-                result = result.drop_vars(name)
-                result = result if others else result.assign({name: ((), common, attrs)})
+                result[name] = (), common, attrs
         if HYSTERESIS in result:  # at rest an answer has no interface, and one friction
             both = result[HYSTERESIS].fillna(result["answer_friction"])
             result[HYSTERESIS] = both.assign_attrs(result[HYSTERESIS].attrs)
         if "factor_label" in result:
-            first = dict.fromkeys(self.design.sizes, 0)
-            result["factor_label"] = result["factor_label"].isel(first)
+            result["factor_label"] = result["factor_label"].isel(
+                dict.fromkeys(self.design.sizes, 0)
+            )
         result = result.assign_coords(coordinates(self.axes, self.case.units))
-        result = result.assign(beyond_shift([p.task for p in self.points], self.axes))
+        result = result.assign(beyond_shift(self.design))
         if {"speed", "temperature"} == {axis.name for axis in self.axes}:
             result = with_master_curve(result, self.measured_rubbers[0].rubber)
         return described(result).assign_attrs(self.attributes)
@@ -298,7 +295,6 @@ class Study(Described):
             "footprint": load.footprint,
             **({} if load.thickness is None else {"thickness": load.thickness}),
             "conditions": json.dumps(None if conditions is None else conditions.to_dict()),
-            "varied": json.dumps({axis.name: list(axis.labels) for axis in self.axes}),
             "surfaces": "; ".join(surface.source for surface in self.surfaces),
             "surface_measured": int(all(s.measured is not None for s in self.surfaces)),
             "rubbers": "; ".join(f"{rubber.name}: {rubber.source}" for rubber in rubbers),
