@@ -20,8 +20,7 @@ from bokeh.models import CustomJS
 from gripscale.app.case import MAX_UPLOAD, CaseState, with_value
 from gripscale.app.elements import CUT_TEXT, column, html, in_worker, work_button
 from gripscale.case_file.examples import EXAMPLES
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity
+from gripscale.core import Finding, InputError, Severity
 from gripscale.report.build import template_text
 
 # From uploads by name to the text of the case with them; may read them, in the worker thread.

@@ -26,8 +26,7 @@ from gripscale.case_file.proposals import Proposal, rubber_proposal, surface_pro
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.draw import Chart, Picture, image
-from gripscale.core.errors import GripscaleError
-from gripscale.core.finding import Finding, Severity
+from gripscale.core import Finding, GripscaleError, Severity
 from gripscale.questions.inputs import page, record
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts, superposition_figure
 from gripscale.questions.inputs.charts_of_surface import (

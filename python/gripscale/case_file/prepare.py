@@ -28,8 +28,7 @@ from gripscale.case_file.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
-from gripscale.core import CaseKey, FileError, InputError, Words
-from gripscale.core.errors import about_file, about_keys, unstated
+from gripscale.core import CaseKey, FileError, InputError, Words, about_file, about_keys, unstated
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.half_space.grid import MOST_POINTS

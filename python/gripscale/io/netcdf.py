@@ -15,7 +15,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
-from gripscale.core.errors import FileError
+from gripscale.core import FileError
 from gripscale.core.parallel import held_back
 
 if TYPE_CHECKING:

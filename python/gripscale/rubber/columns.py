@@ -338,14 +338,9 @@ def position_of(table: TextTable, column: str | int) -> int:
             raise InputError(f"{table.path}: column {column} holds no numbers")
         return position
     if table.names.count(column) != 1:
-        raise InputError(
-            Words(
-                f"{table.path}: ",
-                CaseKey("columns"),
-                f" must be among the header's names ({table.titles or 'no names'}); got "
-                f"{checks.short_repr(column)}",
-            )
-        )
+        names = f" must be among the header's names ({table.titles or 'no names'}); got "
+        got = f"{names}{checks.short_repr(column)}"
+        raise InputError(Words(f"{table.path}: ", CaseKey("columns"), got))
     return table.names.index(column)
 
 

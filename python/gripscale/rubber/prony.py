@@ -22,9 +22,8 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import Array, Quantity, checks
+from gripscale.core import Array, Quantity, checks, quantity_in_si, spelled
 from gripscale.core.errors import FileError, GripscaleError, InputError, RubberWarning
-from gripscale.core.units import quantity_in_si, spelled
 from gripscale.io.text_table import TextTable, is_excel, read_bytes, read_table
 from gripscale.rubber import maxwell_fit
 from gripscale.rubber import prony_report as report
@@ -257,7 +256,6 @@ def fit_prony_report(
 
 
 def _option(name: str, value: float, most: float) -> float:
-    """Return an option from zero to `most`."""
     number = checks.not_negative(name, value)
     if number > most:
         raise InputError(f"{name} must be at most {most:g}; got {number:g}")

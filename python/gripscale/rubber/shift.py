@@ -334,7 +334,6 @@ class ShiftTable(Shift, eq=False):
 
     @cached_property
     def _curves(self) -> list[Callable[[Array], Array]]:
-        """log10 a_T and log10 b_T by temperature."""
         both = self.horizontal, self.vertical
         if len(self) == 1:
             return [partial(np.full_like, fill_value=values[0]) for values in both]

@@ -3,12 +3,7 @@
     E*(w, T) = E*(a_T w, T_ref) / b_T
 
 A start pair by pair, then all sweeps at once with their uncertainty (`joint_shift`), then the
-reference temperature, and a report on how they meet.
-
-For the start each sweep is taken as straight lines between its rows in log-log axes, and the
-difference of two neighbours is read at the rows of both within the overlap. The shift of a pair is
-the largest likelihood of the difference where the scatter of each modulus is unknown: the least sum
-of the logarithms of its mean squares.
+reference temperature, and a report on how they meet: docs/derivations.md.
 """
 
 from __future__ import annotations

@@ -338,11 +338,6 @@ def fit_self_affine(hdc: HeightDifference) -> SelfAffineFit:
 
         >>> f"{gs.fit_self_affine(gs.height_difference(road)).hurst:.2f}"
         '0.74'
-
-    Parameters
-    ----------
-    hdc : HeightDifference
-        The measured curve; it must reach its plateau.
     """
     checks.instance("hdc", hdc, HeightDifference)
     require_positive(hdc)

@@ -1,16 +1,10 @@
 """Findings about implausible surfaces, for the person who measured them.
 
-No surface is refused. Limits are wide: random rough profiles of any Hurst exponent and the shipped
-road between its plates pass all of them. Plates and supports are stretches that are no road: flat
-ones with steps at their sides that stand off the others, |z - line| > 6 s with
-s = 1.4826 median |z - line|, or smooth ones.
+No surface is refused; limits are wide. Plates and supports are flat stretches with steps at their
+sides, |z - line| > 6 s with s = 1.4826 median |z - line|, or smooth ones. White noise of the sensor
+has the variance s^2 in second differences on the smoothest stretches (docs/derivations.md),
 
-White noise of the sensor stands in second differences of heights a lag of `a` steps apart, on the
-smoothest stretches of the lines,
-
-    S(a) = < (z(x + a) - 2 z(x) + z(x - a))^2 > / 6 = s^2 + c a^p,    a = 1, 2, 4,
-
-with the variance s^2 of the noise at every lag. Both are derived in docs/derivations.md.
+    S(a) = < (z(x + a) - 2 z(x) + z(x - a))^2 > / 6 = s^2 + c a^p,    a = 1, 2, 4 steps.
 """
 
 from __future__ import annotations
@@ -158,6 +152,7 @@ _LONGEST_WAVE = 4.0
 # Distance of the logarithm of a factor from its limit below which the factor is at the limit.
 _AT_THE_EDGE = 1e-3
 _FLAT = 0.02  # roughness of a part, over the usual one, below which it is flat
+_BEYOND = 1.0 - 1e-6  # wave over the shortest one resolved below which it is extrapolated
 
 
 def profile_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[Finding, ...]:
@@ -187,15 +182,12 @@ def has_likely_units(profile: Profile) -> bool:
 
 
 class _Doubts(NamedTuple):
-    """Reasons to doubt that a profile is a road."""
-
     texts: tuple[str, ...] = ()
     heights: Array | None = None  # valid heights [m]; None if meaningless, or with plates
     units: bool = False  # whether a length suggests another unit
 
 
 def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
-    """Return reasons to doubt a profile; raise `InputError` as `profile_warnings` does."""
     part = _kept_part(profile, cleaned)
     measured = part.z
     valid = measured[np.isfinite(measured)]
@@ -314,22 +306,18 @@ def _unit_warnings(z: Array, profile: Profile) -> Iterator[str]:
 
 def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iterator[Finding]:
     """Yield findings on waves and roughness beyond the resolution of the measurement."""
-    last, end, limit = float(sines.wavelength[-1]), sines.cut_off, correlation.resolution_limit
-    if limit is not None and _beyond(last, limit):
+    last, end = float(sines.wavelength[-1]), sines.cut_off
+    limit = correlation.resolution_limit or 0.0
+    if last < limit * _BEYOND:
         yield _warning(
             f"The smallest wave, {in_mm(last, 3)}, is shorter than the measurement resolves, "
             f"{in_mm(limit, 3)}: it extrapolates the waves above it."
         )
-    if end is not None and limit is not None and _beyond(end, limit):
+    if end is not None and end < limit * _BEYOND:
         yield _warning(
             f"The cut-off, {in_mm(end, 3)}, lies beyond what the measurement carries, "
             f"{in_mm(limit, 3)}: the roughness between them is extrapolated."
         )
-
-
-def _beyond(length: float, limit: float | None) -> bool:
-    """Return whether a wave is shorter than what the measurement resolves [m]."""
-    return limit is not None and length < limit * (1.0 - 1e-6)
 
 
 def stack_notes(
@@ -339,10 +327,10 @@ def stack_notes(
 
     `fit` are the arguments of `fit_sines` for the waves.
     """
-    last, limit = float(sines.wavelength[-1]), correlation.resolution_limit
+    last, limit = float(sines.wavelength[-1]), correlation.resolution_limit or 0.0
     stated_end = fit.get("smallest_wavelength") is not None or fit.get("cut_off") is not None
-    if not stated_end and not _beyond(last, limit):
-        at_limit = limit is not None and last <= limit * (1.0 + 1e-6)
+    if not stated_end and not last < limit * _BEYOND:
+        at_limit = last <= limit * (1.0 + 1e-6)
         reason = "the shortest the measurement carries" if at_limit else "where the fit puts it"
         yield _warning(
             f"no smallest wavelength is stated: the smallest wave is {in_mm(last, 3)}, {reason}."

@@ -19,9 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import Array, Checked, Finding, InputError, checked, checks
+from gripscale.core import Array, Checked, Finding, InputError, checked, checks, readable
 from gripscale.core.described import Pictured, shown_value
-from gripscale.core.units import readable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

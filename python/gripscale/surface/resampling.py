@@ -1,10 +1,7 @@
 """Heights where none were measured: equal steps and filled gaps.
 
-Between unequal steps by straight lines between neighbours, with an error of at most
-h^2 max|z''| / 8 over a distance h of neighbours (C. de Boor, A Practical Guide to Splines (1978),
-ch. III). In gaps by a membrane, Laplace's equation in five points (R. J. LeVeque, Finite Difference
-Methods (2007), ch. 3, doi:10.1137/1.9780898717839): no filled height lies above the highest or
-below the lowest around its gap, so that a gap makes no asperity of its own (docs/derivations.md).
+Between unequal steps by straight lines between neighbours; in gaps by a membrane, Laplace's
+equation in five points, so that a gap makes no asperity of its own: docs/derivations.md.
 """
 
 from __future__ import annotations

@@ -124,16 +124,13 @@ _MOST_TIMES = 100
 def _read_table(path: Path, lines: list[Line], expected: str) -> TextTable:
     titles = [_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE]
 
-    def read() -> TextTable:
-        def named(name: str) -> bool:
-            return bool(kind_of(name)) or any(title.match(name) for title in titles)
+    def named(name: str) -> bool:
+        return bool(kind_of(name)) or any(title.match(name) for title in titles)
 
-        return table_in(path, lines, expected, kinds=("length",), named=named)
-
-    table = read()
+    table = table_in(path, lines, expected, kinds=("length",), named=named)
     if not table.names:  # times alone: beside other titles they may be words, such as 12:03
         titles.append(_TIME_TITLE)
-        table = read()
+        table = table_in(path, lines, expected, kinds=("length",), named=named)
     if is_spectrum(table):
         raise FileError(
             f"{path}: expected heights; got the power spectrum of a surface, titled "
@@ -213,7 +210,6 @@ def _is_index(title: ColumnTitle, few: bool) -> bool:
 
 
 def _counts(table: TextTable, column: int) -> bool:
-    """Return whether a column holds the numbers of the rows."""
     if column + 1 == len(table.columns):
         return False
     with suppress(FileError):
@@ -329,7 +325,6 @@ def _even_grid(
 def _resampled(
     path: Path, x: Array, z: Array, notes: list[str], doubts: tuple[Finding, ...]
 ) -> Profile:
-    """Return a profile of uneven distances on steps of their mean."""
     steps = np.diff(x)
     mean = float(steps.mean())
     with about_file(path):

@@ -198,7 +198,6 @@ def _without_short_waves(heights: Array, frequency: float) -> Array:
 
 
 def _height_numbers(z: Array) -> dict[str, float]:
-    """Return the numbers of heights [m], NaN where missing."""
     heights = z[np.isfinite(z)]
     rms = _mean(heights**2) ** 0.5
     shape = heights / rms if rms > 0.0 else np.full(1, np.nan)
