@@ -1,13 +1,8 @@
 """Every key of a case file: what it takes, its default, its meaning, where it is explained.
 
-Made from the JSON Schema of the tables that read the file: what they do not know is not listed,
-what they know is. `case_schema` is that schema for an editor, which completes keys by it and marks
-what is wrong:
-
-    gripscale keys --schema > case.schema.json
-
-The first line of a case that is written refers to a copy beside it, `#:schema ./.case.schema.json`,
-which language servers for TOML follow (Taplo, in VS Code: Even Better TOML).
+Made from the JSON Schema of the tables that read the file. `case_schema` is that schema for an
+editor, to which the first line of a case that is written refers, `#:schema ./.case.schema.json`:
+language servers for TOML follow it (Taplo, in VS Code: Even Better TOML).
 """
 
 from __future__ import annotations

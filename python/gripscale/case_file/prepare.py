@@ -8,6 +8,7 @@ from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import MISSING, fields, replace
 from inspect import signature
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -126,20 +127,13 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
         options = _options(surface, surfaces.read_profile)
         lays = surface.lay or ["along"] * len(paths)
         channels = surface.channel if isinstance(surface.channel, list) else [surface.channel]
-        lines = [
-            replace(surfaces.read_profile(path, **options | {"channel": channel}), lay=lay)
-            for path, lay in zip(paths, lays, strict=True)
-            for channel in channels
-        ]
-        if len(channels) > 1:
-            names = (channel for _ in paths for channel in channels)
-            lines = [
-                replace(line, name=f"{line.name} {name}")
-                for line, name in zip(lines, names, strict=True)
-            ]
-        if surface.reliable is None:
-            return lines
-        return [replace(line, reliable=surface.reliable) for line in lines]
+        lines = []
+        for (path, lay), channel in product(zip(paths, lays, strict=True), channels):
+            line = surfaces.read_profile(path, **options | {"channel": channel})
+            name = f"{line.name} {channel}" if len(channels) > 1 else line.name
+            reliable = surface.reliable or line.reliable
+            lines.append(replace(line, lay=lay, name=name, reliable=reliable))
+        return lines
     raw = surfaces.read_map(paths[0], **_options(surface, surfaces.read_map))
     if surface.reliable is not None:
         raw = replace(raw, reliable=surface.reliable)
@@ -257,7 +251,6 @@ OF_A_RAMP = (
 def _superposed(
     paths: list[Path], source: RubberSource, resolve: Resolve, reading: dict[str, Any]
 ) -> tuple[rubbers.Sweeps, rubbers.MasterCurve, rubbers.Superposition]:
-    """Return sweeps, the master curve they make, and how they meet."""
     path = paths[0]
     shift = _shift(source, resolve)
     if shift is None and not source.vertical:
@@ -300,7 +293,6 @@ def _superposed(
 
 
 def _shifted(rubber: rubbers.Rubber, source: RubberSource, resolve: Resolve) -> rubbers.Rubber:
-    """Return a rubber of one master curve with the shift that is stated, if one is."""
     shift = _shift(source, resolve)
     if shift is None:
         return rubber
@@ -390,18 +382,13 @@ def named_files(file: CaseFile) -> list[NamedFile]:
 
 
 def read_case(path: CaseFile | str | Path) -> Case:
-    """Read the case file at a path with everything it names, and fit what it asks for.
+    """Read a case file (TOML, `gripscale keys`) with all it names, and fit what it asks for.
 
     The case keeps its text, the units it states and the checksums of its files. Raises `FileError`
     or `InputError` for what cannot be read or used.
 
         >>> gs.read_case("case.toml").rubber.name
         'tread'
-
-    Parameters
-    ----------
-    path : path or CaseFile
-        A case file (TOML), see `gripscale keys`.
     """
     file = path if isinstance(path, CaseFile) else read_case_file(path)
     if file.case.below_measurement.down_to is not None and file.case.surface.map is not None:

@@ -190,7 +190,6 @@ def reading_keys(keys: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _step_option(step: str | list[str] | None) -> dict[str, Any]:
-    """Return a step as an argument of readers [m]."""
     if step is None:
         return {}
     table = validate(SurfaceTable, {"map": "map", "scales": 1, "step": step}, "step")
@@ -267,9 +266,7 @@ def rubber_proposal(
         try:
             replace(measured, tolerance=TEMPERATURE_TOLERANCE)
         except InputError:
-            words = (
-                "the temperatures have no gaps: moduli are interpolated at multiples of this step"
-            )
+            words = "the temperatures have no gaps: moduli are interpolated at multiples of it"
             proposal.add("temperature_step", NOMINAL_STEP, words, TENS_OF_PERCENT)
     add_shift(proposal, shift)
     stiffest = float(measured.storage.max())
@@ -343,7 +340,6 @@ def add_softening(proposal: Proposal, paths: list[Path], names: list[str]) -> No
 
 
 def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str, str]:
-    """Return the likely value of a key of the layout, and why."""
     if key == "frequency_unit":
         return "Hz", "rad/s would move the curve by 0.8 decades"
     if key == "modulus":
@@ -375,9 +371,7 @@ def _add_reference(
     target = ROOM if temperature is None else temperature
     if not isinstance(measured, rubbers.Sweeps):
         if measured is None or measured.reference_temperature is None:
-            words = (
-                "the file states no temperature; the moduli are assumed to be measured at this one"
-            )
+            words = "the file states no temperature; the moduli are assumed to be those at this one"
             if temperature is None:
                 words += ", as is the contact; --temperature states another"
             proposal.add("reference_temperature", celsius_text(target), words, OF_ANOTHER_CASE)

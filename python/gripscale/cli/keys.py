@@ -60,6 +60,13 @@ KEY_OPTIONS: dict[str, Any] = {
         metavar="C1 C2",
     ),
     "vertical": _key("Find vertical shifts as well; sweeps.", bool, "--vertical"),
+    "thickness": _key('Of the rubber, such as "8 mm"; it has no end by default.'),
+    # of [load] and [conditions]
+    "pressure": _key('Such as "3 bar", as by default.'),
+    "speed": _key('Such as "1 m/s", as by default.'),
+    "footprint": _key('Length of the nominal contact; "100 mm" by default.'),
+    "temperature": _key('Of the rubber before the contact, such as "20 C".'),
+    "interface": _key('"dry": a dry road, which also shears the contact area.'),
     # of [conditions.softening]
     "amplitude": _key("single or peak-to-peak, if strain sweeps do not say."),
     "deformation": _key("tension or shear, if strain sweeps do not say."),
