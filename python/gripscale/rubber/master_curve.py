@@ -195,7 +195,7 @@ def read_master_curve(
     name = file.stem if name is None else name
     few, note = thinned(np.array([np.ones(len(hertz)), hertz, storage, loss]))
     notes = (*columns.notes_of_faults(table, layout), *note)
-    return MasterCurve(*few[1:], reference_temperature, name, source, None, notes)
+    return MasterCurve(few[1], few[2], few[3], reference_temperature, name, source, None, notes)
 
 
 def _temperature_of_rows(table: TextTable, layout: FileLayout) -> float | None:

@@ -326,7 +326,8 @@ def read_sweeps(
     rows = np.concatenate(parts, axis=1)
     if not rows.size:
         raise FileError(f"{paths[0]}: expected rows without missing values; got none")
-    spread = spread_of_repeats(*rows[1:], rows[0])
+    kelvin, hertz, storage, loss = rows
+    spread = spread_of_repeats(hertz, storage, loss, kelvin)
     if spread > APART:
         raise FileError(
             f"{paths[0]}: expected one measurement at each frequency and temperature; got moduli "
@@ -337,8 +338,9 @@ def read_sweeps(
     name = paths[0].stem if name is None else name
     if temperature_step is not None:
         return sweeps_from_ramps(*rows, step=temperature_step, name=name, source=source)
+    kelvin, hertz, storage, loss = rows
     with about_file(paths[0], InputError):
-        return Sweeps(*rows, tolerance, name, source, (*notes, *note))
+        return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source, (*notes, *note))
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:
