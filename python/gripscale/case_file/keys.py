@@ -22,10 +22,8 @@ from gripscale.io.folders import write_text
 SCHEMA_FILE = ".case.schema.json"
 # First line of a case file with its schema beside it.
 SCHEMA_LINE = f"#:schema ./{SCHEMA_FILE}\n"
-
 # The default of a key that must be there, and of one that may be left out for nothing.
 NEEDED, NOTHING = "needed", "-"
-
 # Chapters of tables, with those inside them where these have none of their own.
 _CHAPTERS = {
     "surface": "inputs.md",

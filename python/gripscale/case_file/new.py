@@ -139,7 +139,7 @@ def propose(
         proposals.add_shift(rubber, shift)
     else:
         units: Mapping[str, str] = {}
-        options: dict[str, Any] = {"shift": shift, "reference": reference}
+        options: dict[str, Any] = {"shift": shift, "reference": reference, "layout": layout}
         if shifts and shift is None and lab.of(*RUBBERS)[0].kind != "sweeps":
             options["shift"] = inside[shifts[0].path]
             unity = shifts[0].measured.unity
@@ -147,13 +147,8 @@ def propose(
                 reason = f"a_T of {shifts[0].path.name} is 1 there"
                 options |= {"reference": proposals.celsius_text(unity), "reason": reason}
             units, shifts = shifts[0].missing, []
-        rubber = proposals.rubber_proposal(
-            rubbers,
-            [inside[path] for path in rubbers],
-            temperature=kelvin,
-            layout=layout,
-            **options,
-        )
+        files_inside = [inside[path] for path in rubbers]
+        rubber = proposals.rubber_proposal(rubbers, files_inside, temperature=kelvin, **options)
         for key, unit in units.items():
             rubber.add(key, unit, "the shift factors do not state it", proposals.OF_ANOTHER_CASE)
     for file in () if shift is not None else shifts:

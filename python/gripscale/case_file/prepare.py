@@ -272,10 +272,7 @@ def _superposed(
     single = len(sweeps) == 1
     reference = None if single and reading["titles_first"] else source.reference_temperature
     if reference is None and not single:
-        words = (
-            f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures to be '
-            "shifted to"
-        )
+        words = f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures'
         raise unstated(f"{path}: ", "reference_temperature", words)
     try:
         master, report = rubbers.superpose_report(
@@ -298,10 +295,7 @@ def _shifted(rubber: rubbers.Rubber, source: RubberSource, resolve: Resolve) -> 
         return rubber
     if rubber.reference_temperature is None:
         where = source.name or source.measured_files[0]
-        words = (
-            ' must be given with shift, such as "20 C": the master curve does not state what it '
-            "holds for"
-        )
+        words = ' must be given with shift, such as "20 C": the master curve does not state it'
         raise unstated(f"{where}: ", "reference_temperature", words)
     return replace(rubber, shift=shift)
 

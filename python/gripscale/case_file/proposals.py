@@ -38,7 +38,6 @@ from gripscale.surface.read import POINT_SUFFIXES, is_text_surface
 from gripscale.surface.read_spectrum import holds_spectrum
 
 _Measurement = TypeVar("_Measurement")
-
 _STATED = "as stated"
 _SCALES = 8  # waves of a surface that states none, as in `gripscale fit-surface`
 _CUT_OFF = "instrument"  # where its roughness ends: where the measurement does
@@ -271,21 +270,19 @@ def rubber_proposal(
     add_shift(proposal, shift)
     stiffest = float(measured.storage.max())
     if stiffest > _NO_SOLID:
-        words = (
-            f": the largest E' is {stiffest / 1e9:.3g} GPa, which no solid has; the numbers look "
-            "like Pa: state it"
-        )
+        giga = f"{stiffest / 1e9:.3g} GPa"
+        words = f": the largest E' is {giga}, which no solid has; numbers look like Pa: state it"
         raise InputError(Words(f"{paths[0]}: ", CaseKey("modulus_unit"), words))
     try:
         largest_modulus(stiffest, BULK_MODULUS)
     except InputError:
-        giga = math.ceil(least_bulk_modulus(stiffest) / 1e8) / 10.0
+        least = math.ceil(least_bulk_modulus(stiffest) / 1e8) / 10.0
         words = (
             f"for Poisson's ratio of 0.3 at the largest E', {stiffest / 1e9:.3g} GPa, which no "
             "rubber has: is the unit of the moduli right? Leave bulk_modulus out once it is mended "
             "by modulus_unit"
         )
-        proposal.add("bulk_modulus", f"{giga:g} GPa", words, OF_ANOTHER_CASE)
+        proposal.add("bulk_modulus", f"{least:g} GPa", words, OF_ANOTHER_CASE)
     else:
         words = "assumed: a DMA measurement does not give it"
         proposal.add("bulk_modulus", f"{BULK_MODULUS / 1e9:g} GPa", words)

@@ -23,10 +23,8 @@ from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean
 from gripscale.rubber.strain_sweeps import read_strain_sweeps
 
 NAMED_RUBBERS = ("styrene_butadiene",)
-
 # Shifts a case states with their numbers; a table of factors is a file.
 SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable}
-
 # Keys of [rubber] that a named rubber may have.
 OF_ANY_RUBBER = {
     *(

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
-from gripscale import uncertainty_options
+from gripscale import uncertainty_options as limits
 from gripscale.case_file import schema
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
 from gripscale.conditions.conditions import OFF
@@ -165,10 +165,10 @@ class CleaningKeys(schema.CaseTable):
     @model_validator(mode="after")
     def _possible_cleaning(self) -> CleaningKeys:
         for name in ("crop", "crop_across", "valid_range"):
-            limits = getattr(self, name)
-            if limits is not None and limits[0] >= limits[1]:
+            ends = getattr(self, name)
+            if ends is not None and ends[0] >= ends[1]:
                 raise ValueError(
-                    f"{name} runs from {in_mm(limits[0])} to {in_mm(limits[1])}; "
+                    f"{name} runs from {in_mm(ends[0])} to {in_mm(ends[1])}; "
                     "expected its start before its end"
                 )
         steps = self.model_fields_set & CleaningKeys.model_fields.keys() - {"clean"}
@@ -364,7 +364,7 @@ Factors = Annotated[list[Annotated[float, Field(gt=0.0, allow_inf_nan=False)]], 
 
 def _pressure_error(value: Any) -> Any:
     """Accept what `pressure_error` does, as it is written: the pressure is in another table."""
-    uncertainty_options.pressure_error(value, 1.0)
+    limits.pressure_error(value, 1.0)
     return value
 
 
@@ -381,9 +381,7 @@ class RangesTable(schema.CaseTable):
     """Modulus of the rubber after infinite time; not sampled by default."""
     temperature: schema.TemperatureDifference | None = None
     """Standard error of the temperature before the contact; none by default."""
-    pressure: Annotated[
-        Any, schema.Reading(uncertainty_options.PRESSURE_ERROR, _pressure_error)
-    ] = None
+    pressure: Annotated[Any, schema.Reading(limits.PRESSURE_ERROR, _pressure_error)] = None
     """Standard error of the nominal pressure, a share of it or a pressure; none by default."""
     load_time: Factors | None = None
     """How long waves are loaded, over the time of the case; by default 0.5 to 2."""
@@ -396,13 +394,9 @@ class RangesTable(schema.CaseTable):
 class UncertaintyTable(schema.CaseTable):
     """What `gripscale uncertainty` samples; its options go before what is stated here."""
 
-    samples: int = Field(
-        default=uncertainty_options.SAMPLES,
-        ge=uncertainty_options.FEWEST_SAMPLES,
-        le=uncertainty_options.MOST_SAMPLES,
-    )
+    samples: int = Field(default=limits.SAMPLES, ge=limits.FEWEST_SAMPLES, le=limits.MOST_SAMPLES)
     """Samples of all that is not known at once."""
-    seed: int = Field(default=0, ge=0, le=uncertainty_options.MOST_SEED)
+    seed: int = Field(default=0, ge=0, le=limits.MOST_SEED)
     """Seed of the random numbers."""
     model: Literal["chain", "direct", "both"] | None = None
     """What predicts each sample; direct where profiles were measured by default, else the chain."""
@@ -459,7 +453,7 @@ class BelowMeasurementTable(schema.CaseTable):
     """Hurst exponent of the continued roughness; by default it is that of the faces that touch."""
     finer: FinerTable | None = None
     """A finer measurement of a face, in place of the faces of the profiles."""
-    seed: int = Field(default=0, ge=0, le=uncertainty_options.MOST_SEED)
+    seed: int = Field(default=0, ge=0, le=limits.MOST_SEED)
     """Seed of the random waves."""
 
     @model_validator(mode="after")

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 
 ENGINE: Final = "netcdf4"
-
 _SEAL: Final = b"\ngripscale sha256 "
 _SEAL_LENGTH: Final = len(_SEAL) + 65
 _PART: Final = 1 << 20

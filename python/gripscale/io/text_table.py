@@ -44,7 +44,6 @@ from gripscale.io.cells import (
 )
 
 EXCEL = (".xlsx", ".xlsm")
-
 _ZIP, _WORKBOOK = b"PK\x03\x04", b"xl/workbook"  # the second is a name in an Excel file's zip
 _Rows = list[tuple[object, ...]]
 T = TypeVar("T")

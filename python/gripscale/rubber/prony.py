@@ -166,8 +166,10 @@ def fit_prony_report(
 ) -> tuple[Rubber, PronyFit]:
     """Return the Prony series of a master curve and the report on it.
 
-    Raises `InputError` if an argument is out of range, `bulk_modulus` is too small for the moduli
-    measured, or storage and loss modulus are exchanged (see `gripscale.rubber.prony_report`).
+    The rubber has the measured band [rad/s] as `valid_band`, the other series that fit in
+    `admissible`, and the reference temperature and the shift of the curve. Raises `InputError` if
+    an argument is out of range, `bulk_modulus` is too small for the moduli measured, or storage and
+    loss modulus are exchanged (see `gripscale.rubber.prony_report`).
 
     Parameters
     ----------
@@ -188,14 +190,6 @@ def fit_prony_report(
     smoothing : float
         Weight of the second differences of the spectrum; zero gives the bare non-negative fit. With
         16 relaxation times a decade, for few sharp relaxations, a hundredth of it counts.
-
-    Returns
-    -------
-    rubber : Rubber
-        With `valid_band` set to the measured band [rad/s], the other series that fit in
-        `admissible`, and the reference temperature and the shift of the curve.
-    report : PronyFit
-        How it came about and how well it fits.
     """
     checks.instance("master", master, MasterCurve)
     if len(master) < _FEWEST_ROWS or master.decades == 0.0:

@@ -26,7 +26,6 @@ from gripscale.core import Array, Checked, InputError, Vector, checked, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius
 
 _MOST = 100.0  # largest log10 a_T that is a factor and no mistake: WLF has a pole
-
 # Temperatures this little beyond a range [K] are within it: printed numbers are rounded.
 EDGE = 1e-6
 GAS_CONSTANT = 8.314462618  # R [J/(mol K)]

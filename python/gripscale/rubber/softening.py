@@ -30,7 +30,6 @@ from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, neighbours_of
 _OF_UNIAXIAL = {"tension": 1.0, "shear": 3.0**0.5, None: 3.0**0.25}
 # Usual strain of a DMA measurement, which has to be small and above the noise [-].
 USUAL_STRAIN = 1e-3
-
 _SMOOTHING, KEEPING = 0.03, 0.02
 _LEAST = 1.0 / 3.0  # smallest multiplier of E_inf over f
 

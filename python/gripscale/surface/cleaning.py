@@ -21,7 +21,6 @@ from gripscale.surface.low_pass import long_waves, mean_square
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")
-
 SPIKE_RULES = ("isolated", "iso13473")  # rules for spikes, the first by default; None keeps all
 # Samples of the longest run that is a spike: laser spots are one to three samples wide.
 _LONGEST_SPIKE = 3

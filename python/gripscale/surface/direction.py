@@ -26,7 +26,6 @@ from gripscale.surface.resampling import fill_gaps
 
 _FALLEN = 0.2  # autocorrelation to which lengths are measured
 _WAYS = 180  # directions that are followed, one a degree
-
 # Weights of neighbouring degrees, without which the strongest wave of a random texture decides.
 _SMOOTHING = np.hanning(33)[1:-1]
 # Share of the largest wavenumber within which the direction is sought: a square grid has more waves

@@ -27,7 +27,6 @@ from gripscale.surface.resampling import fill_gaps
 STEEPEST = 4.0
 POINTS_IN_CUT_OFF = 4  # points of a line in one wave of its cut-off length
 _ROUNDING = 1e-12
-
 _Heights = TypeVar("_Heights", Profile, HeightMap)
 
 

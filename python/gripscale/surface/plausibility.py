@@ -24,7 +24,6 @@ from gripscale.surface.profile import Profile
 from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineStack
 
 _OFF_THE_LINE = 6.0  # distance from the line, in robust standard deviations, that no road reaches
-
 # Roughness of two pieces in a row, over the usual one, below which they are a plate.
 _SMOOTH_SHARE = 0.02
 _SIDE_STEP = 0.5  # change of height at the side of a stretch, over its height, that is a step
@@ -32,13 +31,11 @@ _SIDE_STEP = 0.5  # change of height at the side of a stretch, over its height, 
 # height has 0.15 and more, the four plates of the shipped road 0.02 to 0.05.
 _LEVEL = 0.1
 _PIECES = 50  # pieces of a profile whose level and roughness are compared
-
 # Heights that tell the roughness of a piece, and that a stretch off the line must have.
 _FEWEST_HEIGHTS = 16
 # Length of a plate, as a share of the profile: shorter are joints and cracks.
 _SHORTEST_SHARE = 1 / 400
 _MOST_STRETCHES = 6  # stretches beyond which they belong to the surface
-
 # Distance kept from a plate, as a share of the profile: its edge, its shadow and what holds it.
 _GUARD_SHARE = 1 / 40
 
@@ -131,13 +128,11 @@ def _stepped(marked: Mask, height: Array) -> Mask:
 
 
 _SPIKE_SLOPE = 3.0  # height change per step that is steep (ISO 13473-1:2019, section 7.5)
-
 # Share of heights at such steps beyond which the unit is probably wrong; roads have 4 %.
 _MOST_STEEP = 0.5
 _TALLEST = 0.1  # rms height over length beyond which one of the two probably has a wrong unit
 _LARGEST_HEIGHT = 0.1  # rms height [m] that no pavement has
 _COARSEST_STEP = 0.01  # step [m] beyond which no texture is measured
-
 # Slope that a quarter of a rough surface exceeds: a gentler one causes hardly any friction.
 _SMOOTHEST = 5e-3
 # Height change over a short way that is a jump, in robust standard deviations of such changes.
@@ -146,7 +141,6 @@ _SHORT_WAY = 1 / 400  # the short way, as a share of the profile
 _MOST_JUMPS = 8  # jumps beyond which they belong to the surface, as grooves do
 _STRETCHES = 40  # parts into which a profile is cut to find flat ones
 _SHORTEST_STRETCH = 16  # heights a part must have for its roughness to be compared
-
 # Largest wave of a plausible fit, in largest lags: a quarter of a wave rises to the plateau.
 _LONGEST_WAVE = 4.0
 # Distance of the logarithm of a factor from its limit below which the factor is at the limit.

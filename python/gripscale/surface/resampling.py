@@ -84,14 +84,9 @@ def resample(
     apart = old[before + 1] - old[before] > longest * (1.0 + 1e-9)
     between = np.where(apart & (share > 0.0) & (share < 1.0), np.nan, between)
     note = f"put on steps of {even * 1e3:.4g} mm by straight lines; {usual * 1e3:.4g} mm were usual"
-    return profile.Profile(
-        new,
-        between,
-        name,
-        source,
-        reliable=profile.RESOLVED_STEPS * max(usual, even),
-        notes=(profile.TURNED_ROUND, note) if falling else (note,),
-    )
+    notes = (profile.TURNED_ROUND, note) if falling else (note,)
+    reliable = profile.RESOLVED_STEPS * max(usual, even)
+    return profile.Profile(new, between, name, source, reliable, notes)
 
 
 _MOST_LEFT_OUT = 0.5  # largest share of the points of a grid that a file may leave out

@@ -41,7 +41,6 @@ _NUMBERS = range(2, MOST_SINE_WAVES + 1)  # numbers of waves tried where none is
 # C_z(m l) / (m^2 C_z(l)) above which lag l is inconsistent; sampling may exceed 1 a little.
 _CONSISTENT = 1.05
 _CUT_OFF_COUNTED = 0.25  # smallest lag that counts by default, in wavelengths of the cut-off
-
 # Waves below a cut-off that count in the fit: factors of 2 take them below the lags that count.
 _SHORTER_WAVES = 3
 _AS_GOOD = 1.1  # ratio of a residual to the least one up to which fewer waves are preferred

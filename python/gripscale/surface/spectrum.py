@@ -291,11 +291,9 @@ def map_spectrum(
     which = np.searchsorted(start, number[inside], side="right") - 1
     twice = twice[inside]
     count = np.bincount(which, twice)
-    return ArealSpectrum(
-        np.exp(np.bincount(which, twice * np.log(q[inside])) / count),
-        np.bincount(which, twice * power[inside]) / count,
-        float(np.isnan(heights).mean()),
-    )
+    middle = np.exp(np.bincount(which, twice * np.log(q[inside])) / count)
+    density = np.bincount(which, twice * power[inside]) / count
+    return ArealSpectrum(middle, density, float(np.isnan(heights).mean()))
 
 
 _TAIL_POINTS = 4  # last points of a spectrum whose power law is continued
