@@ -27,19 +27,9 @@ NAMED_RUBBERS = ("styrene_butadiene",)
 SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable}
 # Keys of [rubber] that a named rubber may have.
 OF_ANY_RUBBER = {
-    *(
-        "file",
-        "name",
-        "assumed",
-        "bulk_modulus",
-        "strain_energy",
-        "extrapolate",
-        "shift",
-        "thickness",
-    ),
-    "filled",
+    *("file", "name", "assumed", "bulk_modulus", "strain_energy", "extrapolate"),
+    *("shift", "thickness", "filled"),
 }
-
 
 _FILES = "the name of a file, or a list of names"
 
