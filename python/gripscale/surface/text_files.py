@@ -171,8 +171,7 @@ def _profile_columns(
                 f"{f'titled {table.titles}' if table.titles else 'without such titles'}"
             )
     z = [at for at in z if at in rest] or rest
-    no_heights = [at for at in z if _is_no_height(table.columns[at])]
-    z = [at for at in z if at not in no_heights] or z
+    z = [at for at in z if not _is_no_height(table.columns[at])] or z
     if channel is not None:
         numbers = {name: at for at, name in enumerate(table.names) if name}
         z = [numbers[channel] if channel in numbers else _column_number(table, channel)]
