@@ -14,15 +14,11 @@ from functools import partial
 from typing import Any
 
 import panel as pn
-from bokeh.document import Document
-from bokeh.models import CustomJS
 
 from gripscale.app.case import MAX_UPLOAD, CaseState, with_value
 from gripscale.app.elements import CUT_TEXT, column, html, in_worker, work_button
 from gripscale.case_file.examples import EXAMPLES
-from gripscale.core.errors import InputError
-from gripscale.core.finding import Finding, Severity
-from gripscale.report.build import template_text
+from gripscale.core import Finding, InputError, Severity
 
 # From uploads by name to the text of the case with them; may read them, in the worker thread.
 NewText = Callable[[Mapping[str, bytes]], str]
@@ -34,11 +30,6 @@ DROP_STYLE = """\
 [data-filepond-item-state="processing-complete"] .filepond--item-panel { background: #64605e; }
 """
 TOO_LARGE = "too large"  # type that the browser announces of a file that it does not send
-
-
-def prepare_areas(page: Document) -> None:
-    """Let the areas of a page name, announce and send all files of a drop at once."""
-    page.js_on_event("document_ready", CustomJS(code=template_text("gripscale.app", "uploads.js")))
 
 
 def file_upload(

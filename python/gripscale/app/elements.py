@@ -14,9 +14,8 @@ from typing import Any, TypeVar
 import panel as pn
 
 from gripscale.app.case import VisitFolder
-from gripscale.charts.draw import Chart
 from gripscale.report.build import template_text, templates
-from gripscale.report.elements import Code, Element, Text
+from gripscale.report.elements import Code, Element
 
 _T = TypeVar("_T")
 
@@ -47,13 +46,6 @@ def raw(markup: str) -> pn.pane.HTML:
     """Return the pane of markup written in this package, in the style of the page."""
     look: Any = {"sizing_mode": "stretch_width", "margin": (4, 8), "stylesheets": [_STYLE]}
     return pn.pane.HTML(markup, **look)
-
-
-def chart_pane(chart: Chart, figure: Any) -> pn.Column:
-    """Return the pane of the Bokeh model of a chart, with its caption."""
-    figure.html_attributes = {"role": "img", "aria-label": chart.alt}
-    pane = pn.pane.Bokeh(figure, sizing_mode="stretch_width", margin=(4, 8))
-    return column(pane, html(Text(chart.caption)), css_classes=["chart"])
 
 
 def page_frame(visit: VisitFolder, page: Path, title: str, kind: str = "") -> pn.pane.HTML:

@@ -12,15 +12,8 @@ from typing import Any
 
 import panel as pn
 
+from gripscale.app import elements
 from gripscale.app.case import CaseState, field_text, field_value
-from gripscale.app.elements import (
-    CUT_TEXT,
-    column,
-    folded_card,
-    in_worker,
-    page_frame,
-    work_button,
-)
 from gripscale.case_file import CaseFile
 from gripscale.case_file.keys import NEEDED, NOTHING, Key, KeySection, sections
 from gripscale.case_file.schema import choices_of
@@ -33,7 +26,7 @@ LOOK: dict[str, Any] = {
     "sizing_mode": "stretch_width",
     "margin": (2, 8),
     "styles": {"flex": "1 1 190px", "min-width": "0", "max-width": "340px"},
-    "stylesheets": [CUT_TEXT],
+    "stylesheets": [elements.CUT_TEXT],
 }
 # Keys without a field: files are uploaded, and waves are written into the text of the case.
 WITHOUT_FIELD = {"surface.sines", "surface.files", "surface.map", "rubber.file"}
@@ -50,9 +43,9 @@ def table_form(state: CaseState, name: str, first: Collection[str]) -> pn.Column
     }
     parts: list[Any] = [_rows([fields.pop(key) for key in first])]
     if fields:
-        parts.append(folded_card("All other keys", _rows([*fields.values()])))
+        parts.append(elements.folded_card("All other keys", _rows([*fields.values()])))
     parts += [law_form(state, law) for law in laws if law not in WITHOUT_FIELD]
-    return column(*parts)
+    return elements.column(*parts)
 
 
 def law_form(state: CaseState, name: str) -> pn.Column:
@@ -73,7 +66,7 @@ def law_form(state: CaseState, name: str) -> pn.Column:
         description=laws[""].about if single else "",
         **LOOK,
     )
-    body = column(margin=(0, 0, 6, 16))
+    body = elements.column(margin=(0, 0, 6, 16))
     body_kind: list[str | None] = [None]
 
     def kind_of_case() -> str | None:
@@ -102,7 +95,7 @@ def law_form(state: CaseState, name: str) -> pn.Column:
                 body.objects = [_rows([field(state, laws[kind], key) for key in keys])]
 
     _bind(state, [choice], edit, follow)
-    return column(_rows([choice]), body)
+    return elements.column(_rows([choice]), body)
 
 
 def field(state: CaseState, section: KeySection, key: Key) -> Any:
@@ -183,8 +176,8 @@ class PreviewPanel:
         self, state: CaseState, table: str, label: str, make: Callable[[CaseFile], Page]
     ) -> None:
         self._state, self._table, self._make = state, table, make
-        self.button = work_button(label, self.update, color="primary")
-        self.body = column()
+        self.button = elements.work_button(label, self.update, color="primary")
+        self.body = elements.column()
 
     def _written(self) -> Path:
         target = self._state.visit.path / f"preview-{self._table}.html"
@@ -195,8 +188,8 @@ class PreviewPanel:
         self.body.loading, self.body.objects = True, []
         try:
             with self._state.refusals(self._table):
-                page = await in_worker(self._written)
+                page = await elements.in_worker(self._written)
                 title = f"Preview of the {self._table}"
-                self.body.objects = [page_frame(self._state.visit, page, title)]
+                self.body.objects = [elements.page_frame(self._state.visit, page, title)]
         finally:
             self.body.loading = False

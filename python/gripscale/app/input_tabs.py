@@ -18,7 +18,7 @@ from bokeh.models import BoxSelectTool
 from gripscale import case_file
 from gripscale.app.case import CaseState, with_value
 from gripscale.app.case_panel import NewText, file_upload, problem_pane, with_upload
-from gripscale.app.elements import chart_pane, column, in_worker
+from gripscale.app.elements import column, html, in_worker
 from gripscale.app.forms import PreviewPanel, table_form
 from gripscale.case import Case
 from gripscale.case_file.prepare import raw_surface
@@ -26,8 +26,7 @@ from gripscale.case_file.proposals import Proposal, rubber_proposal, surface_pro
 from gripscale.case_file.rubber_tables import NAMED_RUBBERS
 from gripscale.charts.bokeh_parts import model
 from gripscale.charts.draw import Chart, Picture, image
-from gripscale.core.errors import GripscaleError
-from gripscale.core.finding import Finding, Severity
+from gripscale.core import Finding, GripscaleError, Severity
 from gripscale.questions.inputs import page, record
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts, superposition_figure
 from gripscale.questions.inputs.charts_of_surface import (
@@ -97,7 +96,9 @@ class RawSurface:
                     self._state.set(("surface", "crop_across"), _range(ends["y0"], ends["y1"]))
 
         figure.on_event(SelectionGeometry, select)
-        return chart_pane(chart, figure)
+        figure.html_attributes = {"role": "img", "aria-label": chart.alt}
+        pane = pn.pane.Bokeh(figure, sizing_mode="stretch_width", margin=(4, 8))
+        return column(pane, html(Text(chart.caption)), css_classes=["chart"])
 
 
 def _range(first: float, last: float) -> list[str]:

@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import panel as pn
+from bokeh.models import CustomJS
 from bokeh.util.warnings import BokehUserWarning
 from tornado.web import HTTPError, StaticFileHandler
 
 from gripscale.app.case import MAX_UPLOAD, CaseState, VisitFolder
-from gripscale.app.case_panel import case_panel, prepare_areas
+from gripscale.app.case_panel import case_panel
 from gripscale.app.elements import REPORTS, column, raw
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
 from gripscale.app.run_tabs import all_runs_tab, results_tab, run_tab
@@ -23,6 +24,7 @@ from gripscale.case_file import read_case_file
 from gripscale.case_file.examples import EXAMPLES
 from gripscale.core.errors import InputError
 from gripscale.io.folders import make_folder, require_writable
+from gripscale.report.build import template_text
 
 _TITLE = "gripscale"
 INTRO = (
@@ -54,7 +56,9 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
 
     pn.state.on_session_destroyed(leave)
     if pn.state.curdoc is not None:
-        prepare_areas(pn.state.curdoc)
+        # all files of a drop are named, announced and sent at once
+        code = template_text("gripscale.app", "uploads.js")
+        pn.state.curdoc.js_on_event("document_ready", CustomJS(code=code))
     of_case = (
         ("1 Road", road_tab(state)),
         ("2 Rubber", rubber_tab(state)),

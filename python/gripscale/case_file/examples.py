@@ -95,11 +95,12 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
     example = EXAMPLES[checks.one_of("example", name, tuple(EXAMPLES))]
     target = Path(folder)
     # A case of the source tree seeks its data in the folder above.
-    text = _packaged(f"cases/{name}.toml").decode("utf-8").replace('"../data/', '"data/')
+    text = _PACKAGE.joinpath(f"cases/{name}.toml").read_text(encoding="utf-8")
+    text = text.replace('"../data/', '"data/')
     contents = {_CASE: f"{SCHEMA_LINE}{text}".encode()}
     for data in example.folders:
-        measured = sorted(file.name for file in _PACKAGE.joinpath(data).iterdir())
-        contents |= {f"{data}/{name}": _packaged(f"{data}/{name}") for name in measured}
+        measured = sorted(_PACKAGE.joinpath(data).iterdir(), key=lambda file: file.name)
+        contents |= {f"{data}/{file.name}": file.read_bytes() for file in measured}
     contents |= {path: make().encode("utf-8") for path, make in example.made}
     require_writable(target)
     taken = [path for path in contents if (target / path).exists()]
@@ -113,7 +114,3 @@ def write_example(folder: str | Path, name: str = "road") -> list[Path]:
         write_bytes(target / path, content)
     write_schema(SCHEMA_LINE, target)
     return [target / path for path in contents]
-
-
-def _packaged(path: str) -> bytes:
-    return _PACKAGE.joinpath(path).read_bytes()

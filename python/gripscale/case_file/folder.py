@@ -28,7 +28,6 @@ from gripscale.io.text_table import read_bytes
 
 SAVED_CASE, INPUTS = "case.toml", "inputs"
 COPIED_AT_MOST = 100e6  # bytes of all files together above which they are not copied
-
 # A comment or a string of TOML 1.0, the longer quotes first.
 _STRING = re.compile(
     r"""#[^\n]*"""
@@ -119,7 +118,6 @@ RESULT_FILES = (
 )
 # What earlier versions wrote as well.
 _OF_OTHER_VERSIONS = (".finished.json", "chain.txt", "dynamic.nc", "static.nc", "report.txt")
-
 CASE_NOTE = ".case"  # the case whose results are in a folder, by its path from there
 
 

@@ -1,13 +1,8 @@
 """Every key of a case file: what it takes, its default, its meaning, where it is explained.
 
-Made from the JSON Schema of the tables that read the file: what they do not know is not listed,
-what they know is. `case_schema` is that schema for an editor, which completes keys by it and marks
-what is wrong:
-
-    gripscale keys --schema > case.schema.json
-
-The first line of a case that is written refers to a copy beside it, `#:schema ./.case.schema.json`,
-which language servers for TOML follow (Taplo, in VS Code: Even Better TOML).
+Made from the JSON Schema of the tables that read the file. `case_schema` is that schema for an
+editor, to which the first line of a case that is written refers, `#:schema ./.case.schema.json`:
+language servers for TOML follow it (Taplo, in VS Code: Even Better TOML).
 """
 
 from __future__ import annotations
@@ -27,10 +22,8 @@ from gripscale.io.folders import write_text
 SCHEMA_FILE = ".case.schema.json"
 # First line of a case file with its schema beside it.
 SCHEMA_LINE = f"#:schema ./{SCHEMA_FILE}\n"
-
 # The default of a key that must be there, and of one that may be left out for nothing.
 NEEDED, NOTHING = "needed", "-"
-
 # Chapters of tables, with those inside them where these have none of their own.
 _CHAPTERS = {
     "surface": "inputs.md",

@@ -15,9 +15,8 @@ from typing import Any
 import numpy as np
 
 from gripscale.case_file import proposals
-from gripscale.core import ZERO_CELSIUS, GripscaleError, checks, in_mm
+from gripscale.core import ZERO_CELSIUS, GripscaleError, checks, in_mm, spelled
 from gripscale.core.checks import shortened
-from gripscale.core.units import spelled
 from gripscale.experiment.measured_friction import MeasuredFriction, read_measured_friction
 from gripscale.io.table import least_to_most
 from gripscale.io.text_table import ColumnTitle, columns_noted

@@ -109,39 +109,13 @@ def propose(
 ) -> tuple[dict[str, Proposal], tuple[Taken, ...]]:
     """Return the tables of a case in a directory, and what each of its files is taken for.
 
-    Raises `InputError` or `FileError` if the files hold no surface or no moduli, or cannot be read.
-
-    Parameters
-    ----------
-    files : sequence of path-like
-        Profiles or a map, a master curve, sweeps or a Prony series, and if there are any shift
-        factors, strain sweeps and measured friction, in any order, or folders of them; in place of
-        moduli the name of a rubber of `NAMED_RUBBERS`.
-    directory : Path
-        Where the case file will be.
-    load : mapping, optional
-        `pressure`, `speed` and `footprint` as in a case; 3 bar, 1 m/s and 100 mm by default.
-    temperature : str, optional
-        Of the rubber before the contact, such as "20 C".
-    step : str or list, optional
-        Distance between points where a file has none, such as "0.1 mm".
-    shift : mapping, optional
-        Time-temperature shift of the rubber, as in a case: kind, c1 and c2.
-    layout : mapping, optional
-        What the file of the rubber does not state: keys of [rubber], such as columns or
-        reference_temperature.
-    surface : mapping, optional
-        What the files of the surface do not state: keys of [surface], such as z_unit or channel.
-    thickness : str, optional
-        Of the rubber on its base, such as "8 mm"; without it the rubber has no end, with a doubt.
-    filled : bool, optional
-        Whether the rubber is filled; without it the answer has both numbers, with a doubt.
-    interface : str, optional
-        "dry" adds the interface of a dry road to the friction of the hysteresis.
-    kinds : mapping, optional
-        Kinds of files (`gripscale.case_file.kinds.NAMES`) that go before their content.
-    ask : callable, optional
-        Returns one of several answers to a question; the first, the likeliest, by default.
+    `files` are measured ones in any order, folders of them, or the name of a rubber among
+    `NAMED_RUBBERS`. Quantities are stated as in a case; what is not stated, as the `load` or the
+    `thickness`, is assumed with a doubt. `shift`, `layout` and `surface` have keys of
+    [rubber] shift, [rubber] and [surface]; `kinds`, of `gripscale.case_file.kinds.NAMES`, go before
+    the content of files. `ask` returns one of several answers to a question, by default the first,
+    the likeliest. Raises `InputError` or `FileError` if the files hold no surface or no moduli, or
+    cannot be read.
     """
     kelvin = si_value("temperature", temperature, "K")
     layout, of_surface = dict(layout or {}), dict(surface or {})
@@ -165,7 +139,7 @@ def propose(
         proposals.add_shift(rubber, shift)
     else:
         units: Mapping[str, str] = {}
-        options: dict[str, Any] = {"shift": shift, "reference": reference}
+        options: dict[str, Any] = {"shift": shift, "reference": reference, "layout": layout}
         if shifts and shift is None and lab.of(*RUBBERS)[0].kind != "sweeps":
             options["shift"] = inside[shifts[0].path]
             unity = shifts[0].measured.unity
@@ -173,13 +147,8 @@ def propose(
                 reason = f"a_T of {shifts[0].path.name} is 1 there"
                 options |= {"reference": proposals.celsius_text(unity), "reason": reason}
             units, shifts = shifts[0].missing, []
-        rubber = proposals.rubber_proposal(
-            rubbers,
-            [inside[path] for path in rubbers],
-            temperature=kelvin,
-            layout=layout,
-            **options,
-        )
+        files_inside = [inside[path] for path in rubbers]
+        rubber = proposals.rubber_proposal(rubbers, files_inside, temperature=kelvin, **options)
         for key, unit in units.items():
             rubber.add(key, unit, "the shift factors do not state it", proposals.OF_ANOTHER_CASE)
     for file in () if shift is not None else shifts:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import MISSING, fields, replace
 from inspect import signature
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -28,8 +29,7 @@ from gripscale.case_file.tables import SurfaceTable
 from gripscale.chain.chain import Chain, wave_solver
 from gripscale.conditions.conditions import Conditions
 from gripscale.continuation.roughness import FinerMeasurement, HurstExponent, OwnFaces, Roughness
-from gripscale.core import CaseKey, FileError, InputError, Words
-from gripscale.core.errors import about_file, about_keys, unstated
+from gripscale.core import CaseKey, FileError, InputError, Words, about_file, about_keys, unstated
 from gripscale.core.units import ZERO_CELSIUS
 from gripscale.experiment.measured_friction import read_measured_friction
 from gripscale.half_space.grid import MOST_POINTS
@@ -127,20 +127,13 @@ def raw_surface(surface: SurfaceTable, resolve: Resolve = Path) -> RawHeights:
         options = _options(surface, surfaces.read_profile)
         lays = surface.lay or ["along"] * len(paths)
         channels = surface.channel if isinstance(surface.channel, list) else [surface.channel]
-        lines = [
-            replace(surfaces.read_profile(path, **options | {"channel": channel}), lay=lay)
-            for path, lay in zip(paths, lays, strict=True)
-            for channel in channels
-        ]
-        if len(channels) > 1:
-            names = (channel for _ in paths for channel in channels)
-            lines = [
-                replace(line, name=f"{line.name} {name}")
-                for line, name in zip(lines, names, strict=True)
-            ]
-        if surface.reliable is None:
-            return lines
-        return [replace(line, reliable=surface.reliable) for line in lines]
+        lines = []
+        for (path, lay), channel in product(zip(paths, lays, strict=True), channels):
+            line = surfaces.read_profile(path, **options | {"channel": channel})
+            name = f"{line.name} {channel}" if len(channels) > 1 else line.name
+            reliable = surface.reliable or line.reliable
+            lines.append(replace(line, lay=lay, name=name, reliable=reliable))
+        return lines
     raw = surfaces.read_map(paths[0], **_options(surface, surfaces.read_map))
     if surface.reliable is not None:
         raw = replace(raw, reliable=surface.reliable)
@@ -258,7 +251,6 @@ OF_A_RAMP = (
 def _superposed(
     paths: list[Path], source: RubberSource, resolve: Resolve, reading: dict[str, Any]
 ) -> tuple[rubbers.Sweeps, rubbers.MasterCurve, rubbers.Superposition]:
-    """Return sweeps, the master curve they make, and how they meet."""
     path = paths[0]
     shift = _shift(source, resolve)
     if shift is None and not source.vertical:
@@ -280,10 +272,7 @@ def _superposed(
     single = len(sweeps) == 1
     reference = None if single and reading["titles_first"] else source.reference_temperature
     if reference is None and not single:
-        words = (
-            f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures to be '
-            "shifted to"
-        )
+        words = f' must be given, such as "20 C", for sweeps at {len(sweeps)} temperatures'
         raise unstated(f"{path}: ", "reference_temperature", words)
     try:
         master, report = rubbers.superpose_report(
@@ -301,16 +290,12 @@ def _superposed(
 
 
 def _shifted(rubber: rubbers.Rubber, source: RubberSource, resolve: Resolve) -> rubbers.Rubber:
-    """Return a rubber of one master curve with the shift that is stated, if one is."""
     shift = _shift(source, resolve)
     if shift is None:
         return rubber
     if rubber.reference_temperature is None:
         where = source.name or source.measured_files[0]
-        words = (
-            ' must be given with shift, such as "20 C": the master curve does not state what it '
-            "holds for"
-        )
+        words = ' must be given with shift, such as "20 C": the master curve does not state it'
         raise unstated(f"{where}: ", "reference_temperature", words)
     return replace(rubber, shift=shift)
 
@@ -391,18 +376,13 @@ def named_files(file: CaseFile) -> list[NamedFile]:
 
 
 def read_case(path: CaseFile | str | Path) -> Case:
-    """Read the case file at a path with everything it names, and fit what it asks for.
+    """Read a case file (TOML, `gripscale keys`) with all it names, and fit what it asks for.
 
     The case keeps its text, the units it states and the checksums of its files. Raises `FileError`
     or `InputError` for what cannot be read or used.
 
         >>> gs.read_case("case.toml").rubber.name
         'tread'
-
-    Parameters
-    ----------
-    path : path or CaseFile
-        A case file (TOML), see `gripscale keys`.
     """
     file = path if isinstance(path, CaseFile) else read_case_file(path)
     if file.case.below_measurement.down_to is not None and file.case.surface.map is not None:

@@ -38,7 +38,6 @@ from gripscale.surface.read import POINT_SUFFIXES, is_text_surface
 from gripscale.surface.read_spectrum import holds_spectrum
 
 _Measurement = TypeVar("_Measurement")
-
 _STATED = "as stated"
 _SCALES = 8  # waves of a surface that states none, as in `gripscale fit-surface`
 _CUT_OFF = "instrument"  # where its roughness ends: where the measurement does
@@ -190,7 +189,6 @@ def reading_keys(keys: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _step_option(step: str | list[str] | None) -> dict[str, Any]:
-    """Return a step as an argument of readers [m]."""
     if step is None:
         return {}
     table = validate(SurfaceTable, {"map": "map", "scales": 1, "step": step}, "step")
@@ -267,28 +265,24 @@ def rubber_proposal(
         try:
             replace(measured, tolerance=TEMPERATURE_TOLERANCE)
         except InputError:
-            words = (
-                "the temperatures have no gaps: moduli are interpolated at multiples of this step"
-            )
+            words = "the temperatures have no gaps: moduli are interpolated at multiples of it"
             proposal.add("temperature_step", NOMINAL_STEP, words, TENS_OF_PERCENT)
     add_shift(proposal, shift)
     stiffest = float(measured.storage.max())
     if stiffest > _NO_SOLID:
-        words = (
-            f": the largest E' is {stiffest / 1e9:.3g} GPa, which no solid has; the numbers look "
-            "like Pa: state it"
-        )
+        giga = f"{stiffest / 1e9:.3g} GPa"
+        words = f": the largest E' is {giga}, which no solid has; numbers look like Pa: state it"
         raise InputError(Words(f"{paths[0]}: ", CaseKey("modulus_unit"), words))
     try:
         largest_modulus(stiffest, BULK_MODULUS)
     except InputError:
-        giga = math.ceil(least_bulk_modulus(stiffest) / 1e8) / 10.0
+        least = math.ceil(least_bulk_modulus(stiffest) / 1e8) / 10.0
         words = (
             f"for Poisson's ratio of 0.3 at the largest E', {stiffest / 1e9:.3g} GPa, which no "
             "rubber has: is the unit of the moduli right? Leave bulk_modulus out once it is mended "
             "by modulus_unit"
         )
-        proposal.add("bulk_modulus", f"{giga:g} GPa", words, OF_ANOTHER_CASE)
+        proposal.add("bulk_modulus", f"{least:g} GPa", words, OF_ANOTHER_CASE)
     else:
         words = "assumed: a DMA measurement does not give it"
         proposal.add("bulk_modulus", f"{BULK_MODULUS / 1e9:g} GPa", words)
@@ -343,7 +337,6 @@ def add_softening(proposal: Proposal, paths: list[Path], names: list[str]) -> No
 
 
 def _likely(key: str, paths: list[Path], layout: Mapping[str, Any]) -> tuple[str, str]:
-    """Return the likely value of a key of the layout, and why."""
     if key == "frequency_unit":
         return "Hz", "rad/s would move the curve by 0.8 decades"
     if key == "modulus":
@@ -375,9 +368,7 @@ def _add_reference(
     target = ROOM if temperature is None else temperature
     if not isinstance(measured, rubbers.Sweeps):
         if measured is None or measured.reference_temperature is None:
-            words = (
-                "the file states no temperature; the moduli are assumed to be measured at this one"
-            )
+            words = "the file states no temperature; the moduli are assumed to be those at this one"
             if temperature is None:
                 words += ", as is the contact; --temperature states another"
             proposal.add("reference_temperature", celsius_text(target), words, OF_ANOTHER_CASE)

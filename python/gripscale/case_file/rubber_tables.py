@@ -12,20 +12,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from gripscale.case_file.schema import (
-    CaseTable,
-    ColumnKey,
-    Columns,
-    Frequency,
-    Length,
-    Pressure,
-    Reading,
-    Strain,
-    Temperature,
-    TemperatureDifference,
-    stated_law,
-    unit_of_file,
-)
+from gripscale.case_file import schema
 from gripscale.conditions.area_term import SHEAR_STRESSES
 from gripscale.conditions.conditions import OFF, Interface, water_film
 from gripscale.conditions.flash_temperature import ThermalProperties
@@ -36,25 +23,13 @@ from gripscale.rubber.strain_energy import STRAIN_ENERGIES, NeoHookean
 from gripscale.rubber.strain_sweeps import read_strain_sweeps
 
 NAMED_RUBBERS = ("styrene_butadiene",)
-
 # Shifts a case states with their numbers; a table of factors is a file.
 SHIFT_LAWS = {kind: law for kind, law in SHIFTS.items() if law is not ShiftTable}
-
 # Keys of [rubber] that a named rubber may have.
 OF_ANY_RUBBER = {
-    *(
-        "file",
-        "name",
-        "assumed",
-        "bulk_modulus",
-        "strain_energy",
-        "extrapolate",
-        "shift",
-        "thickness",
-    ),
-    "filled",
+    *("file", "name", "assumed", "bulk_modulus", "strain_energy", "extrapolate"),
+    *("shift", "thickness", "filled"),
 }
-
 
 _FILES = "the name of a file, or a list of names"
 
@@ -66,24 +41,24 @@ def _files(value: Any) -> Any:
     return value
 
 
-class LayoutKeys(CaseTable):
+class LayoutKeys(schema.CaseTable):
     """Where the numbers of a measured file stand and what they are, as `FileLayout` takes them."""
 
-    columns: Columns | None = None
+    columns: schema.Columns | None = None
     """Columns of frequency, storage and loss modulus, where their titles do not tell."""
-    sheet: ColumnKey | None = None
+    sheet: schema.ColumnKey | None = None
     """Sheet of an Excel file, where several hold numbers."""
     header: int | None = Field(default=None, ge=0, le=MOST_LINES)
     """Number of lines above the rows, where there are numbers among them."""
-    frequency_unit: Annotated[str, unit_of_file("frequency")] | None = None
+    frequency_unit: Annotated[str, schema.unit_of_file("frequency")] | None = None
     """Unit of frequencies where the file does not name it."""
-    modulus_unit: Annotated[str, unit_of_file("modulus")] | None = None
+    modulus_unit: Annotated[str, schema.unit_of_file("modulus")] | None = None
     """Unit of moduli where the file does not name it."""
     modulus: Literal["E", "G"] | None = None
     """Young's or shear moduli, where the file does not say."""
-    temperature_unit: Annotated[str, unit_of_file("temperature")] | None = None
+    temperature_unit: Annotated[str, schema.unit_of_file("temperature")] | None = None
     """Unit of temperatures where the file does not name it."""
-    frequency: Frequency | None = None
+    frequency: schema.Frequency | None = None
     """Frequency of all rows, as of a temperature ramp, where no column of the file holds it."""
 
     def layout(self) -> dict[str, Any]:
@@ -97,15 +72,15 @@ class RubberSource(LayoutKeys):
     The file is a master curve, or sweeps at several temperatures to make one of.
     """
 
-    file: Annotated[str | list[str] | None, Reading(_FILES, _files)] = None
+    file: Annotated[str | list[str] | None, schema.Reading(_FILES, _files)] = None
     """A measured master curve, or sweeps at several temperatures, in one file or several."""
     name: Literal["styrene_butadiene"] | None = None
     """A rubber known by name, in place of a file."""
-    temperature_step: TemperatureDifference | None = None
+    temperature_step: schema.TemperatureDifference | None = None
     """Of temperature ramps: moduli are interpolated at multiples of this."""
-    reference_temperature: Temperature | None = None
+    reference_temperature: schema.Temperature | None = None
     """Temperature the master curve holds for, or sweeps are shifted to."""
-    shift: Annotated[Any, stated_law(SHIFT_LAWS, or_file=True)] = None
+    shift: Annotated[Any, schema.stated_law(SHIFT_LAWS, or_file=True)] = None
     """Time-temperature shift, needed away from the reference temperature."""
     vertical: bool = False
     """Find a vertical shift of sweeps, too."""
@@ -117,16 +92,16 @@ class RubberSource(LayoutKeys):
     """Number of Maxwell elements; chosen from the data by default."""
     outlier_threshold: float | None = Field(default=None, gt=0.0)
     """Times the typical scatter beyond which a measured row is left out of the fit."""
-    bulk_modulus: Pressure | None = None
+    bulk_modulus: schema.Pressure | None = None
     """Bulk modulus, which a DMA measurement does not give."""
     filled: bool | None = None
     """Whether the rubber is filled (carbon black, silica), as of every tread; without a word the
     answer has both numbers. Filled rubber with no softening of its own is a typical tread."""
-    thickness: Length | None = None
+    thickness: schema.Length | None = None
     """Thickness of the rubber on a rigid base; without it the rubber has no end."""
     extrapolate: Literal["warn", "refuse"] = "warn"
     """Waves beyond the measured frequencies: solved with a warning, or refused."""
-    strain_energy: Annotated[Any, stated_law(STRAIN_ENERGIES)] = NeoHookean()
+    strain_energy: Annotated[Any, schema.stated_law(STRAIN_ENERGIES)] = NeoHookean()
     """Law of the permanent network at large strain."""
 
     @model_validator(mode="after")
@@ -155,13 +130,13 @@ class StrainSweeps(LayoutKeys):
     """Measured strain sweeps."""
     files: list[str] = Field(min_length=1)
     """Files of strain sweeps."""
-    measured_at: Strain | None = None
+    measured_at: schema.Strain | None = None
     """Strain of the DMA measurement, where nothing is softened; 0.1 % by default."""
     deformation: Literal["tension", "shear"] | None = None
     """What the strain is, where its title does not say; half-way between by default."""
     amplitude: Literal["single", "peak-to-peak"] | None = None
     """What the strain column holds, where its title does not say."""
-    strain_unit: Annotated[str, unit_of_file("strain")] | None = None
+    strain_unit: Annotated[str, schema.unit_of_file("strain")] | None = None
     """Unit of strains where the file does not name it."""
 
     def softening(self, resolve: Callable[[str], Path] = Path) -> SofteningTable:
@@ -179,25 +154,25 @@ SOFTENING: dict[str, type] = {
 }
 
 
-class ConditionsTable(CaseTable):
+class ConditionsTable(schema.CaseTable):
     """Effects beside the rubber as measured."""
 
-    temperature: Temperature | None = None
+    temperature: schema.Temperature | None = None
     """Temperature of the rubber before the contact; that of the master curve by default."""
-    softening: Annotated[Any, stated_law(SOFTENING, off=OFF)] = None
+    softening: Annotated[Any, schema.stated_law(SOFTENING, off=OFF)] = None
     """Softening by strain; that of a typical tread for filled rubber by default, or "none"."""
     strain_norm: Literal["slope", "stretch"] | None = None
     """Of a wave: by the rms slope in its contact (the default), or the largest stretch less one."""
-    heat: Annotated[Any, stated_law(ThermalProperties, off=OFF)] = None
+    heat: Annotated[Any, schema.stated_law(ThermalProperties, off=OFF)] = None
     """The rubber warms by its own friction, with typical constants by default where it has a
     temperature shift, or "none"."""
-    counterface: Annotated[Any, stated_law(ThermalProperties)] = None
+    counterface: Annotated[Any, schema.stated_law(ThermalProperties)] = None
     """What takes up heat through the contact; stone by default, of a floor concrete and of a
     counterface steel."""
     interface: Interface | None = None
     """A dry interface: the real contact area is sheared at the stress of typical treads, unless
     shear_stress states another. Without it the friction is that of the hysteresis alone."""
-    shear_stress: Annotated[Any, stated_law(SHEAR_STRESSES)] = None
+    shear_stress: Annotated[Any, schema.stated_law(SHEAR_STRESSES)] = None
     """The area term: the real contact area sheared at this stress."""
-    water: Annotated[Any, Reading('"flooded" or a length', water_film)] = None
+    water: Annotated[Any, schema.Reading('"flooded" or a length', water_film)] = None
     """Water on a measured map that contact can trap: flooded, or a film of this thickness."""

@@ -330,7 +330,8 @@ def case_value(value: Any, schema: Mapping[str, Any]) -> Any:
         return law_keys(value)
     if isinstance(value, Sequence) and not isinstance(value, str):
         return [case_value(item, schema.get("items", {})) for item in value]
-    return kelvin_text(value) if schema.get("quantity") == "temperature" else value
+    # a temperature [K] is never stated without its unit
+    return f"{float(value)!r} K" if schema.get("quantity") == "temperature" else value
 
 
 def law_keys(law: Any) -> dict[str, Any]:
@@ -339,11 +340,6 @@ def law_keys(law: Any) -> dict[str, Any]:
     kind = {"kind": law.kind} if hasattr(law, "kind") else {}
     values = {item.name: getattr(law, item.name) for item in fields(law)}
     return kind | {k: case_value(v, keys[k]) for k, v in values.items() if v is not None}
-
-
-def kelvin_text(temperature: float) -> str:
-    """Return a temperature [K] as a case states it: never without its unit."""
-    return f"{float(temperature)!r} K"
 
 
 _LONGEST_LIST = 49  # letters of the items of a list beyond which each has a line of its own

@@ -9,23 +9,9 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
+from gripscale import uncertainty_options as limits
+from gripscale.case_file import schema
 from gripscale.case_file.rubber_tables import ConditionsTable, RubberSource, StrainSweeps
-from gripscale.case_file.schema import (
-    COLUMN,
-    CaseTable,
-    ColumnKey,
-    Duration,
-    Length,
-    Position,
-    Pressure,
-    Reading,
-    Speed,
-    TemperatureDifference,
-    column_key,
-    expected,
-    stated_law,
-    unit_of_file,
-)
 from gripscale.conditions.conditions import OFF
 from gripscale.core.units import in_mm, parse_quantity
 from gripscale.model import LOAD_TIME, MOST_CLASSES, checked_load_time
@@ -33,14 +19,6 @@ from gripscale.rubber.strain_energy import NeoHookean
 from gripscale.surface.surface import SurfaceKind
 from gripscale.testers import TESTERS, TesterName
 from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
-from gripscale.uncertainty_options import (
-    FEWEST_SAMPLES,
-    MOST_SAMPLES,
-    MOST_SEED,
-    PRESSURE_ERROR,
-    SAMPLES,
-    pressure_error,
-)
 
 _CUT_OFF = 'a length, "instrument" or a table: { rms_slope = 1.3 }'
 
@@ -67,28 +45,28 @@ def _step(value: Any) -> Any:
     return numbers if isinstance(value, list | tuple) else numbers[0]
 
 
-_CHANNEL = f"{COLUMN}, or a list of these"
+_CHANNEL = f"{schema.COLUMN}, or a list of these"
 
 
 def _channel(value: Any) -> Any:
     if isinstance(value, list) and value:
-        return [column_key(item) for item in value]
-    return None if value is None else column_key(value)
+        return [schema.column_key(item) for item in value]
+    return None if value is None else schema.column_key(value)
 
 
-class WaveTable(CaseTable):
+class WaveTable(schema.CaseTable):
     """One sine wave stated by hand: wavelength and half peak-to-valley amplitude."""
 
-    wavelength: Length
+    wavelength: schema.Length
     """Length of the wave."""
-    amplitude: Length
+    amplitude: schema.Length
     """Half its peak-to-valley height."""
 
 
-Interval = Annotated[list[Position], Field(min_length=2, max_length=2)]
+Interval = Annotated[list[schema.Position], Field(min_length=2, max_length=2)]
 
 
-class SourceKeys(CaseTable):
+class SourceKeys(schema.CaseTable):
     """Where a surface comes from: profiles, a map, or waves by hand."""
 
     files: list[str] | None = Field(default=None, min_length=1)
@@ -111,7 +89,7 @@ class SourceKeys(CaseTable):
         return [single] if (single := self.map or self.spectrum) else self.files or []
 
 
-class SpectrumKeys(CaseTable):
+class SpectrumKeys(schema.CaseTable):
     """What a file of a spectrum does not state."""
 
     wavenumber_unit: str | None = None
@@ -124,16 +102,16 @@ class SpectrumKeys(CaseTable):
     """Phases of its waves: of any surface, of one with worn tops as most roads, or random."""
 
 
-class UnitKeys(CaseTable):
+class UnitKeys(schema.CaseTable):
     """What a file of heights does not state."""
 
-    x_unit: Annotated[str, unit_of_file("length")] | None = None
+    x_unit: Annotated[str, schema.unit_of_file("length")] | None = None
     """Unit of distances where the file does not name it."""
-    z_unit: Annotated[str, unit_of_file("length")] | None = None
+    z_unit: Annotated[str, schema.unit_of_file("length")] | None = None
     """Unit of heights where the file does not name it."""
     direction: Literal["x", "y"] = "x"
     """The way of sliding in a map."""
-    step: Annotated[Any, Reading(_STEP, _step, quantity="length")] = None
+    step: Annotated[Any, schema.Reading(_STEP, _step, quantity="length")] = None
     """Distance between points, or those of a map along x and y, where the file has none."""
 
 
@@ -144,18 +122,18 @@ class ReadingKeys(UnitKeys):
     """Which way the numbers of heights count: down turns depths over; by default up."""
     reader: Literal["auto", "text", "instrument"] = "auto"
     """How to read the files; auto goes by the suffix."""
-    channel: Annotated[Any, Reading(_CHANNEL, _channel)] = None
+    channel: Annotated[Any, schema.Reading(_CHANNEL, _channel)] = None
     """Channel of an instrument's file, or column of a text, that has several of heights; of a list
     of columns each is a profile of the surface."""
-    sheet: ColumnKey | None = None
+    sheet: schema.ColumnKey | None = None
     """Sheet of an Excel file, where several hold numbers."""
-    reliable: Length | None = None
+    reliable: schema.Length | None = None
     """Shortest wavelength the instrument measures reliably, where the file does not tell."""
     assumed: list[str] | None = None
     """What `gripscale new` proposed because no file states it, each a doubt of the answer."""
 
 
-class CleaningKeys(CaseTable):
+class CleaningKeys(schema.CaseTable):
     """What is taken out of the heights of a surface."""
 
     clean: bool = True
@@ -178,7 +156,7 @@ class CleaningKeys(CaseTable):
     """Change of height per step at which a spike stands off, or a step is steep."""
     detrend: Literal["linear", "mean", "none"] = "linear"
     """Trend subtracted from a profile."""
-    longest_wavelength: Length | None = None
+    longest_wavelength: schema.Length | None = None
     """Longest wave kept in profiles. By default 1.5 footprints, where longer waves hold most of the
     mean square height, else all; a length beyond the profiles keeps all."""
     form: int = Field(default=1, ge=0, le=8)
@@ -187,10 +165,10 @@ class CleaningKeys(CaseTable):
     @model_validator(mode="after")
     def _possible_cleaning(self) -> CleaningKeys:
         for name in ("crop", "crop_across", "valid_range"):
-            limits = getattr(self, name)
-            if limits is not None and limits[0] >= limits[1]:
+            ends = getattr(self, name)
+            if ends is not None and ends[0] >= ends[1]:
                 raise ValueError(
-                    f"{name} runs from {in_mm(limits[0])} to {in_mm(limits[1])}; "
+                    f"{name} runs from {in_mm(ends[0])} to {in_mm(ends[1])}; "
                     "expected its start before its end"
                 )
         steps = self.model_fields_set & CleaningKeys.model_fields.keys() - {"clean"}
@@ -199,32 +177,32 @@ class CleaningKeys(CaseTable):
         return self
 
 
-class WaveKeys(CaseTable):
+class WaveKeys(schema.CaseTable):
     """How sine waves follow the correlation of a surface."""
 
     top_height_fraction: float = Field(default=1.0, gt=0.0, le=1.0, allow_inf_nan=False)
     """Share of the heights, from the highest down, that counts in the correlation."""
-    max_lag: Length | None = None
+    max_lag: schema.Length | None = None
     """Largest lag of the correlation; a quarter of the shortest profile by default."""
     scales: int | None = Field(default=None, ge=1, le=24)
     """Number of waves."""
-    smallest_wavelength: Length | None = None
+    smallest_wavelength: schema.Length | None = None
     """Wavelength of the last wave."""
-    cut_off: Annotated[Any, Reading(_CUT_OFF, _cut_off)] = None
+    cut_off: Annotated[Any, schema.Reading(_CUT_OFF, _cut_off)] = None
     """Where the roughness ends, in place of smallest_wavelength."""
     s_wavelength: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
     """Factor from one wavelength to the next, if given instead of fitted."""
     s_amplitude: float | None = Field(default=None, gt=1.0, allow_inf_nan=False)
     """Factor from one amplitude to the next, if given instead of fitted."""
-    first_wavelength: Length | None = None
+    first_wavelength: schema.Length | None = None
     """The first wavelength, if given instead of fitted."""
-    first_amplitude: Length | None = None
+    first_amplitude: schema.Length | None = None
     """The first amplitude, if given instead of fitted."""
     single_factor: bool = False
     """One factor for wavelength and amplitude, which Lind and Wangenheim show to fail."""
-    smallest_lag: Length | None = None
+    smallest_lag: schema.Length | None = None
     """Smallest lag that counts in the fit."""
-    largest_lag: Length | None = None
+    largest_lag: schema.Length | None = None
     """Largest lag that counts in the fit."""
 
     @model_validator(mode="after")
@@ -283,20 +261,20 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SpectrumKeys, SourceKeys
         return self
 
 
-class LoadTable(CaseTable):
+class LoadTable(schema.CaseTable):
     """How hard, how fast and over what length the rubber is pressed and slid."""
 
     gone: ClassVar[Mapping[str, str]] = {"static": "speed = 0 solves the relaxed rubber at rest"}
 
-    pressure: Pressure
+    pressure: schema.Pressure
     """Nominal pressure."""
-    speed: Speed
+    speed: schema.Speed
     """Sliding speed; 0 is the relaxed rubber at rest."""
-    footprint: Length
+    footprint: schema.Length
     """Length of the nominal contact: how long the largest wave is loaded."""
-    load_time: Annotated[Any, Reading(LOAD_TIME, partial(checked_load_time, "load_time"))] = (
-        "passage"
-    )
+    load_time: Annotated[
+        Any, schema.Reading(LOAD_TIME, partial(checked_load_time, "load_time"))
+    ] = "passage"
     """How long a wave is loaded: while the contact above it passes, for ever, or a time."""
     tester: TesterName | None = None
     """A tester, whose pressure, speed and footprint then need not be stated."""
@@ -309,7 +287,7 @@ class LoadTable(CaseTable):
         return values if preset is None else {k: getattr(preset, k) for k in keys} | values
 
 
-class SolverTable(CaseTable):
+class SolverTable(schema.CaseTable):
     """The model of one wave and its mesh; what is not stated stays at the solver's default."""
 
     model: Literal["finite_strain", "half_plane"] = "finite_strain"
@@ -324,7 +302,7 @@ class SolverTable(CaseTable):
     """Order of the elements."""
     tolerance: float | None = Field(default=None, gt=0.0, lt=1.0, allow_inf_nan=False)
     """The mesh is refined until the estimated errors are below this."""
-    time_limit: Duration | None = None
+    time_limit: schema.Duration | None = None
     """A wave that takes longer is given up."""
     points: int | None = Field(default=None, ge=16, le=8192)
     """Points of the half-plane."""
@@ -343,7 +321,7 @@ class SolverTable(CaseTable):
         return self.model_dump(exclude={"model"}, exclude_none=True)
 
 
-class ChainOptions(CaseTable):
+class ChainOptions(schema.CaseTable):
     """What goes on from wave to wave."""
 
     pressure_classes: int = Field(default=1, ge=1, le=MOST_CLASSES)
@@ -373,27 +351,27 @@ def _rising(values: list[float]) -> list[float]:
     return values
 
 
-def _in_words(schema: dict[str, Any]) -> None:
-    each = expected(schema["items"])
-    schema["expected"] = f"a list of two ends or of equally likely values, each {each}"
+def _in_words(ends: dict[str, Any]) -> None:
+    each = schema.expected(ends["items"])
+    ends["expected"] = f"a list of two ends or of equally likely values, each {each}"
 
 
 Ends = (Field(min_length=1, json_schema_extra=_in_words), AfterValidator(_rising))
-Moduli = Annotated[list[Pressure], *Ends]
-Lengths = Annotated[list[Length], *Ends]
+Moduli = Annotated[list[schema.Pressure], *Ends]
+Lengths = Annotated[list[schema.Length], *Ends]
 Factors = Annotated[list[Annotated[float, Field(gt=0.0, allow_inf_nan=False)]], *Ends]
 
 
 def _pressure_error(value: Any) -> Any:
     """Accept what `pressure_error` does, as it is written: the pressure is in another table."""
-    pressure_error(value, 1.0)
+    limits.pressure_error(value, 1.0)
     return value
 
 
-class RangesTable(CaseTable):
+class RangesTable(schema.CaseTable):
     """What is known of a source: two ends, equally likely values, or a standard error."""
 
-    height_noise: Length | None = None
+    height_noise: schema.Length | None = None
     """Standard error of each measured height, independent of its neighbours; none by default."""
     cleaning: Factors | None = None
     """Change of height per step that is a spike; by default half to 3.3 times that of the case."""
@@ -401,9 +379,9 @@ class RangesTable(CaseTable):
     """Bulk modulus of the rubber; by default 1.5 times less to 1.5 times more."""
     equilibrium_modulus: Moduli | None = None
     """Modulus of the rubber after infinite time; not sampled by default."""
-    temperature: TemperatureDifference | None = None
+    temperature: schema.TemperatureDifference | None = None
     """Standard error of the temperature before the contact; none by default."""
-    pressure: Annotated[Any, Reading(PRESSURE_ERROR, _pressure_error)] = None
+    pressure: Annotated[Any, schema.Reading(limits.PRESSURE_ERROR, _pressure_error)] = None
     """Standard error of the nominal pressure, a share of it or a pressure; none by default."""
     load_time: Factors | None = None
     """How long waves are loaded, over the time of the case; by default 0.5 to 2."""
@@ -413,12 +391,12 @@ class RangesTable(CaseTable):
     """Numbers of sine waves, among those that follow the correlation; all of these by default."""
 
 
-class UncertaintyTable(CaseTable):
+class UncertaintyTable(schema.CaseTable):
     """What `gripscale uncertainty` samples; its options go before what is stated here."""
 
-    samples: int = Field(default=SAMPLES, ge=FEWEST_SAMPLES, le=MOST_SAMPLES)
+    samples: int = Field(default=limits.SAMPLES, ge=limits.FEWEST_SAMPLES, le=limits.MOST_SAMPLES)
     """Samples of all that is not known at once."""
-    seed: int = Field(default=0, ge=0, le=MOST_SEED)
+    seed: int = Field(default=0, ge=0, le=limits.MOST_SEED)
     """Seed of the random numbers."""
     model: Literal["chain", "direct", "both"] | None = None
     """What predicts each sample; direct where profiles were measured by default, else the chain."""
@@ -426,7 +404,7 @@ class UncertaintyTable(CaseTable):
     """Sources that are taken to be known."""
     ranges: RangesTable = RangesTable()
     """What is known of a source, in place of its default."""
-    block_length: Length | None = None
+    block_length: schema.Length | None = None
     """Length of the blocks of profiles that are drawn; four of the largest waves by default."""
     tolerance: float | None = Field(default=None, gt=0.0, lt=1.0)
     """Estimated relative error of each direct contact; that of its first full grid by default."""
@@ -435,7 +413,7 @@ class UncertaintyTable(CaseTable):
 FigureKind = Literal["png", "pdf", "svg"]
 
 
-class OutputTable(CaseTable):
+class OutputTable(schema.CaseTable):
     """Where the results go."""
 
     folder: str = "results"
@@ -444,7 +422,7 @@ class OutputTable(CaseTable):
     """What each figure is written as: by default png, and no files of a run, whose page has all."""
 
 
-class MeasuredTable(CaseTable):
+class MeasuredTable(schema.CaseTable):
     """Friction measured elsewhere: a table of speed and friction, drawn over what is predicted."""
 
     friction: str | None = None
@@ -466,16 +444,16 @@ class FinerTable(UnitKeys):
         return self
 
 
-class BelowMeasurementTable(CaseTable):
+class BelowMeasurementTable(schema.CaseTable):
     """Roughness below the measured profiles; without down_to there is none."""
 
-    down_to: Length | None = None
+    down_to: schema.Length | None = None
     """Shortest wavelength to continue the roughness to."""
     hurst: float | None = Field(default=None, gt=0.0, le=1.0, allow_inf_nan=False)
     """Hurst exponent of the continued roughness; by default it is that of the faces that touch."""
     finer: FinerTable | None = None
     """A finer measurement of a face, in place of the faces of the profiles."""
-    seed: int = Field(default=0, ge=0, le=MOST_SEED)
+    seed: int = Field(default=0, ge=0, le=limits.MOST_SEED)
     """Seed of the random waves."""
 
     @model_validator(mode="after")
@@ -485,7 +463,7 @@ class BelowMeasurementTable(CaseTable):
         return self
 
 
-class CaseTables(CaseTable):
+class CaseTables(schema.CaseTable):
     """A whole case file."""
 
     surface: SurfaceTable
@@ -506,7 +484,7 @@ class CaseTables(CaseTable):
     """Friction measured elsewhere."""
     output: OutputTable = OutputTable()
     """Where results go."""
-    compare: Annotated[Any, stated_law(KlueppelHeinrich)] = None
+    compare: Annotated[Any, schema.stated_law(KlueppelHeinrich)] = None
     """What `gripscale compare` puts beside the models: fits of Klueppel and Heinrich's theory."""
     uncertainty: UncertaintyTable = UncertaintyTable()
     """What is not known of all that."""

@@ -15,7 +15,6 @@ export = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
 )
-
 _Result = Annotated[Path, argument("The .nc file of a result.", "RESULT.nc")]
 
 

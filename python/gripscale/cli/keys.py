@@ -7,23 +7,12 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Annotated, Any, get_args
 
-from gripscale.questions.terminal import (
-    COLUMNS,
-    LongestWavelength,
-    SurfaceAxis,
-    SurfaceChannel,
-    SurfaceCrop,
-    SurfaceUnit,
-    column_of,
-    columns_of,
-    lengths_of,
-    option,
-)
+from gripscale.questions import terminal
 
 
 def _key(text: str, kind: Any = str, *names: str, metavar: str | None = None) -> Any:
     value_type = kind if kind is bool else kind | None
-    return Annotated[value_type, option(text, *names, metavar=metavar)]
+    return Annotated[value_type, terminal.option(text, *names, metavar=metavar)]
 
 
 KEY_OPTIONS: dict[str, Any] = {
@@ -38,15 +27,15 @@ KEY_OPTIONS: dict[str, Any] = {
     "s_wavelength": _key("Given instead of fitted.", float),
     "s_amplitude": _key("Given instead of fitted.", float),
     "single_factor": _key("One factor for both lengths.", bool),
-    "crop": SurfaceCrop,
-    "x_unit": SurfaceUnit,
-    "z_unit": SurfaceUnit,
-    "z_axis": SurfaceAxis,
-    "channel": SurfaceChannel,
+    "crop": terminal.SurfaceCrop,
+    "x_unit": terminal.SurfaceUnit,
+    "z_unit": terminal.SurfaceUnit,
+    "z_axis": terminal.SurfaceAxis,
+    "channel": terminal.SurfaceChannel,
     "step": _key('Distance between points where a file has none: "0.1 mm", of a map "1 um, 2 um".'),
     "spikes": _key("Rule for spikes: isolated, by default, iso13473 or none."),
     "detrend": _key("linear, by default, mean or none."),
-    "longest_wavelength": LongestWavelength,
+    "longest_wavelength": terminal.LongestWavelength,
     # of [rubber]
     "terms": _key("Relaxation times; chosen if not given.", int),
     "bulk_modulus": _key('Such as "2 GPa".'),
@@ -58,7 +47,7 @@ KEY_OPTIONS: dict[str, Any] = {
     "reference_temperature": _key(
         'Such as "20 C": what a master curve holds for, or sweeps are shifted to.'
     ),
-    "columns": _key(COLUMNS),
+    "columns": _key(terminal.COLUMNS),
     "sheet": _key("Excel sheet of the rubber, by name or number from 1, if several hold moduli."),
     "header": _key("Lines above the rows of the rubber, if there are numbers among them.", int),
     "outlier_threshold": _key(
@@ -71,6 +60,13 @@ KEY_OPTIONS: dict[str, Any] = {
         metavar="C1 C2",
     ),
     "vertical": _key("Find vertical shifts as well; sweeps.", bool, "--vertical"),
+    "thickness": _key('Of the rubber, such as "8 mm"; it has no end by default.'),
+    # of [load] and [conditions]
+    "pressure": _key('Such as "3 bar", as by default.'),
+    "speed": _key('Such as "1 m/s", as by default.'),
+    "footprint": _key('Length of the nominal contact; "100 mm" by default.'),
+    "temperature": _key('Of the rubber before the contact, such as "20 C".'),
+    "interface": _key('"dry": a dry road, which also shears the contact area.'),
     # of [conditions.softening]
     "amplitude": _key("single or peak-to-peak, if strain sweeps do not say."),
     "deformation": _key("tension or shear, if strain sweeps do not say."),
@@ -80,10 +76,10 @@ KEY_OPTIONS: dict[str, Any] = {
 # What a case has for what is typed, where that is another.
 _READ: dict[str, Callable[[Any], Any]] = {
     "crop": list,
-    "channel": column_of,
-    "step": lengths_of,
-    "columns": columns_of,
-    "sheet": column_of,
+    "channel": terminal.column_of,
+    "step": terminal.lengths_of,
+    "columns": terminal.columns_of,
+    "sheet": terminal.column_of,
     "wlf": lambda constants: {"kind": "wlf", "c1": constants[0], "c2": constants[1]},
 }
 

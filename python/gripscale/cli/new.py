@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from gripscale.io.table import Table
 
 SURFACE_KEYS = ("channel", "crop", "x_unit", "z_unit", "z_axis", "longest_wavelength")
+LOAD_KEYS = ("pressure", "speed", "footprint")
+CASE_KEYS = ("temperature", "step", "thickness", "interface")
 # Options that state what is missing, by its key in a case.
 _EXAMPLES = {
     "shift": ': here with --wlf C1 C2, such as --wlf 8.86 "101.6 K"',
@@ -90,7 +92,7 @@ def _ask(question: str, answers: Sequence[str]) -> str:
 
 @terminal.command
 @takes_keys(
-    *("step", "x_unit", "z_unit", "z_axis", "channel", "crop", "longest_wavelength"),
+    *(*LOAD_KEYS, *CASE_KEYS, *SURFACE_KEYS),
     *("wlf", "columns", "sheet", "header", "reference_temperature", "frequency"),
     *("frequency_unit", "modulus", "temperature_unit", "modulus_unit"),
 )
@@ -108,17 +110,6 @@ def new(
     output: Annotated[
         Path, terminal.option("The case file to write.", "--output", "-o", metavar="CASE.toml")
     ] = Path("case.toml"),
-    temperature: Annotated[
-        str | None, terminal.option('Of the rubber before the contact, such as "20 C".')
-    ] = None,
-    pressure: Annotated[str | None, terminal.option('Such as "3 bar", as by default.')] = None,
-    speed: Annotated[str | None, terminal.option('Such as "1 m/s", as by default.')] = None,
-    footprint: Annotated[
-        str | None, terminal.option('Length of the nominal contact; "100 mm" by default.')
-    ] = None,
-    thickness: Annotated[
-        str | None, terminal.option('Of the rubber, such as "8 mm"; it has no end by default.')
-    ] = None,
     filled: Annotated[
         bool | None,
         typer.Option(
@@ -126,9 +117,6 @@ def new(
             help="Whether the rubber has carbon black or silica, as every tread; asked for in a "
             "terminal, and without it the answer has both numbers.",
         ),
-    ] = None,
-    interface: Annotated[
-        str | None, terminal.option('"dry": a dry road, which also shears the contact area.')
     ] = None,
     *,
     keys: dict[str, Any],
@@ -138,25 +126,25 @@ def new(
     from gripscale.case_file.look import kinds_table
     from gripscale.case_file.new import new_case
 
-    step, shift = keys.pop("step", None), keys.pop("wlf", None)
-    surface = {key: keys.pop(key) for key in SURFACE_KEYS if key in keys}
+    surface, load, of_case = (
+        {key: keys.pop(key) for key in names if key in keys}
+        for names in (SURFACE_KEYS, LOAD_KEYS, CASE_KEYS)
+    )
+    shift = keys.pop("wlf", None)
     console = terminal.screen()
     terminal.show_step(console, terminal.READING)
     with naming_options():
         case = new_case(
             files,
             output,
-            load={"pressure": pressure, "speed": speed, "footprint": footprint},
-            temperature=temperature,
-            step=step,
+            load=load,
             shift=shift,
             layout=keys,
-            thickness=thickness,
             filled=filled,
-            interface=interface,
             surface=surface,
             kinds=kinds_of(kinds),
             ask=_ask if in_terminal() else first_choice,
+            **of_case,
         )
     terminal.end_steps()
     lines: list[str | Table] = [kinds_table(case.files), f"Case: {case.path}"]

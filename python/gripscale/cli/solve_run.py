@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -119,14 +119,10 @@ def _conclude(
 def _inputs(case: Case) -> Parts:
     """Return what was read and fitted, as lines."""
     rubber = as_text(*rubber_parts(case.measured_rubber), width=10**6).splitlines()
-    lines: Parts = [
-        "Surface",
-        *(f"  {line}" for line in surface_lines(case.surface)),
-        "",
-        "Rubber",
-        *(f"  {line}".rstrip() for line in rubber),
-    ]
+    parts: dict[str, Iterable[str]] = {"Surface": surface_lines(case.surface), "Rubber": rubber}
     if case.conditions is not None:
-        conditions = conditions_lines(case.conditions, case.rubber)
-        lines += ["", "Conditions", *(f"  {line}" for line in conditions)]
-    return lines
+        parts["Conditions"] = conditions_lines(case.conditions, case.rubber)
+    lines: Parts = []
+    for title, texts in parts.items():
+        lines += ["", title, *(f"  {text}".rstrip() for text in texts)]
+    return lines[1:]

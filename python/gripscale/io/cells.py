@@ -9,7 +9,6 @@ from contextlib import suppress
 
 # A line with its number in the file, from 1.
 Line = tuple[int, str]
-
 # What marks a missing value, in small letters; Excel has words for errors in each language.
 MISSING = {
     *("inf", "-inf", "+inf", "infinity", "-infinity", "nodata", "no_data", "missing", "void"),

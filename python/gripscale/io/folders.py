@@ -15,16 +15,11 @@ if TYPE_CHECKING:
 
 def require_writable(folder: Path) -> None:
     """Raise `FileError` unless `folder` could be made and written; touch nothing."""
-    parent = nearest_existing(folder)
+    parent = next((step for step in (folder, *folder.parents) if step.exists()), folder)
     if not parent.is_dir():
         raise FileError(f"output folder {folder} cannot be made: {parent} is not a folder")
     if not os.access(parent, os.W_OK | os.X_OK):
         raise FileError(f"output folder {folder} cannot be written: no permission for {parent}")
-
-
-def nearest_existing(path: Path) -> Path:
-    """Return `path`, or the nearest of its parents that exists."""
-    return next((step for step in (path, *path.parents) if step.exists()), path)
 
 
 def path_between(folder: Path, path: Path) -> str:

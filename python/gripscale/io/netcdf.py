@@ -15,7 +15,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
-from gripscale.core.errors import FileError
+from gripscale.core import FileError
 from gripscale.core.parallel import held_back
 
 if TYPE_CHECKING:
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 
 ENGINE: Final = "netcdf4"
-
 _SEAL: Final = b"\ngripscale sha256 "
 _SEAL_LENGTH: Final = len(_SEAL) + 65
 _PART: Final = 1 << 20

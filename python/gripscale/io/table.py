@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 Flags = Sequence[bool] | NDArray[np.bool_]
-
 NONE = "–"  # a missing number on a page
 LEAST_WORDS = 22  # characters a column of words is wrapped to before a table is divided
 # Characters beyond which the heading of numbers, or of words, is wrapped in the terminal.

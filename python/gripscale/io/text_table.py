@@ -19,12 +19,12 @@ from dataclasses import dataclass
 from decimal import Decimal
 from importlib import import_module
 from pathlib import Path
-from typing import Any, TypeVar, overload
+from typing import Any, TypeVar
 
 import numpy as np
 
 from gripscale.core import Array, FileError, InputError, checks, spelled, unstated, using_extra
-from gripscale.core.checks import MOST, short_repr, shortened, whole
+from gripscale.core.checks import MOST, short_repr, shortened
 from gripscale.io.cells import (
     COMMA_NUMBER,
     COMMENT,
@@ -44,7 +44,6 @@ from gripscale.io.cells import (
 )
 
 EXCEL = (".xlsx", ".xlsm")
-
 _ZIP, _WORKBOOK = b"PK\x03\x04", b"xl/workbook"  # the second is a name in an Excel file's zip
 _Rows = list[tuple[object, ...]]
 T = TypeVar("T")
@@ -149,11 +148,7 @@ class PlainRows(Sequence[list[str]]):
     def __len__(self) -> int:
         return len(self.lines)
 
-    @overload
-    def __getitem__(self, at: int) -> list[str]: ...
-    @overload
-    def __getitem__(self, at: slice) -> list[list[str]]: ...
-    def __getitem__(self, at: int | slice) -> list[str] | list[list[str]]:
+    def __getitem__(self, at: Any) -> Any:
         """Return the cells of a row, or of several."""
         if isinstance(at, slice):
             return [cells_of(line, self.separator) for line in self.lines[at]]
@@ -328,7 +323,7 @@ def _lines_of(path: Path, sheet: str | int | None, header: int | None) -> list[L
 
 def _below_header(lines: list[Line], header: int | None) -> list[Line]:
     """Return lines whose rows of numbers within the header are comments, without words in rows."""
-    above = 0 if header is None else whole("header", header, least=0, most=MOST_LINES)
+    above = 0 if header is None else checks.whole("header", header, least=0, most=MOST_LINES)
     commented = [
         (number, f"# {line}" if number <= above and is_row(line) else line)
         for number, line in (lines if above else ())
@@ -393,7 +388,7 @@ def table_in(
     cells = [(n, row) for n, row in cells if len(row) == count or any(map(fits, row))]
     numbers, rows = [number for number, _ in cells], [row for _, row in cells]
     _check_faults(path, lines[:first], separator, range(count, count + 1))
-    for number, row in zip(numbers, rows, strict=True):
+    for number, row in cells:
         if len(row) != count:
             raise FileError(
                 f"{path}, line {number}: expected {count} columns as in line {numbers[0]}; "

@@ -14,9 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import Checked, checked, checks
-from gripscale.core.arrays import Array, ComplexArray, Vector
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, ComplexArray, InputError, Vector, checked, checks
 
 
 def storage_shape(phase: Array) -> Array:

@@ -334,11 +334,8 @@ def _reptate(path: Path, lines: list[Line], expected: list[str], unit: str | Non
     ]
     numbers = {key: number for key, text in parameters.items() if (number := parse_number(text))}
     isofrictional = parameters.get("iso", parameters.get("isof", "true")).lower() == "true"
-    return Block(
-        replace(table, columns=titles),
-        celsius + ZERO_CELSIUS,
-        _reptate_shift(numbers, celsius, isofrictional),
-    )
+    shift = _reptate_shift(numbers, celsius, isofrictional)
+    return Block(replace(table, columns=titles), celsius + ZERO_CELSIUS, shift)
 
 
 def _reptate_shift(numbers: Mapping[str, float], celsius: float, isofrictional: bool) -> WLF | None:

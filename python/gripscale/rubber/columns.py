@@ -172,15 +172,8 @@ def unit_in(title: ColumnTitle, kind: str) -> str | None:
 MODULI = ("storage", "loss", "loss_factor", "magnitude", "phase")
 RATIOS = ("loss_factor", "phase")  # those without the unit of a modulus
 # Two that state the modulus, the first choice first.
-PAIRS = (
-    ("storage", "loss"),
-    ("storage", "loss_factor"),
-    ("loss", "loss_factor"),
-    ("magnitude", "loss_factor"),
-    ("storage", "phase"),
-    ("loss", "phase"),
-    ("magnitude", "phase"),
-)
+_WITH_RATIO = [(name, ratio) for ratio in RATIOS for name in ("storage", "loss", "magnitude")]
+PAIRS = (("storage", "loss"), *_WITH_RATIO)
 _QUANTITIES = ("temperature", "frequency", *MODULI, "strain")
 THREE = ("frequency", "storage", "loss")  # what three columns without names hold, in this order
 _Columns = Mapping[str, str | int] | Sequence[str | int]
@@ -338,14 +331,9 @@ def position_of(table: TextTable, column: str | int) -> int:
             raise InputError(f"{table.path}: column {column} holds no numbers")
         return position
     if table.names.count(column) != 1:
-        raise InputError(
-            Words(
-                f"{table.path}: ",
-                CaseKey("columns"),
-                f" must be among the header's names ({table.titles or 'no names'}); got "
-                f"{checks.short_repr(column)}",
-            )
-        )
+        names = f" must be among the header's names ({table.titles or 'no names'}); got "
+        got = f"{names}{checks.short_repr(column)}"
+        raise InputError(Words(f"{table.path}: ", CaseKey("columns"), got))
     return table.names.index(column)
 
 

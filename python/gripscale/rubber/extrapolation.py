@@ -18,7 +18,6 @@ from gripscale.core import Array, ExtrapolationError
 from gripscale.rubber.material import Rubber
 
 CHOICES = ("warn", "refuse")  # what may be done about excitation beyond the band
-
 # Share of the friction that does not count: of a spectrum, which has no end, both tails.
 WORTH_SAYING = 0.01
 
@@ -107,11 +106,8 @@ def of_sum(parts: Sequence[Extrapolation], friction: ArrayLike) -> Extrapolation
     total = float(weight.sum())
     # a part without friction has no share to tell of, and adds none
     beyond = float(weight @ np.where(weight > 0.0, share, 0.0))
-    return Extrapolation(
-        0.0 if not share.any() else beyond / total if total > 0.0 else math.nan,
-        float(below.max()),
-        float(above.max()),
-    )
+    whole = 0.0 if not share.any() else beyond / total if total > 0.0 else math.nan
+    return Extrapolation(whole, float(below.max()), float(above.max()))
 
 
 def _decades(band: tuple[float, float], omega: Array) -> tuple[float, float]:

@@ -37,8 +37,6 @@ def uniaxial_stress(rubber: Rubber, time: ArrayLike, stretch: ArrayLike) -> Arra
 
     Parameters
     ----------
-    rubber : Rubber
-        The viscoelastic solid.
     time : array_like, shape (samples,)
         Times of the samples [s], not falling; two equal times make a step.
     stretch : array_like, shape (samples,)

@@ -167,10 +167,9 @@ class Rubber(Checked, Pictured, eq=False):
         if set(values) | {"admissible", "reference_temperature", "shift"} != set(names):
             raise InputError(f"values must have the keys {', '.join(names)}; got {list(values)}")
         others, shift = values.get("admissible"), values.get("shift")
+        energy = checks.of_kind(STRAIN_ENERGIES, "strain_energy", values["strain_energy"])
         parts = {
-            "strain_energy": checks.of_kind(
-                STRAIN_ENERGIES, "strain_energy", values["strain_energy"]
-            ),
+            "strain_energy": energy,
             "admissible": None if others is None else AdmissibleSeries.from_dict(others),
             "shift": None if shift is None else shift_from_dict(shift),
         }

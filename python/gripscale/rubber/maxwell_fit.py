@@ -262,13 +262,9 @@ def choose_terms(
         most = max(float(squares.max()), np.finfo(float).tiny)  # its square may overflow
         spread = most * float((squares / most).std(ddof=1) / np.sqrt(len(squares)))
         candidates.append(Candidate(terms, error, 0.5 * spread / error if error > 0.0 else 0.0))
-    best = min(candidates, key=lambda candidate: candidate.error)
-    good = [
-        candidate.terms
-        for candidate in candidates
-        if candidate.terms >= min(least, _MOST_TERMS)
-        and candidate.error <= best.error + best.standard_error
-    ]
+    best = min(candidates, key=lambda each: each.error)
+    limit, fewest = best.error + best.standard_error, min(least, _MOST_TERMS)
+    good = [each.terms for each in candidates if each.terms >= fewest and each.error <= limit]
     return min(good, default=best.terms), tuple(candidates)
 
 

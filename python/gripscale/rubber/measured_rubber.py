@@ -1,7 +1,6 @@
 """A rubber together with the measurement it was fitted to, and its fit for a case.
 
-No passive solid follows a measured master curve over fifteen decades within its scatter. A case
-excites a few of them, and there the series of its rubber has to be right: a row at w has the weight
+The series of a rubber has to be right where its case excites it: a row at w has the weight
 
     1 + 100 c(w)/max c,   c(w) = sum_i (c_i + a_i) 2 w w_i/(w^2 + w_i^2),
 

@@ -22,9 +22,8 @@ from typing import Any
 
 import numpy as np
 
-from gripscale.core import Array, Quantity, checks
+from gripscale.core import Array, Quantity, checks, quantity_in_si, spelled
 from gripscale.core.errors import FileError, GripscaleError, InputError, RubberWarning
-from gripscale.core.units import quantity_in_si, spelled
 from gripscale.io.text_table import TextTable, is_excel, read_bytes, read_table
 from gripscale.rubber import maxwell_fit
 from gripscale.rubber import prony_report as report
@@ -167,8 +166,10 @@ def fit_prony_report(
 ) -> tuple[Rubber, PronyFit]:
     """Return the Prony series of a master curve and the report on it.
 
-    Raises `InputError` if an argument is out of range, `bulk_modulus` is too small for the moduli
-    measured, or storage and loss modulus are exchanged (see `gripscale.rubber.prony_report`).
+    The rubber has the measured band [rad/s] as `valid_band`, the other series that fit in
+    `admissible`, and the reference temperature and the shift of the curve. Raises `InputError` if
+    an argument is out of range, `bulk_modulus` is too small for the moduli measured, or storage and
+    loss modulus are exchanged (see `gripscale.rubber.prony_report`).
 
     Parameters
     ----------
@@ -189,14 +190,6 @@ def fit_prony_report(
     smoothing : float
         Weight of the second differences of the spectrum; zero gives the bare non-negative fit. With
         16 relaxation times a decade, for few sharp relaxations, a hundredth of it counts.
-
-    Returns
-    -------
-    rubber : Rubber
-        With `valid_band` set to the measured band [rad/s], the other series that fit in
-        `admissible`, and the reference temperature and the shift of the curve.
-    report : PronyFit
-        How it came about and how well it fits.
     """
     checks.instance("master", master, MasterCurve)
     if len(master) < _FEWEST_ROWS or master.decades == 0.0:
@@ -257,7 +250,6 @@ def fit_prony_report(
 
 
 def _option(name: str, value: float, most: float) -> float:
-    """Return an option from zero to `most`."""
     number = checks.not_negative(name, value)
     if number > most:
         raise InputError(f"{name} must be at most {most:g}; got {number:g}")

@@ -1,10 +1,8 @@
 """How well a Prony series fits its master curve, and what is doubtful about it.
 
 Local misfits are means over nine neighbouring rows. Where even the best non-negative series misses
-them, the measured E' and E'' are not those of one linear solid (Kramers-Kronig). Swapped moduli
-are found by fitting the best series to the two curves as they are and the other way round. A curve
-is in doubt if the nearest linear solid misses it by a factor of `math.exp(0.35)` = 1.42 in the root
-mean square; measured and synthetic rubbers have at most 0.16. docs/derivations.md has the reasons.
+them, the measured E' and E'' are not those of one linear solid (Kramers-Kronig); swapped ones are
+fitted better the other way round: docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -130,10 +128,7 @@ class SwappedModuli:
         omega, storage, loss = self.master.angular_frequency, self.master.storage, self.master.loss
         readings = [("like one of a loss factor in %", 0.01 * loss)]
         units = sorted(set(UNITS["modulus"].values()))
-        for unit in [
-            *units,
-            *(3.0 * unit for unit in units),
-        ]:  # shear moduli were taken three times
+        for unit in [*units, *(3.0 * unit for unit in units)]:  # shear moduli were taken 3 times
             readings.append(("like the loss factor (tan delta)", storage * loss / unit))
         degrees = self.master.loss_factor
         if degrees.max() < 90.0:
@@ -234,7 +229,6 @@ def fit_warnings(
 
 
 def _span(rubber: Rubber, omega: float) -> str:
-    """Return how low and how high E' may be at `omega` [rad/s], in MPa."""
     low, high = rubber.complex_modulus_band(omega)
     return f"{low.real / 1e6:.4g} to {high.real / 1e6:.4g}"
 

@@ -26,7 +26,6 @@ from gripscale.core import Array, Checked, InputError, Vector, checked, checks
 from gripscale.core.units import ZERO_CELSIUS, celsius
 
 _MOST = 100.0  # largest log10 a_T that is a factor and no mistake: WLF has a pole
-
 # Temperatures this little beyond a range [K] are within it: printed numbers are rounded.
 EDGE = 1e-6
 GAS_CONSTANT = 8.314462618  # R [J/(mol K)]
@@ -334,7 +333,6 @@ class ShiftTable(Shift, eq=False):
 
     @cached_property
     def _curves(self) -> list[Callable[[Array], Array]]:
-        """log10 a_T and log10 b_T by temperature."""
         both = self.horizontal, self.vertical
         if len(self) == 1:
             return [partial(np.full_like, fill_value=values[0]) for values in both]

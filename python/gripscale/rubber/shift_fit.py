@@ -173,7 +173,6 @@ def _span(kelvin: Array) -> tuple[float, float] | None:
 
 
 def _errors(matrix: Array, residual: Array) -> list[float]:
-    """Return standard errors from the weighted Jacobian and residuals."""
     freedoms = len(residual) - matrix.shape[1]
     excess = float(residual @ residual) / freedoms if freedoms > 0 else 1.0
     covariance = np.linalg.pinv(matrix.T @ matrix)
@@ -258,7 +257,6 @@ def read_shift_table(path: str | Path, *, temperature_unit: str | None = None) -
 
 
 def _meaning(name: str) -> str | None:
-    """Return which column of a shift table a title means."""
     low = re.sub(r"[\s_()]+", "", name.lower())
     low = re.sub(r"(horizontal)?shiftfactor$|verschiebungsfaktor$", "at", low)
     if low.startswith("t") and (low == "t" or low.startswith("temp")):

@@ -20,8 +20,7 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gripscale.core import Array, Checked, Mask, checked, checks
-from gripscale.core.errors import InputError
+from gripscale.core import Array, Checked, InputError, Mask, checked, checks
 from gripscale.rubber.admissible import loss_shape, storage_shape
 from gripscale.rubber.material import Rubber
 from gripscale.rubber.strain_sweeps import DEFORMATIONS, ONE_FREQUENCY, Deformation, StrainSweep
@@ -31,7 +30,6 @@ from gripscale.rubber.sweeps import TEMPERATURE_TOLERANCE, neighbours_of
 _OF_UNIAXIAL = {"tension": 1.0, "shear": 3.0**0.5, None: 3.0**0.25}
 # Usual strain of a DMA measurement, which has to be small and above the noise [-].
 USUAL_STRAIN = 1e-3
-
 _SMOOTHING, KEEPING = 0.03, 0.02
 _LEAST = 1.0 / 3.0  # smallest multiplier of E_inf over f
 
@@ -62,6 +60,7 @@ class SofteningLaw(Protocol):
 
     def to_dict(self) -> dict[str, Any]:
         """Return kind and parameters as plain values."""
+        return {"kind": self.kind, **self.__dict__}
 
 
 @dataclass(frozen=True)
@@ -121,7 +120,7 @@ def _multiplied(rubber: Rubber, multiplier: Array) -> Rubber:
     )
 
 
-class Kraus(Checked):
+class Kraus(Checked, SofteningLaw):
     """Kraus' law of the Payne effect, in the strain of the sweep it was fitted to.
 
     Raises `InputError` if a value is out of its range.
@@ -149,10 +148,6 @@ class Kraus(Checked):
         measured = self._moduli(np.full(amplitude.shape, self.measured_at))
         storage, loss = (soft / hard for soft, hard in zip(softer, measured, strict=True))
         return SofteningFactors(storage, loss, np.zeros(amplitude.shape, dtype=bool))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return kind and parameters."""
-        return {"kind": self.kind, **self.__dict__}
 
     def _moduli(self, strain: Array) -> tuple[Array, Array]:
         """Return G'/G'_0 and G''/G''_m [-]."""
@@ -183,7 +178,7 @@ def rows_of_sweeps(name: str, values: Any) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(checks.positive_vector(name, row).tolist()) for row in rows)
 
 
-class SofteningTable(Checked):
+class SofteningTable(Checked, SofteningLaw):
     """Moduli of strain sweeps, interpolated in the logarithms of strain and modulus.
 
     Beyond the largest strain the last moduli are held and flagged; between two temperatures the
@@ -278,10 +273,6 @@ class SofteningTable(Checked):
         logs = [np.interp(at, strains, y) - np.interp(origin, strains, y) for y in moduli]
         return np.asarray(np.exp(logs))
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return kind and numbers."""
-        return {"kind": self.kind, **self.__dict__}
-
 
 def softening_of_sweeps(
     sweeps: Sequence[StrainSweep], *, measured_at: float | None = None
@@ -347,7 +338,7 @@ STORAGE_SCATTER = (0.000, 0.032, 0.073, 0.113, 0.158, 0.226, 0.265, 0.334)
 LOSS_SCATTER = (0.000, 0.012, 0.040, 0.092, 0.174, 0.307, 0.390, 0.532)
 
 
-class TypicalTread(Checked):
+class TypicalTread(Checked, SofteningLaw):
     """Mean softening of four treads with published strain sweeps, or a deviation from it.
 
     Beyond the largest strain and the temperatures of the sweeps their ends are held and flagged.
@@ -367,10 +358,6 @@ class TypicalTread(Checked):
         """
         kelvin = sum(SWEPT) / len(SWEPT) if temperature is None else temperature
         return _table(self.deviation, self.deformation).factors(strain, kelvin)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return kind and parameters."""
-        return {"kind": self.kind, **self.__dict__}
 
 
 @lru_cache(maxsize=16)

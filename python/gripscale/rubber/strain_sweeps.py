@@ -16,9 +16,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from gripscale.core import Array, Checked, Vector, checked, checks
+from gripscale.core import ZERO_CELSIUS, Array, Checked, Vector, checked, checks
 from gripscale.core.errors import FileError, GripscaleError, unstated
-from gripscale.core.units import ZERO_CELSIUS
 from gripscale.io.text_table import TextTable, file_paths
 from gripscale.rubber.blocks import Block, read_blocks, with_named_temperature
 from gripscale.rubber.columns import (

@@ -3,12 +3,7 @@
     E*(w, T) = E*(a_T w, T_ref) / b_T
 
 A start pair by pair, then all sweeps at once with their uncertainty (`joint_shift`), then the
-reference temperature, and a report on how they meet.
-
-For the start each sweep is taken as straight lines between its rows in log-log axes, and the
-difference of two neighbours is read at the rows of both within the overlap. The shift of a pair is
-the largest likelihood of the difference where the scatter of each modulus is unknown: the least sum
-of the logarithms of its mean squares.
+reference temperature, and a report on how they meet: docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -32,7 +27,6 @@ _STEP = 0.02  # steps of the shifts that are tried [decades]
 _BACK = 0.5  # how far a colder sweep may seem to be faster [decades]: by scatter on a plateau
 _LEAST_SHARE = 0.1  # least overlap that is tried, over the shorter of the two sweeps
 _LEAST_NOISE = 2e-3  # scatter of a modulus about lines between its rows [decades], at least
-
 # x of shape (rows,) rising, y of shape (moduli, rows).
 _Points = tuple[Array, Array]
 
@@ -99,12 +93,10 @@ def difference(cold: _Points, warm: _Points) -> Array:
     low, high = max(cold[0][0], warm[0][0]), min(cold[0][-1], warm[0][-1])
     x = np.concatenate([cold[0], warm[0]])
     x = x[(x >= low - 1e-12) & (x <= high + 1e-12)]
-    return np.array(
-        [
-            np.interp(x, cold[0], colder) - np.interp(x, warm[0], warmer)
-            for colder, warmer in zip(cold[1], warm[1], strict=True)
-        ]
+    colder, warmer = (
+        np.array([np.interp(x, along, y) for y in moduli]) for along, moduli in (cold, warm)
     )
+    return np.asarray(colder - warmer)
 
 
 _LITTLE = 0.5  # overlap below which a shift rests on a few rows [decades]
@@ -238,10 +230,11 @@ def superpose_report(
     shift: Shift | None = None,
     moduli: str = "both",
 ) -> tuple[MasterCurve, Superposition]:
-    """Return the master curve of sweeps, and the report on how they meet.
+    """Return the master curve of sweeps, all rows shifted, and the report on how they meet.
 
-    Raises `InputError` if an argument is out of range, neighbouring sweeps have nothing in common,
-    or a given shift has no value at a temperature.
+    The `shift` of the curve is a `ShiftTable` with standard errors, or the one given. Raises
+    `InputError` if an argument is out of range, neighbouring sweeps have nothing in common, or a
+    given shift has no value at a temperature.
 
     Parameters
     ----------
@@ -257,13 +250,6 @@ def superpose_report(
         Taken as it is: nothing is fitted.
     moduli : {"both", "storage", "loss", "loss_factor"}
         What the shift is found from.
-
-    Returns
-    -------
-    master : MasterCurve
-        All rows, shifted. Its `shift` is a `ShiftTable` with standard errors, or the one given.
-    report : Superposition
-        How the sweeps meet.
     """
     checks.instance("sweeps", sweeps, Sweeps)
     reference = checks.positive("reference_temperature", reference_temperature, unit="K")

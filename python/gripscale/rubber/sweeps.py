@@ -196,14 +196,11 @@ def read_shift_of_sweeps(path: str | Path, layout: Mapping[str, Any]) -> WLF | N
 
 
 def _repeats(block: Block, layout: FileLayout) -> bool:
-    """Return whether the same frequencies come again over a column of temperatures."""
     table = block.table
     columns = [layout.column(table, name) for name in ("temperature", "frequency")]
     if None in columns:
         return False
-    degrees, hertz = (
-        table.numbers(at, "a number", missing=True) for at in columns if at is not None
-    )
+    degrees, hertz = (table.numbers(at or 0, "a number", missing=True) for at in columns)
     degrees = degrees[np.isfinite(degrees)]
     if not degrees.size or np.ptp(degrees) <= 2.0 * TEMPERATURE_TOLERANCE:
         return False
@@ -338,13 +335,12 @@ def read_sweeps(
             "unnamed temperatures: keep the rows of one of them"
         )
     rows, note = thinned(rows)
-    kelvin, hertz, storage, loss = rows
-    notes += note
     name = paths[0].stem if name is None else name
     if temperature_step is not None:
         return sweeps_from_ramps(*rows, step=temperature_step, name=name, source=source)
+    kelvin, hertz, storage, loss = rows
     with about_file(paths[0], InputError):
-        return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source, tuple(notes))
+        return Sweeps(kelvin, hertz, storage, loss, tolerance, name, source, (*notes, *note))
 
 
 def _rows(block: Block, layout: FileLayout, temperature: float | None) -> Array:

@@ -1,9 +1,8 @@
 """Cleaning of measured profiles and maps: crop, dropouts, borders, spikes, trend or form.
 
 Each step is reported. Missing heights stay missing: statistics skip them, nothing is interpolated.
-A spike goes out and back within a few samples: a run of at most three that stands off the nearest
-height on both sides of it, to the same side and by a slope of 3 or more. An edge of a stone stands
-off on one side only, and stays; ISO 13473-1:2019, section 7.5, takes it, too (docs/derivations.md).
+Spikes go out and back within three samples; ISO 13473-1:2019, section 7.5, takes edges of stones,
+too: docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -22,7 +21,6 @@ from gripscale.surface.low_pass import long_waves, mean_square
 from gripscale.surface.profile import FEWEST_POINTS, HeightMap, Profile
 
 _TRENDS = ("linear", "mean", "none")
-
 SPIKE_RULES = ("isolated", "iso13473")  # rules for spikes, the first by default; None keeps all
 # Samples of the longest run that is a spike: laser spots are one to three samples wide.
 _LONGEST_SPIKE = 3
@@ -99,8 +97,6 @@ def clean(
 
     Parameters
     ----------
-    profile : Profile
-        The measured profile.
     crop : (float, float), optional
         First and last distance to keep [m], both included.
     valid_range : (float, float), optional
@@ -271,8 +267,6 @@ def clean_map(
 
     Parameters
     ----------
-    surface : HeightMap
-        The measured map.
     crop : ((float, float) or None, (float, float) or None), optional
         First and last distance to keep along x and along y [m], both included; None keeps all.
     valid_range : (float, float), optional
@@ -427,7 +421,6 @@ def _in_turn(
 
 
 def _report(step: str, before: _Heights, after: _Heights, note: str) -> tuple[_Heights, StepReport]:
-    """Return the changed profile or map and the count of its changes."""
     removed = before.z.size - after.z.size
     made_missing = 0 if removed else after.missing - before.missing
     return after, StepReport(step, after.z.size, removed, made_missing, after.missing, note)

@@ -33,7 +33,6 @@ from gripscale.surface.spectrum import (
 # Whose slope: the length of the surface's gradient, or the slope along its lines.
 DEFINITIONS = ("surface", "profile")
 _ROUNDING = 1e-9  # relative difference below which two wavelengths are the same
-
 # Range of wavenumbers, as a ratio, below the last resolved one to which a power law is fitted.
 _FITTED = 10.0
 _FEWEST = 4  # points this range must have
@@ -216,7 +215,6 @@ def _mean_square(line: ProfileSpectrum) -> Array:
 
 
 _INSTRUMENT = "instrument"  # the word for the shortest wavelength that the measurement resolves
-
 # Ratio of the shortest wavelength measured to the shortest that it may be continued to.
 _MOST_CONTINUED = 100.0
 

@@ -18,8 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gripscale.core import CaseKey, Finding, Severity, Topic, Words, checks, in_mm
-from gripscale.core.arrays import Array
+from gripscale.core import Array, CaseKey, Finding, Severity, Topic, Words, checks, in_mm
 from gripscale.surface.cleaning import subtract_form
 from gripscale.surface.height_difference import height_difference
 from gripscale.surface.profile import HeightMap, Profile
@@ -27,7 +26,6 @@ from gripscale.surface.resampling import fill_gaps
 
 _FALLEN = 0.2  # autocorrelation to which lengths are measured
 _WAYS = 180  # directions that are followed, one a degree
-
 # Weights of neighbouring degrees, without which the strongest wave of a random texture decides.
 _SMOOTHING = np.hanning(33)[1:-1]
 # Share of the largest wavenumber within which the direction is sought: a square grid has more waves
@@ -122,8 +120,9 @@ def direction_of_profiles(
             ", decides.",
         )
         error = 1.0 / ERROR_OF_RIDGES - 1.0
-        topic, key = Topic.SURFACE, "surface.lay"
-        return Finding(Severity.WARNING, sentence, area=error, topic=topic, key=key)
+        return Finding(
+            Severity.WARNING, sentence, area=error, topic=Topic.SURFACE, key="surface.lay"
+        )
     ratios = [_SlopeRatio.over(lag, along, across) for lag in lags]
     counting = [ratio for ratio in ratios if abs(math.log(ratio.value)) > ratio.half_width]
     slopes = ratios[0]
@@ -152,8 +151,6 @@ def direction_of_map(surface: HeightMap) -> Finding | None:
 
 
 class _SlopeRatio(NamedTuple):
-    """Ratio of slopes along and across sliding."""
-
     lag: float  # [m]
     value: float
     half_width: float  # of its 95 % band, in its logarithm

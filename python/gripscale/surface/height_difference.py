@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 _LAGS_PER_DECADE = 20  # where the step allows as many
 _BAND_BLOCKS = 16  # of all profiles, for the band
 _BAND_LEVEL = 0.95  # nominal confidence level of the band
-
 # Half width in log C_z beyond which there is no band: too few blocks hold pairs.
 _WIDEST_BAND = 20.0
 _FEWEST_PAIRS = 16  # pairs a lag must have to be kept
@@ -157,12 +156,9 @@ class BlockSums:
         """Return C_z of a selection of blocks, with repetitions, without a band."""
         squares, pairs = self.squares[blocks].sum(axis=0), self.pairs[blocks].sum(axis=0)
         kept = (pairs >= _FEWEST_PAIRS) & (squares > 0.0)
-        return HeightDifference(
-            self.lag[kept],
-            squares[kept] / pairs[kept],
-            pairs[kept].astype(np.int64),
-            resolution_limit=self.resolution_limit,
-        )
+        lag, value, count = self.lag[kept], squares[kept] / pairs[kept], pairs[kept]
+        limit = self.resolution_limit
+        return HeightDifference(lag, value, count.astype(np.int64), resolution_limit=limit)
 
 
 def block_sums(
@@ -250,7 +246,6 @@ def require_positive(hdc: HeightDifference) -> None:
 
 
 _REACHED = 0.9  # fraction of the mean over all larger lags at which the plateau begins
-
 # Ratio of the largest lag to the plateau's first lag below which it is not called a plateau.
 _SHORTEST_PLATEAU = 2.0
 
@@ -338,11 +333,6 @@ def fit_self_affine(hdc: HeightDifference) -> SelfAffineFit:
 
         >>> f"{gs.fit_self_affine(gs.height_difference(road)).hurst:.2f}"
         '0.74'
-
-    Parameters
-    ----------
-    hdc : HeightDifference
-        The measured curve; it must reach its plateau.
     """
     checks.instance("hdc", hdc, HeightDifference)
     require_positive(hdc)
@@ -368,11 +358,9 @@ def fit_self_affine(hdc: HeightDifference) -> SelfAffineFit:
         )
     residuals = [_line(lag[i:j], value[i:j])[2] for i, j in ranges]
     straight = [r for r, residual in zip(ranges, residuals, strict=True) if residual <= _STRAIGHT]
-    first, last = (
-        max(straight, key=lambda r: float(np.log10(lag[r[1] - 1] / lag[r[0]])))
-        if straight
-        else ranges[int(np.argmin(residuals))]
-    )
+    first, last = ranges[int(np.argmin(residuals))]
+    if straight:
+        first, last = max(straight, key=lambda r: float(np.log10(lag[r[1] - 1] / lag[r[0]])))
     slope, at_one_metre, residual = _line(hdc.lag[first:last], hdc.value[first:last])
     if slope <= 0.0:
         raise InputError(
@@ -381,14 +369,8 @@ def fit_self_affine(hdc: HeightDifference) -> SelfAffineFit:
         )
     # The power law meets the plateau where at_one_metre + slope log10(l) = log10(level).
     cut_off = 10.0 ** ((np.log10(plateau.level) - at_one_metre) / slope)
-    return SelfAffineFit(
-        hurst=0.5 * slope,
-        xi_parallel=float(cut_off),
-        xi_perpendicular=float(np.sqrt(plateau.level)),
-        lag_min=float(hdc.lag[first]),
-        lag_max=float(hdc.lag[last - 1]),
-        residual=residual,
-    )
+    ends, root = (float(hdc.lag[first]), float(hdc.lag[last - 1])), float(np.sqrt(plateau.level))
+    return SelfAffineFit(0.5 * slope, float(cut_off), root, *ends, residual)
 
 
 def _line(lag: Array, value: Array) -> tuple[float, float, float]:

@@ -24,46 +24,33 @@ from pathlib import Path
 import numpy as np
 
 from gripscale.core import Array, FileError, checks
-from gripscale.core.wording import shortened
 from gripscale.surface.profile import even_grid
 
 _LONGEST_HEADER = 2**16
 _PAIR = re.compile(r"^\s*([A-Za-z_]\w*)\s*[=:\s]\s*(.*?)\s*$")
 _ESRI = re.compile(rb"\s*ncols[\s=:]", re.IGNORECASE)
 _BINARY, _TEXT = (b"bISO", b"bBCR"), (b"aISO", b"aBCR")
-_MOST_POINTS = 10**9  # points along an axis beyond which a header is taken as damaged
-
-
-def _is_esri_grid(raw: bytes) -> bool:
-    """Return whether a file is a grid of ESRI in text, by its first word."""
-    return _ESRI.match(raw) is not None
-
-
-def _is_sdf_text(path: Path, raw: bytes) -> bool:
-    """Return whether a file is in the surface data format as text: by its first word or suffix."""
-    return raw.lstrip().startswith(_TEXT) or (
-        path.suffix.lower() == ".sdf" and not raw.startswith(_BINARY)
-    )
+# Points along an axis beyond which a header is taken as damaged, and of a whole map of triangles.
+_MOST_POINTS = 10**8
 
 
 def named_units(path: Path, raw: bytes) -> dict[str, str] | None:
     """Return `xyunits` and `zunits` as far as a grid or a mesh states them; None: it is neither."""
     if is_stl(path, raw):
         return {}
-    if _is_sdf_text(path, raw):
+    by_suffix = path.suffix.lower() == ".sdf" and not raw.startswith(_BINARY)
+    if by_suffix or raw.lstrip().startswith(_TEXT):
         return {"xyunits": "m", "zunits": "m"}
-    return _simple_field_header(raw) or ({} if _is_esri_grid(raw) else None)
+    return _simple_field_header(raw) or ({} if _ESRI.match(raw) else None)
 
 
 def _simple_field_header(raw: bytes) -> dict[str, str]:
-    """Return the header of a simple field of Gwyddion by name in small letters; else empty."""
     if not raw.startswith(b"Gwyddion Simple Field"):
         return {}
     return _header(raw.partition(b"\0")[0].decode("utf-8", errors="replace"))[0]
 
 
 def _simple_field(path: Path, raw: bytes, header: dict[str, str]) -> tuple[Array, Array, Array]:
-    """Return x, y and heights as `read_height_grid`, in the units of the header."""
     end = raw.index(b"\0") if b"\0" in raw else len(raw)
     try:
         points, rows = int(header["xres"]), int(header["yres"])
@@ -90,7 +77,7 @@ def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
     if field := _simple_field_header(raw):
         return _simple_field(path, raw, field)
     header, start = _header(raw[:_LONGEST_HEADER].decode("latin-1"))
-    esri = _is_esri_grid(raw)
+    esri = bool(_ESRI.match(raw))
 
     def number(name: str, default: str = "") -> float:
         text = header.get(name.lower(), default)
@@ -102,7 +89,8 @@ def read_height_grid(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
                 f"{checks.short_repr(text) if text else 'none'}"
             ) from error
         if not default and not 0.0 < value < math.inf:
-            raise FileError(f"{path}: expected {name} finite and above zero; got {shortened(text)}")
+            got = checks.shortened(text)
+            raise FileError(f"{path}: expected {name} finite and above zero; got {got}")
         return value
 
     along, across = ("ncols", "nrows") if esri else ("NumPoints", "NumProfiles")
@@ -151,7 +139,6 @@ _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attrib
 # Distance of coordinates, in the size of the mesh, that single precision cannot tell apart.
 _ROUNDING = 1e-6
 _OVERLAP = 1.01  # area of the triangles over that of their rectangle beyond which some cover others
-_MOST_POINTS = 10**8
 
 
 def is_stl(path: Path, raw: bytes) -> bool:
@@ -162,7 +149,6 @@ def is_stl(path: Path, raw: bytes) -> bool:
 
 
 def _mesh(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
-    """Return x, y and heights of shape (nx, ny) in the unit of the file, NaN in holes."""
     corners = _corners(path, raw)
     rounding = np.ptp(corners, axis=(0, 1)).max() * _ROUNDING
     first, second = ((corners[:, at] - corners[:, 0])[:, :2].T for at in (1, 2))
@@ -191,8 +177,7 @@ def _mesh(path: Path, raw: bytes) -> tuple[Array, Array, Array]:
     return _interpolated(path, points, triangles[seen], step)
 
 
-def _corners(path: Path, raw: bytes) -> Array:
-    """Return the corners of the triangles, shape (triangles, 3, 3)."""
+def _corners(path: Path, raw: bytes) -> Array:  # of shape (triangles, 3, 3)
     count = int.from_bytes(raw[_HEAD - 4 : _HEAD], "little")
     try:
         if len(raw) == _HEAD + _TRIANGLE.itemsize * count:
@@ -209,7 +194,6 @@ def _corners(path: Path, raw: bytes) -> Array:
 def _interpolated(
     path: Path, points: Array, triangles: Array, step: float
 ) -> tuple[Array, Array, Array]:
-    """Return axes in steps and the heights of triangles there."""
     from matplotlib.tri import LinearTriInterpolator, Triangulation
 
     axes = []

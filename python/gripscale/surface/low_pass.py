@@ -6,12 +6,8 @@
 The envelope is that of E. J. McShane, Bull. Amer. Math. Soc. 40 (1934) 837,
 doi:10.1090/S0002-9904-1934-05978-0; the Gaussian that of ISO 16610-21 and 16610-61. All models of
 measured heights take them in this order, and so do correlation, spectra and slopes; texture by
-standards takes the heights as they are.
-
-Waves longer than a footprint do not press into the rubber, the block rides over them: a line
-through the heights below a block of length L leaves a quarter of the mean square of waves of 1.5 L,
-as the Gaussian does at its cut-off. By default they are left out where they hold most of the mean
-square height, because the correlation and its waves are then theirs: docs/derivations.md.
+standards takes the heights as they are. A block rides over waves longer than its footprint:
+docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -31,7 +27,6 @@ from gripscale.surface.resampling import fill_gaps
 STEEPEST = 4.0
 POINTS_IN_CUT_OFF = 4  # points of a line in one wave of its cut-off length
 _ROUNDING = 1e-12
-
 _Heights = TypeVar("_Heights", Profile, HeightMap)
 
 

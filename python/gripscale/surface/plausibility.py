@@ -1,16 +1,10 @@
 """Findings about implausible surfaces, for the person who measured them.
 
-No surface is refused. Limits are wide: random rough profiles of any Hurst exponent and the shipped
-road between its plates pass all of them. Plates and supports are stretches that are no road: flat
-ones with steps at their sides that stand off the others, |z - line| > 6 s with
-s = 1.4826 median |z - line|, or smooth ones.
+No surface is refused; limits are wide. Plates and supports are flat stretches with steps at their
+sides, |z - line| > 6 s with s = 1.4826 median |z - line|, or smooth ones. White noise of the sensor
+has the variance s^2 in second differences on the smoothest stretches (docs/derivations.md),
 
-White noise of the sensor stands in second differences of heights a lag of `a` steps apart, on the
-smoothest stretches of the lines,
-
-    S(a) = < (z(x + a) - 2 z(x) + z(x - a))^2 > / 6 = s^2 + c a^p,    a = 1, 2, 4,
-
-with the variance s^2 of the noise at every lag. Both are derived in docs/derivations.md.
+    S(a) = < (z(x + a) - 2 z(x) + z(x - a))^2 > / 6 = s^2 + c a^p,    a = 1, 2, 4 steps.
 """
 
 from __future__ import annotations
@@ -30,7 +24,6 @@ from gripscale.surface.profile import Profile
 from gripscale.surface.sines import AMPLITUDE_FACTOR_RANGE, FACTOR_RANGE, SineStack
 
 _OFF_THE_LINE = 6.0  # distance from the line, in robust standard deviations, that no road reaches
-
 # Roughness of two pieces in a row, over the usual one, below which they are a plate.
 _SMOOTH_SHARE = 0.02
 _SIDE_STEP = 0.5  # change of height at the side of a stretch, over its height, that is a step
@@ -38,13 +31,11 @@ _SIDE_STEP = 0.5  # change of height at the side of a stretch, over its height, 
 # height has 0.15 and more, the four plates of the shipped road 0.02 to 0.05.
 _LEVEL = 0.1
 _PIECES = 50  # pieces of a profile whose level and roughness are compared
-
 # Heights that tell the roughness of a piece, and that a stretch off the line must have.
 _FEWEST_HEIGHTS = 16
 # Length of a plate, as a share of the profile: shorter are joints and cracks.
 _SHORTEST_SHARE = 1 / 400
 _MOST_STRETCHES = 6  # stretches beyond which they belong to the surface
-
 # Distance kept from a plate, as a share of the profile: its edge, its shadow and what holds it.
 _GUARD_SHARE = 1 / 40
 
@@ -137,13 +128,11 @@ def _stepped(marked: Mask, height: Array) -> Mask:
 
 
 _SPIKE_SLOPE = 3.0  # height change per step that is steep (ISO 13473-1:2019, section 7.5)
-
 # Share of heights at such steps beyond which the unit is probably wrong; roads have 4 %.
 _MOST_STEEP = 0.5
 _TALLEST = 0.1  # rms height over length beyond which one of the two probably has a wrong unit
 _LARGEST_HEIGHT = 0.1  # rms height [m] that no pavement has
 _COARSEST_STEP = 0.01  # step [m] beyond which no texture is measured
-
 # Slope that a quarter of a rough surface exceeds: a gentler one causes hardly any friction.
 _SMOOTHEST = 5e-3
 # Height change over a short way that is a jump, in robust standard deviations of such changes.
@@ -152,12 +141,12 @@ _SHORT_WAY = 1 / 400  # the short way, as a share of the profile
 _MOST_JUMPS = 8  # jumps beyond which they belong to the surface, as grooves do
 _STRETCHES = 40  # parts into which a profile is cut to find flat ones
 _SHORTEST_STRETCH = 16  # heights a part must have for its roughness to be compared
-
 # Largest wave of a plausible fit, in largest lags: a quarter of a wave rises to the plateau.
 _LONGEST_WAVE = 4.0
 # Distance of the logarithm of a factor from its limit below which the factor is at the limit.
 _AT_THE_EDGE = 1e-3
 _FLAT = 0.02  # roughness of a part, over the usual one, below which it is flat
+_BEYOND = 1.0 - 1e-6  # wave over the shortest one resolved below which it is extrapolated
 
 
 def profile_warnings(profile: Profile, cleaned: Profile | None = None) -> tuple[Finding, ...]:
@@ -187,15 +176,12 @@ def has_likely_units(profile: Profile) -> bool:
 
 
 class _Doubts(NamedTuple):
-    """Reasons to doubt that a profile is a road."""
-
     texts: tuple[str, ...] = ()
     heights: Array | None = None  # valid heights [m]; None if meaningless, or with plates
     units: bool = False  # whether a length suggests another unit
 
 
 def _doubts(profile: Profile, cleaned: Profile | None) -> _Doubts:
-    """Return reasons to doubt a profile; raise `InputError` as `profile_warnings` does."""
     part = _kept_part(profile, cleaned)
     measured = part.z
     valid = measured[np.isfinite(measured)]
@@ -314,22 +300,18 @@ def _unit_warnings(z: Array, profile: Profile) -> Iterator[str]:
 
 def extrapolation_notes(sines: SineStack, correlation: HeightDifference) -> Iterator[Finding]:
     """Yield findings on waves and roughness beyond the resolution of the measurement."""
-    last, end, limit = float(sines.wavelength[-1]), sines.cut_off, correlation.resolution_limit
-    if limit is not None and _beyond(last, limit):
+    last, end = float(sines.wavelength[-1]), sines.cut_off
+    limit = correlation.resolution_limit or 0.0
+    if last < limit * _BEYOND:
         yield _warning(
             f"The smallest wave, {in_mm(last, 3)}, is shorter than the measurement resolves, "
             f"{in_mm(limit, 3)}: it extrapolates the waves above it."
         )
-    if end is not None and limit is not None and _beyond(end, limit):
+    if end is not None and end < limit * _BEYOND:
         yield _warning(
             f"The cut-off, {in_mm(end, 3)}, lies beyond what the measurement carries, "
             f"{in_mm(limit, 3)}: the roughness between them is extrapolated."
         )
-
-
-def _beyond(length: float, limit: float | None) -> bool:
-    """Return whether a wave is shorter than what the measurement resolves [m]."""
-    return limit is not None and length < limit * (1.0 - 1e-6)
 
 
 def stack_notes(
@@ -339,10 +321,10 @@ def stack_notes(
 
     `fit` are the arguments of `fit_sines` for the waves.
     """
-    last, limit = float(sines.wavelength[-1]), correlation.resolution_limit
+    last, limit = float(sines.wavelength[-1]), correlation.resolution_limit or 0.0
     stated_end = fit.get("smallest_wavelength") is not None or fit.get("cut_off") is not None
-    if not stated_end and not _beyond(last, limit):
-        at_limit = limit is not None and last <= limit * (1.0 + 1e-6)
+    if not stated_end and not last < limit * _BEYOND:
+        at_limit = last <= limit * (1.0 + 1e-6)
         reason = "the shortest the measurement carries" if at_limit else "where the fit puts it"
         yield _warning(
             f"no smallest wavelength is stated: the smallest wave is {in_mm(last, 3)}, {reason}."

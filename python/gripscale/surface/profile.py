@@ -19,9 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import gripscale
-from gripscale.core import Array, Checked, Finding, InputError, checked, checks
+from gripscale.core import Array, Checked, Finding, InputError, checked, checks, readable
 from gripscale.core.described import Pictured, shown_value
-from gripscale.core.units import readable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,13 +29,11 @@ if TYPE_CHECKING:
 # tenth of a step is just within. Uniform departures up to it add 2 d^2/3 to the squared distance of
 # neighbours, 0.2 % of it.
 GRID_TOLERANCE = 0.05
-
 # Largest last decimal place of printed distances, in steps, that still separates neighbours.
 _COARSEST_PRINT = 0.5
 # Length, in the shortest step, up to which a step counts as single. Printed steps differ by the
 # last decimal, at most half as much again; double steps are longer.
 _SINGLE = 1.6
-
 # Steps in a gap beyond which floating point cannot tell the grid number of its points.
 _LARGEST_NUMBER = 1e12
 
@@ -109,12 +106,10 @@ def uneven_step(x: Array) -> int:
 # Points a profile must have: fewer leave no lag that has both a power law and pairs to average.
 FEWEST_POINTS = 16
 MOST_PROFILE_POINTS = 10_000_000  # points beyond which no profile is made
-
 # Steps in the shortest wavelength that sampling resolves: with fewer, the slope of a sine is a
 # tenth too small, sin(pi/n)/(pi/n) with n steps in a wavelength.
 RESOLVED_STEPS = 4.0
 LAYS = ("along", "across")  # how a profile may lie to the sliding direction
-
 # Note of a profile whose rows were reversed.
 TURNED_ROUND = "distances fell from row to row: the rows were turned round"
 _T = TypeVar("_T")

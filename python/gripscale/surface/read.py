@@ -18,9 +18,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from gripscale.core import Array, FileError, GripscaleError, InputError, checks
+from gripscale.core import Array, FileError, GripscaleError, InputError, checks, quantity_in_si
 from gripscale.core.errors import about_file, unstated, using_extra
-from gripscale.core.units import quantity_in_si
 from gripscale.io import text_table
 from gripscale.io.cells import SEPARATORS, cells_of, is_row, is_row_of
 from gripscale.surface import height_grids
@@ -138,7 +137,6 @@ def _array(path: Path, raw: bytes, step: tuple[float, float] | None) -> list[Arr
 
 
 def _without_size(path: Path, points: Sequence[int]) -> GripscaleError:
-    """Return the refusal of an array of heights whose step nothing states."""
     return unstated(
         f"{path}: expected a lateral size; the file gives none: give ",
         "step",
@@ -307,7 +305,6 @@ def upwards(surface: _AnySurface, z_axis: str | None) -> _AnySurface:
 def _checked_path(
     path: str | os.PathLike[str], x_unit: str | None, z_unit: str | None, reader: str
 ) -> Path:
-    """Return the path; raise `InputError` if it, a unit or the reader cannot be used."""
     checks.one_of("reader", reader, ("auto", "text", "instrument"))
     for name, unit in (("x_unit", x_unit), ("z_unit", z_unit)):
         if unit is not None:
@@ -347,7 +344,6 @@ def is_text_surface(path: Path, reader: str = "auto") -> bool:
 
 
 def _holds_three_columns(path: Path) -> bool:
-    """Return whether the first row of a text has three cells or more."""
     first = next((text for _, text in text_table.read_lines(path) if is_row(text)), "")
     cells = (cells_of(first, separator) for separator in SEPARATORS)
     return any(is_row_of(row) and len(row) > 2 for row in cells)

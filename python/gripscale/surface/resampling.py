@@ -1,10 +1,7 @@
 """Heights where none were measured: equal steps and filled gaps.
 
-Between unequal steps by straight lines between neighbours, with an error of at most
-h^2 max|z''| / 8 over a distance h of neighbours (C. de Boor, A Practical Guide to Splines (1978),
-ch. III). In gaps by a membrane, Laplace's equation in five points (R. J. LeVeque, Finite Difference
-Methods (2007), ch. 3, doi:10.1137/1.9780898717839): no filled height lies above the highest or
-below the lowest around its gap, so that a gap makes no asperity of its own (docs/derivations.md).
+Between unequal steps by straight lines between neighbours; in gaps by a membrane, Laplace's
+equation in five points, so that a gap makes no asperity of its own: docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -87,14 +84,9 @@ def resample(
     apart = old[before + 1] - old[before] > longest * (1.0 + 1e-9)
     between = np.where(apart & (share > 0.0) & (share < 1.0), np.nan, between)
     note = f"put on steps of {even * 1e3:.4g} mm by straight lines; {usual * 1e3:.4g} mm were usual"
-    return profile.Profile(
-        new,
-        between,
-        name,
-        source,
-        reliable=profile.RESOLVED_STEPS * max(usual, even),
-        notes=(profile.TURNED_ROUND, note) if falling else (note,),
-    )
+    notes = (profile.TURNED_ROUND, note) if falling else (note,)
+    reliable = profile.RESOLVED_STEPS * max(usual, even)
+    return profile.Profile(new, between, name, source, reliable, notes)
 
 
 _MOST_LEFT_OUT = 0.5  # largest share of the points of a grid that a file may leave out

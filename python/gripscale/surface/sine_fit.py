@@ -41,7 +41,6 @@ _NUMBERS = range(2, MOST_SINE_WAVES + 1)  # numbers of waves tried where none is
 # C_z(m l) / (m^2 C_z(l)) above which lag l is inconsistent; sampling may exceed 1 a little.
 _CONSISTENT = 1.05
 _CUT_OFF_COUNTED = 0.25  # smallest lag that counts by default, in wavelengths of the cut-off
-
 # Waves below a cut-off that count in the fit: factors of 2 take them below the lags that count.
 _SHORTER_WAVES = 3
 _AS_GOOD = 1.1  # ratio of a residual to the least one up to which fewer waves are preferred
@@ -71,8 +70,6 @@ def fit_sines(
 
     Parameters
     ----------
-    hdc : HeightDifference
-        The measured curve.
     scales : int, optional
         Number of waves, 1 to 24. At least one of `scales`, `smallest_wavelength` and `cut_off` is
         needed. With `scales` alone, no wave lies below `hdc.resolution_limit` if that is known
@@ -232,7 +229,6 @@ def first_consistent_lag(hdc: HeightDifference) -> float:
 def _search_with_factor(
     target: TargetCurve, fixed: Array, single_factor: bool, end: _End
 ) -> ClosestWaves | None:
-    """Search with s_wavelength fixed: as many waves as fit above the end."""
     factor, first = float(fixed[S_WAVELENGTH]), float(fixed[FIRST_WAVELENGTH])
     if not np.isnan(first):
         waves = 1 + int((first - end.log) / factor - end.beyond + 1e-9)
@@ -298,11 +294,6 @@ class SineAmbiguity:
         return self._span(lambda stack: stack.wavelength[0])
 
     @property
-    def first_amplitude(self) -> Span:
-        """Smallest and largest amplitude of the first wave [m]."""
-        return self._span(lambda stack: stack.amplitude[0])
-
-    @property
     def rms_slope(self) -> Span:
         """Smallest and largest rms slope of all waves together [-], on which friction depends."""
         return self._span(lambda stack: stack.rms_slope)
@@ -313,17 +304,10 @@ class SineAmbiguity:
 
 
 def sine_ambiguity(hdc: HeightDifference, sines: SineStack) -> SineAmbiguity:
-    """Return the other stacks that follow `hdc` within its uncertainty.
+    """Return the other stacks that follow `hdc` within the uncertainty that its band states.
 
-    Raises `InputError` if `sines` has one wave, or was not fitted: it then has no range of lags.
-
-    Parameters
-    ----------
-    hdc : HeightDifference
-        The measured curve, with its band.
-    sines : SineStack
-        The waves fitted to it, which fix the range of lags, the first wavelength, and the cut-off
-        or the last wavelength.
+    The waves fitted to it, `sines`, fix the range of lags, the first wavelength, and the cut-off or
+    the last wavelength. Raises `InputError` if they are one wave, or were not fitted.
     """
     if sines.lag_range is None or len(sines) < 2:
         raise InputError(

@@ -116,7 +116,6 @@ def _factor(name: str, lengths: Array, argument: float | None) -> float | None:
 
 
 FIRST_WAVELENGTH, FIRST_AMPLITUDE, S_WAVELENGTH, S_AMPLITUDE = range(4)
-
 FACTOR_RANGE = (1.5, 30.0)  # smallest and largest magnification of wavelength tried
 AMPLITUDE_FACTOR_RANGE = (1.02, 60.0)  # smallest and largest magnification of amplitude tried
 _NEAR = 1e-5  # tolerance of the fits of all starts, of which the closest goes on to 1e-11

@@ -201,15 +201,13 @@ def profile_spectrum(
                 f"window must be from {FEWEST_POINTS * step:g} m to {shortest * step:g} m long; "
                 f"got {window:g}"
             )
-    heights = [fill_gaps(p.z, periodic=periodic) for p in profiles]
-    weights = np.hanning(points + 1)[:-1] if taper == "hann" else np.ones(points)
+    weights = np.ones(points) if periodic else np.hanning(points + 1)[:-1]
     powers = []
-    for z in heights:
+    for line in profiles:
+        z = fill_gaps(line.z, periodic=periodic)
         windows = sliding_window_view(z, points)[:: points - points // 2]
-        if taper == "hann":
-            windows = without_line(windows)
-        else:
-            windows = windows - windows.mean(axis=1, keepdims=True)
+        mean = windows.mean(axis=1, keepdims=True)
+        windows = windows - mean if periodic else without_line(windows)
         power = np.mean(np.abs(np.fft.rfft(weights * windows)) ** 2, axis=0) / (weights @ weights)
         power[1 : (points + 1) // 2] *= 2.0  # the highest wave of an even number has no mirror
         powers.append(power)
@@ -293,11 +291,9 @@ def map_spectrum(
     which = np.searchsorted(start, number[inside], side="right") - 1
     twice = twice[inside]
     count = np.bincount(which, twice)
-    return ArealSpectrum(
-        np.exp(np.bincount(which, twice * np.log(q[inside])) / count),
-        np.bincount(which, twice * power[inside]) / count,
-        float(np.isnan(heights).mean()),
-    )
+    middle = np.exp(np.bincount(which, twice * np.log(q[inside])) / count)
+    density = np.bincount(which, twice * power[inside]) / count
+    return ArealSpectrum(middle, density, float(np.isnan(heights).mean()))
 
 
 _TAIL_POINTS = 4  # last points of a spectrum whose power law is continued
@@ -309,13 +305,9 @@ def areal_spectrum(spectrum: ProfileSpectrum) -> ArealSpectrum:
 
     The Abel equation is solved for the C >= 0 at the averaged wavenumbers that fits C_1 there best,
     relative to its scatter. Beyond the last point C_1 is continued as the power law of its last
-    points: lines see those waves at smaller k, too, but they are no part of the result. Raises
+    points: lines see those waves at smaller k, too, but they are no part of the result. The
+    `spectrum` of lines in any direction is averaged to ten wavenumbers a decade first. Raises
     `InputError` if there are fewer than four points.
-
-    Parameters
-    ----------
-    spectrum : ProfileSpectrum
-        Of lines in any direction; it is averaged to ten wavenumbers a decade first.
     """
     from scipy.optimize import nnls
 

@@ -116,13 +116,12 @@ class Measured(Described):
 
     def without_long_waves(self, longest: float) -> Measured:
         """Return the profiles without waves beyond the cut-off `longest` [m]."""
-        along, across, reports = [], [], []
+        along, reports = [], []
         for at, (raw, cleaned) in enumerate(self.profiles):
             after, step = subtract_long_waves(cleaned, longest)
             along.append((raw, after))
             reports.append(CleaningReport((*(self.cleaning[at] if self.cleaning else ()), step)))
-        for raw, cleaned in self.across:
-            across.append((raw, subtract_long_waves(cleaned, longest)[0]))
+        across = [(raw, subtract_long_waves(line, longest)[0]) for raw, line in self.across]
         return replace(self, profiles=along, across=across, cleaning=reports, longest=longest)
 
     @property
@@ -210,10 +209,6 @@ class Measured(Described):
         """Findings that make the answer unreliable: depths, sentinels, plates, units."""
         return tuple(f for f in self.findings if f.severity == Severity.DOUBT)
 
-    def bare(self) -> Measured:
-        """Return the measurement without its cleaning reports and fits."""
-        return Measured.of(self.heights)
-
 
 SurfaceKind = Literal["surface", "road", "floor", "counterface"]
 SURFACE_KINDS = get_args(SurfaceKind)
@@ -277,10 +272,11 @@ class Surface(Described):
     def only(self, parts: Collection[SurfacePart]) -> Surface:
         """Return a surface with these parts only, without their origin."""
         waves = self.waves if "waves" in parts else None
+        measured = self.measured and Measured.of(self.measured.heights)
         return Surface(
             waves and SineStack(waves.wavelength, waves.amplitude),
             source="",
-            measured=self.measured and self.measured.bare() if "measurement" in parts else None,
+            measured=measured if "measurement" in parts else None,
             end=self.cutoff_wavelength if "cut_off" in parts else None,
         )
 
@@ -404,9 +400,7 @@ def with_single_measurement(surface: Surface, measured: Profile | HeightMap) -> 
 
 def each_measured(surface: Surface) -> list[tuple[str, Surface]]:
     """Return names of the profiles of `surface`, or of its map, each with a surface of it alone."""
-    measured: Sequence[Profile | HeightMap] = (
-        [] if surface.measured is None else surface.measured.surfaces
-    )
+    measured: Sequence[Profile | HeightMap] = surface.measured.surfaces if surface.measured else ()
     return [
         (part.name or f"profile {i}", with_single_measurement(surface, part))
         for i, part in enumerate(measured, 1)

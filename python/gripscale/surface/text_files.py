@@ -124,16 +124,13 @@ _MOST_TIMES = 100
 def _read_table(path: Path, lines: list[Line], expected: str) -> TextTable:
     titles = [_DISTANCE_TITLE, _ACROSS_TITLE, _HEIGHT_TITLE]
 
-    def read() -> TextTable:
-        def named(name: str) -> bool:
-            return bool(kind_of(name)) or any(title.match(name) for title in titles)
+    def named(name: str) -> bool:
+        return bool(kind_of(name)) or any(title.match(name) for title in titles)
 
-        return table_in(path, lines, expected, kinds=("length",), named=named)
-
-    table = read()
+    table = table_in(path, lines, expected, kinds=("length",), named=named)
     if not table.names:  # times alone: beside other titles they may be words, such as 12:03
         titles.append(_TIME_TITLE)
-        table = read()
+        table = table_in(path, lines, expected, kinds=("length",), named=named)
     if is_spectrum(table):
         raise FileError(
             f"{path}: expected heights; got the power spectrum of a surface, titled "
@@ -174,8 +171,7 @@ def _profile_columns(
                 f"{f'titled {table.titles}' if table.titles else 'without such titles'}"
             )
     z = [at for at in z if at in rest] or rest
-    no_heights = [at for at in z if _is_no_height(table.columns[at])]
-    z = [at for at in z if at not in no_heights] or z
+    z = [at for at in z if not _is_no_height(table.columns[at])] or z
     if channel is not None:
         numbers = {name: at for at, name in enumerate(table.names) if name}
         z = [numbers[channel] if channel in numbers else _column_number(table, channel)]
@@ -213,7 +209,6 @@ def _is_index(title: ColumnTitle, few: bool) -> bool:
 
 
 def _counts(table: TextTable, column: int) -> bool:
-    """Return whether a column holds the numbers of the rows."""
     if column + 1 == len(table.columns):
         return False
     with suppress(FileError):
@@ -329,7 +324,6 @@ def _even_grid(
 def _resampled(
     path: Path, x: Array, z: Array, notes: list[str], doubts: tuple[Finding, ...]
 ) -> Profile:
-    """Return a profile of uneven distances on steps of their mean."""
     steps = np.diff(x)
     mean = float(steps.mean())
     with about_file(path):

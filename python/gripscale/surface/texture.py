@@ -29,16 +29,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _SEGMENT = 0.1  # length of a segment [m]
-
 # Steps to which a finer profile is averaged, and beyond which it has no profile depth [m].
 _SAMPLE, _COARSEST = 0.5e-3, 1e-3
 _SHORTEST_WAVE = 2.4e-3  # wavelength at which the filter of the standard begins [m]
 _PADDING = 9  # samples by which the filter continues a line at either end
-
 # Share of missing heights beyond which a segment does not count: the standard allows 10 % of
 # dropouts and 5 % of spikes.
 _MOST_MISSING = 0.15
-
 # Symbols of profiles and maps, unit and meaning of each number.
 TEXTURE_NUMBERS = {
     "mean_profile_depth": ("MPD", "m", "mean profile depth, ISO 13473-1"),
@@ -58,7 +55,6 @@ TEXTURE_NUMBERS = {
     "texture_aspect_ratio": ("Str", "1", "that length over the longest, 1 without a direction"),
     "texture_direction": ("Std", "rad", "angle of the ridges to x"),
 }
-
 DEPTH_NOTE = "depth_note"  # why there is no mean profile depth, or empty
 
 
@@ -198,7 +194,6 @@ def _without_short_waves(heights: Array, frequency: float) -> Array:
 
 
 def _height_numbers(z: Array) -> dict[str, float]:
-    """Return the numbers of heights [m], NaN where missing."""
     heights = z[np.isfinite(z)]
     rms = _mean(heights**2) ** 0.5
     shape = heights / rms if rms > 0.0 else np.full(1, np.nan)
@@ -223,7 +218,6 @@ def _mean(values: Array) -> float:
 _REFERENCE = 1e-6  # root mean square height of the level zero [m]
 _LENGTHS = 12.0  # length of a profile over the longest wavelength of its bands
 _HALF_BAND = 10.0**0.05  # edge of a band over its middle
-
 # Numbers by which the middles of the bands are called (ISO 3, R10).
 _PREFERRED = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
 
