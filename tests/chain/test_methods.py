@@ -10,11 +10,6 @@ from tests.samples import SHIFTED_RUBBER
 ROAD = self_affine_profile(0.8, 2e-3, 1e-4, 0.1, 1e-4, seed=1)
 
 
-def test_a_rubber_is_drawn():
-    labels = {axes.get_ylabel() for axes in SHIFTED_RUBBER.plot().axes}
-    assert any("MPa" in label for label in labels)
-
-
 def test_a_direct_contact_is_drawn():
     contact = gs.solve_rough_contact(
         SHIFTED_RUBBER, ROAD, pressure=3e5, speed=1.0, smallest_wavelength=2e-3

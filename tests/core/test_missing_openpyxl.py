@@ -1,10 +1,7 @@
 """Without openpyxl, reading a workbook names an extra that has it."""
 
-from __future__ import annotations
-
 import sys
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -17,18 +14,18 @@ HINT = f"needs openpyxl, which is not installed; install it with: pip install 'g
 
 
 @pytest.fixture(autouse=True)
-def _no_openpyxl(monkeypatch: pytest.MonkeyPatch) -> None:
+def _no_openpyxl(monkeypatch):
     monkeypatch.setitem(sys.modules, "openpyxl", None)
 
 
-def test_reading_gives_the_hint(tmp_path: Path) -> None:
+def test_reading_gives_the_hint(tmp_path):
     (tmp_path / "curve.xlsx").write_bytes(b"PK")
     with pytest.raises(FileError) as reading:
         read_master_curve(tmp_path / "curve.xlsx")
     assert HINT in str(reading.value)
 
 
-def test_the_extra_has_it() -> None:
+def test_the_extra_has_it():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())
     extras = project["project"]["optional-dependencies"]
     assert any(needed.startswith("openpyxl") for needed in extras[EXTRA])

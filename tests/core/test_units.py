@@ -1,7 +1,5 @@
 """Units: sizes against their definitions, spellings, and quantities with their unit."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -36,14 +34,14 @@ from gripscale.core.units import (
         ("K", "temperature", 1),
     ],
 )
-def test_one_of_a_unit_in_si(unit: str, kind: str, si: float) -> None:
+def test_one_of_a_unit_in_si(unit, kind, si):
     assert quantity_in_si(1.0, unit, kind) == pytest.approx(si, rel=1e-15)
     assert quantity_in_si(np.ones(3), unit, kind) == pytest.approx([si] * 3, rel=1e-15)
     assert parse_quantity(f"1 {unit}", kind) == quantity_in_si(1.0, unit, kind)
 
 
 @pytest.mark.parametrize("kind", UNITS)
-def test_the_first_unit_of_a_kind_is_that_of_si(kind: str) -> None:
+def test_the_first_unit_of_a_kind_is_that_of_si(kind):
     first = next(iter(UNITS[kind]))
     assert quantity_in_si(2.5, first, kind) == 2.5
     assert listed(kind).startswith(first)
@@ -67,11 +65,11 @@ def test_the_first_unit_of_a_kind_is_that_of_si(kind: str) -> None:
         (None, "length", None),
     ],
 )
-def test_spellings(written: object, kind: str, usual: str | None) -> None:
+def test_spellings(written, kind, usual):
     assert spelled(written, kind) == usual
 
 
-def test_an_unknown_unit_is_named_with_all_that_are_known() -> None:
+def test_an_unknown_unit_is_named_with_all_that_are_known():
     with pytest.raises(InputError, match=r"z_unit must be one of m, cm, .*; got 'furlong'"):
         quantity_in_si(1.0, "furlong", "length", "z_unit")
 
@@ -80,8 +78,6 @@ def test_an_unknown_unit_is_named_with_all_that_are_known() -> None:
     ("metres", "digits", "text"),
     [(1.0, 3, "1000 mm"), (12.3456, 3, "12300 mm"), (1e-7, 3, "0.0001 mm"), (4e4, 3, "4e+07 mm")],
 )
-def test_numbers_in_display_units_are_shown_without_an_exponent(
-    metres: float, digits: int, text: str
-) -> None:
+def test_numbers_in_display_units_are_shown_without_an_exponent(metres, digits, text):
     assert DisplayUnit("mm", 1e-3).text(metres, digits) == text
     assert in_mm(metres, digits) == text

@@ -13,60 +13,6 @@ from gripscale.rubber import MasterCurve, Rubber, fit_prony, read_master_curve
 from tests.samples import EXAMPLES
 
 DATA = EXAMPLES / "data/rubber"
-TREAD = DATA / "measured_dma.txt"
-LONG = 10**400
-HUGE = 10**5000
-"""More digits than Python prints."""
-
-
-@pytest.mark.parametrize(
-    "value", [10**300, LONG, HUGE, -LONG], ids=["float", "long", "huge", "negative"]
-)
-def test_long_integers(value):
-    calls = (
-        lambda: Rubber(value),
-        lambda: Rubber(1e6, bulk_modulus=value),
-        lambda: Rubber(1e6, [1e6, value], [1.0, 2.0]),
-        lambda: Rubber(1e6).complex_modulus(value),
-        lambda: Rubber(1e6, valid_band=(1.0, value)),
-        lambda: MasterCurve([1.0, value], [1e6, 1e6], [1e5, 1e5]),
-        lambda: fit_prony(read_master_curve(TREAD), terms=value),
-        lambda: fit_prony(read_master_curve(TREAD), extrapolate_decades=value),
-    )
-    for call in calls:
-        with pytest.raises(InputError) as caught:
-            call()
-        assert len(str(caught.value)) < 200
-
-
-@pytest.mark.parametrize(
-    ("frequency", "storage", "loss", "named"),
-    [
-        ([1.0, 1e308], [1e6] * 2, [1e5] * 2, "frequency .* 1e.308 at index 1"),
-        ([1e-101, 1.0], [1e6] * 2, [1e5] * 2, "frequency .* 1e-101 at index 0"),
-        ([1.0, 2.0], [1e6, 1e308], [1e5] * 2, "storage .* 1e.308"),
-        ([1.0, 2.0], [1e6] * 2, [1e-310, 1.0], "loss .* 1e-310"),
-    ],
-)
-def test_curves(frequency, storage, loss, named):
-    with pytest.raises(InputError, match=named):
-        MasterCurve(frequency, storage, loss)
-
-
-@pytest.mark.parametrize(
-    ("text", "named"),
-    [
-        ("1e308,2,0.2\n10,3,0.3\n", "line 2: expected a frequency between 1e-100 and"),
-        ("1e-101,2,0.2\n10,3,0.3\n", "line 2: expected a frequency between 1e-100 and"),
-        ("1" + "0" * 400 + ",2,0.2\n10,3,0.3\n", "line 2: expected a frequency between"),
-        ("1,1e305,0.2\n10,3,0.3\n", "line 2: expected a storage between"),
-    ],
-)
-def test_files(tmp_path, text, named):
-    path = tmp_path / "curve.csv"
-    path.write_text("f [Hz],E' [MPa],E'' [MPa]\n" + text)
-    with pytest.raises((FileError, InputError), match=named):
-        read_master_curve(path)
 
 
 def test_extreme_products_of_frequency_and_time():
@@ -95,7 +41,7 @@ def test_any_rows_are_fitted_or_refused(rows):
         assert np.isfinite([low, high]).all()
 
 
-def mutated(content: bytes, chance: random.Random) -> bytes:
+def mutated(content, chance):
     """Return a file with a few bytes, digits or lines changed, lost, doubled or swapped."""
     data = bytearray(content)
     for _ in range(chance.randint(1, 4)):
@@ -126,7 +72,7 @@ def test_mutations_of_a_shipped_file(tmp_path):
     place = DATA / "measured_dma.txt"
     content, path = place.read_bytes(), tmp_path / place.name
     chance = random.Random(4)
-    for _ in range(500):
+    for _ in range(150):
         path.write_bytes(mutated(content, chance))
         with contextlib.suppress(InputError, FileError):
             read_master_curve(path)

@@ -10,7 +10,7 @@ from gripscale.rubber import springpot_modulus, styrene_butadiene
 def test_springpots_at_the_reference_frequency():
     """At w_r each springpot is its modulus at a phase of 90 degrees times its exponent."""
 
-    def turned(modulus: float, degrees: float) -> complex:
+    def turned(modulus, degrees):
         return complex(modulus * np.exp(1j * np.deg2rad(degrees)))
 
     expected = turned(1.76e6, 2.3) + 1 / (1 / turned(1.12e9, 55.0) + 1 / turned(1.12e9, 2.0))

@@ -1,7 +1,5 @@
 """Shift factors: closed forms, chains of temperatures, tables by hand, formulas fitted."""
 
-from __future__ import annotations
-
 import json
 import math
 
@@ -176,7 +174,7 @@ def test_arrhenius_of_the_glass_alone():
         fit_arrhenius(rising)
 
 
-def rubber(**more) -> Rubber:
+def rubber(**more):
     omega = np.geomspace(1e-2, 1e6, 60)
     modulus = Rubber(2e6, [3e6, 8e6], [1e-1, 1e-4]).complex_modulus(omega)
     curve = MasterCurve(
@@ -244,7 +242,7 @@ def test_beyond_the_range_of_the_shift_is_said():
     assert temperature_doubts({"a": here, "b": here, "c": here}) == ()
 
 
-def test_a_temperature_beyond_the_sweeps_is_refused_in_celsius_with_its_cure() -> None:
+def test_a_temperature_beyond_the_sweeps_is_refused_in_celsius_with_its_cure():
     swept = ShiftTable([243.15, 293.15, 313.15], [5.0, 0.0, -1.5])
     with pytest.raises(InputError) as caught:
         swept.a(333.15, 293.15)
@@ -257,7 +255,7 @@ def test_a_temperature_beyond_the_sweeps_is_refused_in_celsius_with_its_cure() -
     assert "sweeps" not in str(far.value)
 
 
-def test_a_table_of_what_is_no_log10_of_a_shift_is_refused() -> None:
+def test_a_table_of_what_is_no_log10_of_a_shift_is_refused():
     """Ten decades in 10 K, or a_T itself: 30, 1, 0.05."""
     for horizontal in ([10.0, 0.0, -1.0], [30.0, 1.0, 0.05]):
         with pytest.raises(InputError, match="horizontal must be log10 a_T"):

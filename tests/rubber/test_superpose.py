@@ -1,7 +1,5 @@
 """Known rubbers measured at ten temperatures, with scatter: are shifts and moduli found again?"""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -28,9 +26,7 @@ TRANSITION = np.linspace(-15.0, 21.0, 10)
 POLYMER = EXAMPLES / "data/rubber/multi_temperature_polymer"
 
 
-def measured(
-    celsius, noise: float, seed: int = 0, hertz=HERTZ, modulus=springpot_modulus, lift: float = 0.0
-) -> Sweeps:
+def measured(celsius, noise, seed=0, hertz=HERTZ, modulus=springpot_modulus, lift=0.0):
     """Sweeps with relative scatter; b_T grows by `lift` for every kelvin above room temperature."""
     generator = np.random.default_rng(seed)
     rows = []
@@ -43,7 +39,7 @@ def measured(
     return Sweeps(*np.hstack(rows))
 
 
-def shift_errors(sweeps: Sweeps, table: ShiftTable) -> np.ndarray:
+def shift_errors(sweeps, table):
     return table.log_a(table.temperature, ROOM) - TRUE.log_a(sweeps.temperatures, ROOM)
 
 

@@ -1,7 +1,5 @@
 """The typical tread: its numbers from the published sweeps, and what it says of each compound."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,30 +1,13 @@
 """Profiles, maps and curves draw themselves."""
 
-import numpy as np
-
 import gripscale as gs
 from gripscale.surface import self_affine_profile
 
 PROFILE = self_affine_profile(0.8, 2e-3, 1e-3, 0.1, 1e-4, seed=1)
-MAP = gs.HeightMap(
-    1e-4 * np.arange(24),
-    2e-4 * np.arange(20),
-    1e-5 * np.random.default_rng(0).standard_normal((24, 20)),
-)
 
 
 def labels(figure):
     return {text for axes in figure.axes for text in axes.get_legend_handles_labels()[1]}
-
-
-def test_a_profile_is_drawn_beside_its_measurement():
-    cleaned, _ = gs.clean(PROFILE, detrend="mean")
-    for figure in (PROFILE.plot(), PROFILE.plot(cleaned)):
-        assert [axes.get_xlabel() for axes in figure.axes][-1] == "distance $x$ [mm]"
-
-
-def test_a_map_is_drawn():
-    assert MAP.plot().axes[0].get_ylabel() == "distance across $y$ [mm]"
 
 
 def test_fits_of_a_curve_are_in_its_figure():

@@ -103,6 +103,7 @@ def test_spikes_left_in_lower_the_exponent():
         (LAG, LAG**1.6, "must reach a plateau"),
         (LAG, np.where(LAG > 1e-3, 1.0, 0.0), "must be positive at every lag"),
         (LAG, np.ones(81), "must have 4 lags"),
+        (LAG, np.zeros(81), "the heights must differ, a plane has no roughness"),
         (LAG[:3], np.ones(3), "must reach a plateau|must have 4 lags"),
         ([1.0], [1.0], "must reach a plateau|must have 4 lags"),
     ],

@@ -3,11 +3,6 @@ import pytest
 
 from gripscale.core.errors import InputError
 from gripscale.surface import height_difference, self_affine_profile
-from tests.samples import sine_profile
-
-from .surface_cases import geometric_stack
-
-STACK = geometric_stack(1e-2, 1e-3, 3.0, 2.0, 2)
 
 
 @pytest.mark.parametrize("hurst", [0.4, 0.8, 1.0])
@@ -20,15 +15,6 @@ def test_self_affine_profiles_have_the_curve_they_promise(hurst):
     promised = 1e-6 * (1.0 - np.exp(-((curves[0].lag / 2e-3) ** (2.0 * hurst))))
     # 12 x 400 cut-offs of independent heights: about sqrt(2 x 2 / 4800) = 3 %; four of them.
     assert np.abs(mean / promised - 1.0).max() < 0.12
-
-
-def test_equal_seeds_give_equal_profiles():
-    first, again = (sine_profile(STACK, 0.1, 1e-4, 7) for _ in range(2))
-    other = sine_profile(STACK, 0.1, 1e-4, 8)
-    assert np.array_equal(first.z, again.z)
-    assert not np.allclose(first.z, other.z)
-    assert len(first) == 1001
-    assert np.abs(first.z).max() <= 1.5e-3
 
 
 @pytest.mark.parametrize(
