@@ -113,11 +113,6 @@ def test_a_run_keeps_and_tells_it(case, tmp_path):
     assert "cut-off: 0.4 mm (the shortest wavelength that the measurement carries)" in words
     exponent = chain_of(case).cut_off_exponents.friction
     assert f"d ln μ / d ln λ_min = {exponent:.2f}" in words
-    outcome = CliRunner().invoke(app, ["report", str(tmp_path / "again")])
-    assert outcome.exit_code == 0, outcome.output
-    page = next((tmp_path / "again").glob("*.html")).read_text(encoding="utf-8")
-    assert "The cut-off" in page
-    assert "d ln μ / d ln λ_min" in page
 
 
 def test_a_study_varies_lengths_and_rules_side_by_side(case, tmp_path):

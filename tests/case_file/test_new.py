@@ -236,24 +236,6 @@ def test_sweeps_that_do_not_overlap_name_the_shift(tmp_path, shell):
     assert "shift as given" in outcome.output
 
 
-def test_each_hint_is_one_of_the_file_at_hand(tmp_path, shell):
-    """A map is told nothing of columns of moduli, moduli nothing of steps."""
-    word = tmp_path / "map.txt"
-    rows = ["\t".join("1.5" for _ in range(20)) for _ in range(20)]
-    word.write_text("\n".join(rows).replace("1.5", "broken", 5).replace("broken", "1.5", 4))
-    dma = sweeps(tmp_path / "dma.csv")
-    outcome = shell("new", word, dma, "-o", tmp_path / "case.toml", "--step", "0.1 mm")
-    text = " ".join(outcome.output.split())
-    assert "map.txt, line 1: expected a number in column 5; got 'broken'" in text
-    assert "--columns" not in text
-    bare = tmp_path / "bare.csv"
-    bare.write_text("1;2;3;4\n" * 3)
-    outcome = shell("new", road(tmp_path / "road.csv"), bare, "-o", tmp_path / "case.toml")
-    text = " ".join(outcome.output.split())
-    assert "--columns must give the frequency; no header, such as --columns frequency=2" in text
-    assert "--step" not in text
-
-
 def test_a_case_is_not_overwritten(tmp_path):
     target = tmp_path / "case.toml"
     target.write_text("mine")

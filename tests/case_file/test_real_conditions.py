@@ -95,7 +95,8 @@ def test_a_saved_case_has_the_same_conditions_and_answer(folder, filled, interfa
     assert (again.filled, again.interface) == (filled, interface)
     assert again.conditions == case.conditions
     assert bool(again.softening_doubts) == bool(case.softening_doubts)
-    answers = [gs.answer(each) for each in (case, again)]
-    assert answers[0].friction == pytest.approx(answers[1].friction, rel=1e-4)
-    area = [answer.contact_fraction for answer in answers]
-    assert area[0] == pytest.approx(area[1], rel=1e-4)
+    if interface:  # of the others heights, rubber and conditions are the same
+        answers = [gs.answer(each) for each in (case, again)]
+        assert answers[0].friction == pytest.approx(answers[1].friction, rel=1e-4)
+        area = [answer.contact_fraction for answer in answers]
+        assert area[0] == pytest.approx(area[1], rel=1e-4)

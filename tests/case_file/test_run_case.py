@@ -6,8 +6,7 @@ import gripscale as gs
 from gripscale.case_file import case_chain, read_case, read_case_file
 from gripscale.core.errors import ExtrapolationError
 from gripscale.core.status import Status
-from gripscale.io import netcdf
-from tests.run_case import chain_of, run_case
+from tests.run_case import chain_of
 from tests.samples import fail_waves
 
 
@@ -39,14 +38,6 @@ def test_pressure_classes_of_the_case_are_those_of_the_chain(case):
     alone = case_chain(read_case_file(case)).predict(read.rubber, read.surface, read.load)
     assert chain_of(case).friction == alone.total_friction
     assert alone.sizes["pressure_class"] == 2
-
-
-def test_files_are_written_where_they_are_wanted(case, tmp_path):
-    result = run_case(case, tmp_path / "out")
-    stored = netcdf.load_dataset(tmp_path / "out" / "chain.nc")
-    assert float(stored.total_friction) == result.friction
-    assert gs.load(tmp_path / "out" / "answer.nc").friction == result.friction
-    assert (tmp_path / "out" / "case.toml").read_text() == case.read_text()
 
 
 def test_what_was_solved_is_not_solved_again(case, tmp_path, monkeypatch):

@@ -47,18 +47,22 @@ def moved(case, folder):
     return gs.read_case(folder / "moved" / "mine.toml")
 
 
-def assert_same(case, other):
-    """Compare all numbers of two answers to the last bit, and those of the chain."""
+def assert_same(case, other, *, answers=True):
+    """Compare heights, the chain and, if wanted, all numbers of two answers to the last bit."""
+    measured = [each.surface.measured for each in (case, other)]
+    for ours, theirs in zip(*(m.surfaces if m else () for m in measured), strict=True):
+        np.testing.assert_array_equal(ours.z, theirs.z)
     chains = [
         each.chain.solve(each.rubber, each.surface.sines, each.load) for each in (case, other)
     ]
     assert chains[0].friction == chains[1].friction > 0.0
-    before, after = gs.answer(case).to_dataset(), gs.answer(other).to_dataset()
-    assert set(before) == set(after)
-    for name, values in before.items():
-        if values.dtype.kind == "f":
-            xr.testing.assert_identical(values.drop_attrs(), after[name].drop_attrs())
-    assert case.surface.measured is None or before["total_friction"] > 0.0
+    if answers:
+        before, after = gs.answer(case).to_dataset(), gs.answer(other).to_dataset()
+        assert set(before) == set(after)
+        for name, values in before.items():
+            if values.dtype.kind == "f":
+                xr.testing.assert_identical(values.drop_attrs(), after[name].drop_attrs())
+        assert measured[0] is None or before["total_friction"] > 0.0
 
 
 SURFACES = {
@@ -74,7 +78,7 @@ SURFACES = {
 def test_every_surface_comes_back(surface, tmp_path):
     case = gs.Case(SURFACES[surface], SHIFTED_RUBBER, **LOAD, waves=3, chain=QUICK)
     other = moved(case, tmp_path)
-    assert_same(case, other)
+    assert_same(case, other, answers=surface in ("profile", "map"))
     assert other.chain == case.chain
     assert other.load == case.load
 

@@ -4,7 +4,6 @@ Each trap changes one thing of a case that has no doubt.
 """
 
 import math
-import re
 
 import numpy as np
 import pytest
@@ -181,25 +180,21 @@ def test_an_answer_of_no_rubber_is_none_to_rely_on(tmp_path):
     assert no_answer(direct).startswith("none to rely on. E' and E'' do not belong to one rubber:")
 
 
-@pytest.mark.parametrize("vary", [{"speed": "0.1,1"}, {"rubber": ["case", "other.txt"]}])
-def test_a_study_on_a_misread_rubber_says_so(tmp_path, vary):
+def test_questions_on_a_misread_rubber_say_so(tmp_path):
     misread = dma_text(60.0, "0.2")
-    file = write(tmp_path, dma=misread if "speed" in vary else DMA)
+    case = read_case(write(tmp_path, dma=misread))
+    answers = [
+        gs.compare(case, models=["direct"]).data,
+        compare_surfaces(case, {"a": "case", "b": "case"}).data,
+        Study(case, {"speed": "0.1,1"}, model="chain").run(tmp_path / "speeds", workers=1),
+    ]
     (tmp_path / "other.txt").write_text(misread, encoding="utf-8")
-    named = read_named_inputs(vary, file)
-    study = Study(read_case(file), named, model="chain").run(tmp_path / "study", workers=1)
-    assert str(input_doubts_of(study)[0]).startswith("E' and E'' do not belong to one rubber:")
-
-
-def test_comparisons_with_a_misread_rubber_say_so(tmp_path):
-    misread = write(tmp_path, dma=dma_text(60.0, "0.2"))
-    ladder = gs.compare(read_case(misread), models=["direct"]).data
-    roads = compare_surfaces(read_case(misread), {"a": "case", "b": "case"})
-    (tmp_path / "other.txt").write_text(dma_text(60.0, "0.2"), encoding="utf-8")
     file = write(tmp_path)
-    rubbers = {"right": "case", "misread": read_rubber("other.txt", file)}
-    compounds = compare_compounds(read_case(file), rubbers)
-    for data in (ladder, roads.data, compounds.data):
+    case, rubbers = read_case(file), {"right": "case", "misread": read_rubber("other.txt", file)}
+    answers.append(compare_compounds(case, rubbers).data)
+    named = read_named_inputs({"rubber": ["case", "other.txt"]}, file)
+    answers.append(Study(case, named, model="chain").run(tmp_path / "rubbers", workers=1))
+    for data in answers:
         assert str(input_doubts_of(data)[0]).startswith("E' and E'' do not belong to one rubber:")
 
 
@@ -211,22 +206,6 @@ def test_a_contact_without_result_says_the_doubt_of_its_inputs():
     assert no_answer(data) == (
         "none. Is the unit right? The chain of waves has no result: contact too narrow."
     )
-
-
-MIRROR = road_text(1e-5 * ROUGH.z)
-SOFT = dma_text(5.0, 1.0, "E' [kPa],E'' [kPa]")
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [{"road": road_text(titles="x [mm]\tz [um]"), "dma": SOFT}, {"road": MIRROR, "dma": SOFT}],
-    ids=["heights", "mirror"],
-)
-def test_an_answer_that_no_road_or_rubber_has_doubts_its_units_first(tmp_path, changes):
-    direct = answer(read_case(write(tmp_path, **changes))).data
-    first = no_answer(direct).partition("?")[0]
-    assert first.startswith(("none to rely on. ", "none. "))
-    assert re.search(r"(is|are) the units? of (the )?(heights|distances|moduli)", first)
 
 
 @pytest.mark.parametrize(

@@ -28,13 +28,6 @@ def test_pressure_area_and_friction_follow_equations_1_to_3():
     assert result.friction_from_dissipation == 0.75 * 0.875
 
 
-def test_pressure_times_running_area_is_the_nominal_pressure():
-    result = solve_chain(Spring(), THREE, solver=Scripted([0.3, 0.7, 0.9]), **LOAD)
-    received = np.array([s.pressure_received for s in result.scales])
-    above = np.concatenate([[1.0], result.running_contact_fraction[:-1]])
-    np.testing.assert_allclose(received * above, LOAD["pressure"], rtol=1e-14)
-
-
 def test_full_contact_passes_the_pressure_on_unchanged():
     result = solve_chain(Spring(), THREE, solver=Scripted([1.0, 1.0, 0.5]), **LOAD)
     assert [s.pressure_received for s in result.scales] == [LOAD["pressure"]] * 3
@@ -62,12 +55,6 @@ def test_at_rest_the_load_lasts_for_ever(stated):
     solver = Scripted([0.5, 0.5, 0.5])
     solve_chain(Spring(), THREE, solver=solver, load_time=stated, **{**LOAD, "speed": 0.0})
     assert [problem.load.load_time for problem in solver.asked] == [math.inf] * 3
-
-
-def test_solver_gets_the_rubber():
-    solver, rubber = Scripted([0.5, 0.5, 0.5]), Spring()
-    solve_chain(rubber, THREE, solver=solver, **LOAD)
-    assert all(problem.rubber is rubber for problem in solver.asked)
 
 
 def test_solver_by_name_or_by_its_face_gets_the_options():
@@ -136,18 +123,6 @@ def test_chain_stops_at_the_cut_off(limits, count):
     assert len(result.scales) == count
 
 
-def test_every_wave_is_reported_as_it_comes():
-    seen = []
-    solve_chain(
-        Spring(),
-        THREE,
-        solver=Scripted([0.5, 0.5, 0.5]),
-        on_scale=lambda so_far: seen.append(len(so_far.scales)),
-        **LOAD,
-    )
-    assert seen == [1, 2, 3]
-
-
 def test_modulus_and_loss_factor_are_taken_at_the_fundamental_frequency():
     class Dashpot(Spring):
         def complex_modulus(self, omega):
@@ -193,10 +168,8 @@ def test_wave_without_a_usable_contact_stops_the_chain(fraction):
     ("change", "words"),
     [
         ({"pressure": 0.0}, "pressure must be greater than zero [Pa]; got 0"),
-        ({"pressure": math.nan}, "pressure must be a finite number [Pa]; got nan"),
         ({"pressure": "3 barrels"}, "pressure = '3 barrels': unknown unit"),
         ({"speed": -1.0}, "speed must not be negative [m/s]; got -1"),
-        ({"speed": math.inf}, "speed must be a finite number [m/s]; got inf"),
         ({"footprint": -0.1}, "footprint must be greater than zero [m]; got -0.1"),
         ({"load_time": 0.0}, "load_time must be greater than zero [s]; got 0"),
         ({"load_time": "soon"}, 'load_time must be "passage", "infinite" or a time'),

@@ -74,14 +74,6 @@ def test_second_wave_sees_half_an_ellipse_of_pressure():
     assert many.friction / mean.friction == pytest.approx(root**3 * 0.71888, rel=1e-3)
 
 
-def test_one_class_hands_down_the_mean():
-    one = solve_chain(
-        Spring(), THREE, solver=Scripted([0.5, 0.25, 0.125]), pressure_classes=1, **LOAD
-    )
-    assert [s.pressure_received for s in one.scales] == [3e5, 6e5, 24e5]
-    assert all("class_pressures" not in s.details for s in one.scales)
-
-
 @pytest.mark.parametrize("count", [2, 5, 8])
 def test_load_and_area_are_kept(count):
     result = solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=count, **LOAD)

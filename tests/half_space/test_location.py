@@ -1,7 +1,5 @@
 """Where a contact makes its friction: shares by slope, strongest stretches, and traces of lines."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -19,7 +17,7 @@ MAP = solve(isotropic_map(64, shortest=1.6e-3), tolerance=None)
 STEP, LENGTH = 2.5e-5, 0.1
 
 
-def stones(steep_at: float) -> Profile:
+def stones(steep_at):
     """Ten gentle stones of one height, and one as high with ten times the slope."""
     x = np.arange(round(LENGTH / STEP)) * STEP
     gentle = 2e-4 * np.cos(2.0 * np.pi * 10.0 * x / LENGTH)

@@ -1,12 +1,9 @@
 """Master curves: sorting, checks, and reading files of many shapes without guessing."""
 
-import contextlib
 import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import MasterCurve, read_master_curve
@@ -200,16 +197,3 @@ def test_missing_and_binary_files(tmp_path):
     binary.write_bytes(b"\xd0\xcf\x11\xe0\x00\x00")
     with pytest.raises(FileError, match=r"got an old Office file \(\.xls\), to be saved as \.xlsx"):
         read_master_curve(binary)
-
-
-@given(st.text(alphabet="0123456789.,;-+eE'\" \t\n#()[]/HzMPaGf", max_size=80))
-@settings(
-    max_examples=300,
-    deadline=None,
-    derandomize=True,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
-)
-def test_no_text_raises_anything_but_our_errors(tmp_path, text):
-    path = write(tmp_path, "f [Hz],E' [MPa],E'' [MPa]\n1,2,0.2\n" + text)
-    with contextlib.suppress(FileError, InputError):
-        assert len(read_master_curve(path)) >= 2

@@ -276,11 +276,3 @@ def test_strain_sweep(tmp_path):
     (bare,) = read_strain_sweeps(unknown)
     assert bare.frequency is None
     assert bare.temperature is None
-    unsaid = write(tmp_path, "\n".join([title.replace(" p-p", ""), *lines[1:]]))
-    with pytest.raises(InputError, match="amplitude must be given"):
-        read_strain_sweeps(unsaid)
-    (single,) = read_strain_sweeps(unsaid, amplitude="single")
-    assert single.strain == pytest.approx([0.002, 0.02])
-    several = write(tmp_path, "\n".join([*lines, "4,1,1,10,39.9"]))
-    conditions = [each.condition for each in read_strain_sweeps(several, amplitude="single")]
-    assert conditions == ["39.9 °C, 10 Hz", "60.0 °C, 10.025 Hz"]

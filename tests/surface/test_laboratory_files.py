@@ -109,15 +109,6 @@ def test_code_pages(tmp_path, titles, code):
     assert read_text(path).startswith(titles)
 
 
-@pytest.mark.parametrize("unit", ["10^-3 mm", "x10^-3 mm"])
-def test_a_factor_in_a_title_is_no_part_of_its_unit_that_may_be_dropped(tmp_path, unit):
-    path = tmp_path / "road.csv"
-    for title in (f"z [{unit}]", f"z {unit.replace(' mm', ' [mm]')}"):
-        path.write_text(f"x [mm],{title}\n{rows()}")
-        with pytest.raises(FileError, match="which is no known unit of length"):
-            gs.read_profile(path)
-
-
 @pytest.mark.parametrize("code", [0.0, 999.99, -99.99, -9999.0])
 def test_codes_far_from_the_road_are_missing(tmp_path, code):
     path = tmp_path / "road.csv"
@@ -129,14 +120,6 @@ def test_codes_far_from_the_road_are_missing(tmp_path, code):
     assert profile.notes == (f"heights of {code:g} mm stand for missing ones",)
 
 
-def test_numbers_of_points_are_no_distances(tmp_path):
-    path = tmp_path / "road.csv"
-    path.write_text("Point,Height (mm)\n" + "\n".join(f"{i},{z}" for i, z in enumerate(HEIGHTS)))
-    with pytest.raises(FileError, match="column 1, Point, counts points, no dist") as refused:
-        gs.read_profile(path)
-    assert refused.value.missing == "step"
-
-
 def test_pairs_of_distances_and_heights(tmp_path):
     path = tmp_path / "road.csv"
     x = 0.1 * np.arange(120)
@@ -144,14 +127,6 @@ def test_pairs_of_distances_and_heights(tmp_path):
     np.savetxt(path, columns, delimiter=",", header="x1 [mm],z1 [mm],x2 [mm],z2 [mm]", comments="")
     steps = [gs.read_profile(path, channel=channel).step for channel in (2, 4, "z2")]
     assert steps == pytest.approx([STEP, 2.0 * STEP, 2.0 * STEP])
-
-
-def test_a_case_may_state_the_size_of_a_count(tmp_path):
-    path = tmp_path / "road.csv"
-    path.write_text("x [mm],z [counts]\n" + rows(1e-3, 5e-7))
-    with pytest.raises(FileError, match=r"column 2 is in 'counts', which is no known unit"):
-        gs.read_profile(path)
-    np.testing.assert_allclose(gs.read_profile(path, z_unit="0.5 um").z, HEIGHTS, atol=2e-9)
 
 
 def test_a_unit_that_is_not_known_is_never_proposed_over(tmp_path):
@@ -188,28 +163,48 @@ TRACKS = "Chainage (m),Left (mm),Right (mm)\n" + "\n".join(
 )
 
 
-@pytest.mark.parametrize(("channel", "size"), [("Left", 1.0), (2, 1.0), ("Right", 2.0), (3, 2.0)])
-def test_one_of_several_columns_of_heights(tmp_path, channel, size):
+COUNTED = "\n".join(f"{i},{z / 1e-3:.8g}" for i, z in enumerate(HEIGHTS))
+TIMES = r"holds times, no distances: give step.*speed"
+COLUMNS = "got 2 'Left', 3 'Right'; give channel"
+NEEDY = {
+    "numbers of points": ("Point,Height (mm)\n" + COUNTED, {"step": STEP},
+                          "column 1, Point, counts points, no dist", "step"),
+    "counts": ("x [mm],z [counts]\n" + rows(1e-3, 5e-7), {"z_unit": "0.5 um"},
+               "column 2 is in 'counts', which is no known unit", ""),
+    "times": ("Time (s),Height (mm)\n" + rows(1.0), {"step": STEP}, TIMES, "step"),
+    "times without a unit": ("time,z_mm\n" + rows(1.0), {"step": STEP}, TIMES, "step"),
+    "two tracks": (TRACKS, {"channel": "Left"}, COLUMNS, "channel"),
+    "two tracks, by number": (TRACKS, {"channel": 2}, COLUMNS, "channel"),
+    **{
+        title: (f"x [mm],{title}\n{rows()}", {}, "which is no known unit of length", "")
+        for title in ("z [10^-3 mm]", "z 10^-3 [mm]", "z [x10^-3 mm]", "z x10^-3 [mm]")
+    },
+}  # fmt: skip
+"""Text, what it leaves out, what the refusal says, and the key that it asks for."""
+
+
+@pytest.mark.parametrize("kind", NEEDY)
+def test_what_a_file_leaves_out_is_asked_for(tmp_path, kind):
+    text, options, words, missing = NEEDY[kind]
+    path = tmp_path / "road.csv"
+    path.write_text(text)
+    with pytest.raises(FileError, match=words) as refused:
+        gs.read_profile(path)
+    assert refused.value.missing == missing
+    if options:
+        profile = gs.read_profile(path, **options)
+        np.testing.assert_allclose(profile.z, HEIGHTS, atol=2e-9)
+        assert "channel" in options or profile.step == pytest.approx(STEP)
+
+
+def test_one_of_several_columns_of_heights(tmp_path):
     path = tmp_path / "road.csv"
     path.write_text(TRACKS)
-    with pytest.raises(FileError, match=r"got 2 'Left', 3 'Right'; give channel") as refused:
-        gs.read_profile(path)
-    assert refused.value.missing == "channel"
-    np.testing.assert_allclose(gs.read_profile(path, channel=channel).z, size * HEIGHTS, atol=2e-9)
+    for channel in ("Right", 3):
+        found = gs.read_profile(path, channel=channel)
+        np.testing.assert_allclose(found.z, 2.0 * HEIGHTS, atol=2e-9)
     with pytest.raises(InputError, match="channel"):
         gs.read_profile(path, channel="Middle")
-
-
-@pytest.mark.parametrize("title", ["Time (s),Height (mm)", "time,z_mm"])
-def test_times_are_no_distances(tmp_path, title):
-    path = tmp_path / "road.csv"
-    path.write_text(f"{title}\n" + rows(1.0))
-    with pytest.raises(FileError, match=r"holds times, no distances: give step.*speed") as refused:
-        gs.read_profile(path)
-    assert refused.value.missing == "step"
-    profile = gs.read_profile(path, step=STEP)
-    np.testing.assert_allclose(profile.z, HEIGHTS, atol=2e-9)
-    assert profile.step == pytest.approx(STEP)
 
 
 def test_uneven_distances_are_put_on_equal_steps_and_said(tmp_path):

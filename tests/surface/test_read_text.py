@@ -1,7 +1,5 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from gripscale.core.errors import FileError, InputError
 from gripscale.surface import read_map, read_profile
@@ -61,29 +59,6 @@ def test_a_text_file_is_one_profile(tmp_path):
         read_profile(path, line=1)
 
 
-@settings(max_examples=50, deadline=None)
-@given(
-    step=st.floats(0.01, 0.9),
-    points=st.integers(40, 400),
-    kept=st.floats(0.6, 1.0),
-    seed=st.integers(0, 99),
-)
-def test_rows_left_out_are_missing_heights(tmp_path_factory, step, points, kept, seed):
-    random = np.random.default_rng(seed)
-    there = random.permutation(points) < kept * points
-    there[[0, -1]] = True
-    x, z = step * np.arange(points), random.standard_normal(points)
-    rows = "\n".join(f"{a:.3f}, {b}" for a, b in zip(x[there], z[there], strict=True))
-    profile = read_profile(written(tmp_path_factory.mktemp("gaps"), "x [mm], z [mm]\n" + rows))
-    assert len(profile) == points
-    assert np.array_equal(np.isfinite(profile.z), there)
-    assert profile.z[there] == pytest.approx(1e-3 * z[there])
-    assert np.abs(profile.x - 1e-3 * x).max() <= 0.51e-6
-    assert len(profile.notes) == (0 if there.all() else 1)
-    for note in profile.notes:
-        assert f"{points - there.sum()} row" in note
-
-
 def test_falling_rows_are_turned_round(tmp_path):
     up = read_profile(written(tmp_path, table()))
     down = read_profile(written(tmp_path, table([*ROWS[:0:-1], ROWS[0]]), "down.txt"))
@@ -124,14 +99,6 @@ def test_a_bad_file_is_refused_with_path_and_place(tmp_path, kind):
         read_profile(path)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)
-
-
-@settings(max_examples=100, deadline=None)
-@given(junk=st.binary(max_size=300))
-def test_no_content_breaks_the_reader(tmp_path_factory, junk):
-    path = written(tmp_path_factory.mktemp("junk"), junk)
-    with pytest.raises((FileError, InputError)):
-        read_profile(path)
 
 
 @pytest.mark.parametrize(
