@@ -12,7 +12,7 @@ from gripscale.case_file import (
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
 from gripscale.core.errors import InputError
 from gripscale.rubber import WLF
-from gripscale.rubber.softening import Kraus, SofteningTable, assumptions
+from gripscale.rubber.softening import Kraus
 from tests.case_file.cases import refusal, written
 from tests.samples import SOFTENING
 
@@ -98,27 +98,6 @@ def test_strain_sweeps_at_two_temperatures(tmp_path):
         exact = (1 + drop * measured_at / 0.02) / (1 + drop * strain / 0.02)
         # interpolated between strains 2.6 times apart, at measured_at
         assert float(left.storage) == pytest.approx(exact, rel=1e-2)
-
-
-def test_strain_sweeps_of_which_little_is_stated(tmp_path):
-    strain_sweep(tmp_path, "sweep.csv", 20.0, 1.0)
-    table = '[conditions.softening]\nkind = "table"\nfiles = ["sweep.csv"]\n'
-    laws = []
-    for lines in ("", 'measured_at = "0.1 %"\ndeformation = "shear"\n'):
-        conditions = stated(read_case_file(written(tmp_path, BASE + table + lines)))
-        assert conditions is not None
-        assert isinstance(conditions.softening, SofteningTable)
-        laws.append(conditions.softening)
-    open_law, complete = laws
-    assert (open_law.measured_at, open_law.deformation) == (None, None)
-    assert (complete.measured_at, complete.deformation) == (1e-3, "shear")
-    # 0.1 % is the default; a shear strain is 3^(1/4) of the strain half-way to tension
-    factor = complete.factors(0.01 / 3**0.25, 293.15)
-    assert open_law.factors(0.01, 293.15).storage == pytest.approx(factor.storage)
-    assert len(list(assumptions(open_law))) == 2
-    refused = table + 'deformation = "bending"\n'
-    with pytest.raises(InputError, match="deformation = 'bending': expected"):
-        read_case_file(written(tmp_path, BASE + refused))
 
 
 def sweeps_file(folder):

@@ -295,20 +295,6 @@ def test_a_kind_goes_before_the_content(tmp_path, shell):
         new_case([folder], folder / "b.toml", kinds={"road.csv": "sweeps"})
 
 
-@pytest.mark.verification
-def test_three_commands_calibrate_a_folder(tmp_path, shell):
-    """Two temperatures tell the four constants of the area term from six points."""
-    measured = {20: {0.001: 1.0, 0.01: 1.3, 0.1: 1.5}, 40: {0.001: 0.7, 0.01: 1.0, 0.1: 1.3}}
-    rows = (f"{v},{mu},{t}" for t, by_speed in measured.items() for v, mu in by_speed.items())
-    friction = "\n".join(["speed [m/s],friction,temperature [C]", *rows])
-    folder = folder_of(tmp_path / "A", COMPOUND | {"A_friction.csv": friction})
-    case = folder / "case.toml"
-    for command in (("new", folder, "-o", case), ("run", case), ("calibrate", case)):
-        outcome = shell(*command)
-        assert outcome.exit_code == 0, outcome.output
-    assert "stress_0" in outcome.output
-
-
 def test_look_shows_how_a_file_is_read(tmp_path, shell):
     bare = tmp_path / "bare.csv"
     bare.write_text("\n".join(["x;z", *HEIGHTS]).replace(",", ";"))

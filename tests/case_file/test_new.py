@@ -261,21 +261,6 @@ def test_the_command_says_what_is_doubtful_and_what_comes_next(tmp_path, shell):
     assert "Doubts, the most important first:\n  1. crop = " in outcome.output
 
 
-@pytest.mark.verification
-def test_the_new_case_runs_as_it_stands(tmp_path, shell):
-    files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
-    target = tmp_path / "case.toml"
-    assert shell("new", *files, "-o", target, *OPTIONS).exit_code == 0
-    outcome = shell("run", target)
-    assert outcome.exit_code == 0, outcome.output
-    assert "Answer: μ = " in outcome.output
-    text = "\n".join(line for line in target.read_text().split("\n") if not line.startswith("crop"))
-    target.write_text(text)
-    outcome = shell("run", target)
-    said = " ".join(outcome.output.split())
-    assert "Answer: none to rely on. road: plates, supports or filled gaps lie in" in said
-
-
 def test_a_refusal_names_the_option_that_cures_it(tmp_path, shell):
     line = tmp_path / "line.txt"
     line.write_text("\n".join(f"{1e3 * z:.4f}" for z in ROUGH.z))

@@ -126,16 +126,6 @@ def test_class_that_fails_is_named_and_ends_the_chain():
     assert np.isnan(caught.value.partial.friction)
 
 
-def test_the_model_takes_the_classes():
-    from gripscale.model import Load
-    from gripscale.surface import Surface
-
-    surface, load = Surface(SINES, source=""), Load(3e5, 0.3, 0.1)
-    data = Chain(SOLVER, pressure_classes=4).predict(RUBBER, surface, load)
-    direct = solve_chain(RUBBER, SINES, solver=SOLVER, pressure_classes=4, **LOAD)
-    assert float(data.total_friction) == direct.friction
-
-
 @pytest.mark.parametrize("count", [0, 1.5, 65])
 def test_bad_number_of_classes_is_refused(count):
     words = "pressure_classes must be a whole number from 1 to 64"

@@ -129,12 +129,6 @@ def test_a_trace_keeps_every_extreme():
     assert float(trace.running_load[-1]) == pytest.approx(1.0, abs=1e-5)
 
 
-def test_a_short_line_is_kept_point_by_point():
-    trace = contact_trace(STONES)
-    np.testing.assert_array_equal(trace.x, STONES.x)
-    np.testing.assert_array_equal(trace.height_low, trace.height_high)
-
-
 def test_a_map_has_its_section_and_field():
     trace = contact_trace(MAP)
     column = int(np.argmin(np.abs(MAP.y - float(trace.section))))

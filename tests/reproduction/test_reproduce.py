@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from gripscale.case_file import write_example
 from gripscale.charts.chart import Series
 from gripscale.cli import app
-from gripscale.core.errors import FileError, InputError
+from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.reproduction.figures import TITLES, draw, tasks_of
 from gripscale.reproduction.inputs import (
@@ -29,8 +29,7 @@ from gripscale.reproduction.inputs import (
 )
 from gripscale.reproduction.judges import Evidence
 from gripscale.reproduction.run import judged, reproduce_paper
-from gripscale.reproduction.statement import Statement
-from studies.paper_page import MADE, write_page
+from studies.paper_page import MADE
 from tests.samples import ROOT
 
 
@@ -76,29 +75,6 @@ def test_no_chain_is_solved_twice(inputs):
     ]
     assert len(keys) == 53
     assert len(set(keys)) == 31
-
-
-def test_page_keeps_what_is_written_by_hand(tmp_path, inputs):
-    page = tmp_path / "paper.md"
-    page.write_text(f"# By hand\n\n{MADE}\n\nold numbers\n", encoding="utf-8")
-    said = "the area falls"
-    write_page(
-        page,
-        [
-            Statement("fig5a", said, "less than 1", "here", "0.5", True, ""),
-            Statement("fig5a", said, "less than 1", "there", "1.5", False, "steeper"),
-        ],
-        inputs,
-    )
-    text = page.read_text(encoding="utf-8")
-    assert text.startswith(f"# By hand\n\n{MADE}\n\n1 of 2 statements hold:\n\n")
-    assert "old numbers" not in text
-    assert f"| Figure 5a | {said} | 1 | 1 |  |" in text
-    for figure in TITLES:
-        assert f"](figures/paper_{figure}.png)" in text
-    page.write_text("# By hand\n", encoding="utf-8")
-    with pytest.raises(FileError, match="below which it is written"):
-        write_page(page, [], inputs)
 
 
 def test_docs_have_every_figure_and_statement(inputs):

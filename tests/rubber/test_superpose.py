@@ -15,7 +15,6 @@ from gripscale.rubber import (
     superpose_report,
     write_master_curve,
 )
-from gripscale.rubber.joint_shift import smooth, splines
 from tests.samples import EXAMPLES
 
 ROOM = 293.15
@@ -207,20 +206,6 @@ def test_measured_polymer_against_published_shift_factors():
     worst = [max(one.storage for one in report.overlaps) for report in (own, theirs)]
     assert worst[0] < 0.5 * worst[1]
     assert any(f.startswith("E'' of 12 of 20 neighbours") for f in own.findings)
-
-
-def test_smooth_curve_through_scatter():
-    x = np.linspace(0.0, 8.0, 200)
-    functions, slopes, penalty = splines(x)
-    assert functions.sum(axis=1) == pytest.approx(np.ones(200))
-    slope = np.gradient(functions @ np.arange(functions.shape[1]), x)[1:-1]
-    assert slopes[1:-1] @ np.arange(functions.shape[1]) == pytest.approx(slope, abs=1e-9)
-    scatter = 0.1 * np.random.default_rng(1).standard_normal(200)
-    found = smooth(functions, penalty, np.sin(x) + scatter, np.ones(200))
-    assert np.sqrt(np.mean((functions @ found.coefficients - np.sin(x)) ** 2)) < 0.04
-    assert 5.0 < found.freedoms < 18.0
-    straight = smooth(functions, penalty, 2.0 * x, np.ones(200), weight=1e6)
-    assert functions @ straight.coefficients == pytest.approx(2.0 * x, abs=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(60))

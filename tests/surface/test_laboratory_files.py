@@ -81,6 +81,15 @@ PROFILES = {
     + "\n".join(f"{i},{z / 1e-6:.8g}" for i, z in enumerate(HEIGHTS)),
     "numbers of points": "Pitch, 0.1, mm\nNo.,Height (mm)\n"
     + "\n".join(f"{i},{z / 1e-3:.8g}" for i, z in enumerate(HEIGHTS, start=1)),
+    **{
+        titles: f"Einheiten: mm\n{titles}\n"
+        + "\n".join(f"{time}{row}" for row in rows(separator=";").splitlines())
+        for titles, time in (
+            ("Zeit [s];Weg;Höhe", "0.01;"),
+            ("time [s];Distance;Height", "0.01;"),
+            ("Weg;Höhe", ""),
+        )
+    },
     "step and distances": "Pitch=0.1000\nUnit=mm\n[DATA]\n" + rows(separator=" "),
 }
 

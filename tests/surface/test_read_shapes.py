@@ -238,14 +238,3 @@ def test_a_table_below_its_spacings(tmp_path):
     surface = gs.read_map(path)
     assert surface.step == pytest.approx((0.2e-3, 0.3e-3))
     np.testing.assert_allclose(surface.z, 1e-3 * Z, rtol=DIGITS)
-
-
-@pytest.mark.parametrize("titles", ["Zeit [s];Weg;Höhe", "time [s];Distance;Height", "Weg;Höhe"])
-def test_units_of_a_header_are_those_of_columns_without_one(tmp_path, titles):
-    time = "0.01;" * (titles.count(";") - 1)
-    rows = [f"{time}{0.2 * i:g};{h:.6g}" for i, h in enumerate(Z.T.ravel())]
-    path = tmp_path / "road.csv"
-    path.write_text("\n".join(["Einheiten: mm", titles, *rows]), encoding="cp1252")
-    profile = gs.read_profile(path)
-    assert profile.step == pytest.approx(0.2e-3)
-    np.testing.assert_allclose(profile.z, 1e-3 * Z.T.ravel(), rtol=DIGITS)

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import scipy.special
 
 import gripscale as gs
 from gripscale.core.errors import InputError
@@ -20,12 +19,6 @@ def line(shape, length=0.5, step=STEP):
     """Return a profile of a function of the phase of waves of 25 mm."""
     x = np.arange(round(length / step)) * step
     return Profile(x, shape(2.0 * np.pi * x / LENGTH))
-
-
-def sine_map(points=256, waves=4, slope=0.5):
-    x = np.arange(points) * 1e-5
-    q = 2.0 * np.pi * waves / (points * 1e-5)
-    return HeightMap(x, x, np.tile(slope / q * np.cos(q * x)[:, None], (1, points)))
 
 
 def test_heights_and_slope_of_a_sine_line():
@@ -55,34 +48,6 @@ def test_profile_depth_of_closed_forms():
         found = texture(line(shape))
         assert found.depth_segments == 5
         assert found.mean_profile_depth == pytest.approx(depth, rel=8e-3)
-
-
-def test_profile_depth_is_the_mean_of_both_halves_of_level_segments():
-    """Waves of A and 3 A in the halves of each segment, on a slope: the mean is 2 A.
-
-    Troughs are at the step from A to 3 A, where the filter rings, and crests 12.5 mm off.
-    """
-    half = 0.05 / LENGTH * 2.0 * np.pi
-    profile = line(lambda phase: -A * np.where(phase % (2 * half) < half, 1, 3) * np.cos(phase))
-    tilted = Profile(profile.x, profile.z + 0.3 * profile.x)
-    assert texture(tilted).mean_profile_depth == pytest.approx(2.0 * A, rel=0.01)
-
-
-def test_waves_below_the_filter_do_not_make_depth():
-    """Second order forwards and backwards: 1/2 at 2.4 mm, times what averaging over 0.5 mm leaves.
-
-    5 %: in the first and the last of 20 segments the filter begins and ends.
-    """
-    x = np.arange(40_000) * STEP
-
-    def depth(wavelength):
-        # gentle slopes: the standard takes steps steeper than 3 out
-        profile = Profile(x, 0.1 * A * np.cos(2.0 * np.pi * x / wavelength))
-        return 10.0 * float(texture(profile).mean_profile_depth)
-
-    averaged = np.sinc(0.5 / 2.4)
-    assert depth(2.4e-3) == pytest.approx(0.5 * averaged * A, rel=0.05)
-    assert depth(1.1e-3) < 0.03 * A
 
 
 @pytest.mark.parametrize(("station", "depth"), [(0, 3.2953147e-3), (1, 3.0452668e-3)])
@@ -121,15 +86,6 @@ def test_measured_map_is_that_of_surfalize():
     for name, value in expected.items():
         assert found[name] == pytest.approx(value, rel=1e-9), name
     assert found.rms_gradient == pytest.approx(0.08968701464497, rel=1e-3)
-
-
-def test_gradient_and_area_of_a_sine_map():
-    """sqrt(1 + s^2 cos^2) has the mean 2/pi E(-s^2); neighbours leave (q step)^2/24 = 4e-4."""
-    found = texture(sine_map(slope=0.5))
-    area = 2.0 / np.pi * scipy.special.ellipe(-(0.5**2)) - 1.0
-    assert found.rms_gradient == pytest.approx(0.5 / np.sqrt(2.0), rel=5e-3)
-    assert found.developed_area_ratio == pytest.approx(area, rel=1e-2)
-    assert found.kurtosis == pytest.approx(1.5, rel=1e-2)
 
 
 def test_missing_heights_have_no_weight():
