@@ -1,23 +1,18 @@
 """Case files that tests write, and what is said of wrong ones."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
 from gripscale.core.errors import GripscaleError
 
 
-def written(folder: Path, text: str) -> Path:
+def written(folder, text):
     """Write a case; return its path."""
     path = folder / "case.toml"
     path.write_text(text, encoding="utf-8")
     return path
 
 
-def refusal(read: Callable[[Path], object], path: Path, good: str, old: str, new: str) -> str:
+def refusal(read, path, good, old, new):
     """Return the one sentence with which `read` refuses a good case with `old` made `new`."""
     assert old in good
     with pytest.raises(GripscaleError) as caught:

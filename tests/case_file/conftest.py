@@ -1,10 +1,5 @@
 """A case of two waves by hand on a coarse mesh, solved in a fraction of a second; one of files."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 
 from tests.cli.conftest import inputs as inputs
@@ -14,13 +9,13 @@ CASE = case_text(TWO_WAVES)
 
 
 @pytest.fixture(scope="module", autouse=True)
-def _blank() -> Iterator[None]:
+def _blank():
     with blank_figures():
         yield
 
 
 @pytest.fixture
-def case(tmp_path: Path) -> Path:
+def case(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text(CASE)
     return path

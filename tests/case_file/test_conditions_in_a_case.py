@@ -1,26 +1,18 @@
 """Conditions, shifts and sweeps as a case file states them, and what is said of bad ones."""
 
-from __future__ import annotations
-
-from dataclasses import replace
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from gripscale.case_file import (
-    CaseFile,
     prepare_conditions,
     prepare_rubber,
     read_case,
     read_case_file,
 )
-from gripscale.chain import solve_chain
 from gripscale.conditions import Conditions, GaussianStress, ThermalProperties
-from gripscale.conditions.flash_temperature import STONE
 from gripscale.core.errors import InputError
 from gripscale.rubber import WLF
-from gripscale.rubber.softening import Kraus, SofteningTable, assumptions
+from gripscale.rubber.softening import Kraus
 from tests.case_file.cases import refusal, written
 from tests.samples import SOFTENING
 
@@ -57,11 +49,11 @@ reference_temperature = "20 C"
 ALL = BASE + TEMPERATURE + SOFTENING + HEAT + AREA
 
 
-def stated(file: CaseFile) -> Conditions | None:
+def stated(file):
     return prepare_conditions(file.case.conditions, file.resolve)
 
 
-def test_every_effect_with_its_units(tmp_path: Path) -> None:
+def test_every_effect_with_its_units(tmp_path):
     file = read_case_file(written(tmp_path, ALL))
     assert stated(file) == Conditions(
         temperature=313.15,
@@ -73,36 +65,14 @@ def test_every_effect_with_its_units(tmp_path: Path) -> None:
     assert rubber.shift == WLF(8.0, 120.0).bound(293.15)
 
 
-def test_a_case_without_effects_has_no_conditions(tmp_path: Path) -> None:
+def test_a_case_without_effects_has_no_conditions(tmp_path):
     assert stated(read_case_file(written(tmp_path, BASE))) is None
-
-
-def test_a_run_is_the_prediction_under_its_conditions(tmp_path: Path) -> None:
-    file = read_case_file(written(tmp_path, ALL))
-    case = read_case(file)
-    load = case.load
-    effects = stated(file)
-    assert effects is not None
-    assert case.conditions == replace(effects, counterface=STONE)
-    own = solve_chain(
-        case.rubber,
-        case.surface.sines,
-        pressure=load.pressure,
-        speed=load.speed,
-        footprint=load.footprint,
-        solver="half_plane",
-        conditions=case.conditions,
-    )
-    chain = case.chain.solve(case.rubber, case.surface.sines, load)
-    assert chain.friction == own.friction
-    assert chain.total_friction == own.total_friction
-    assert chain.total_friction > own.friction
 
 
 STRAIN = np.geomspace(1e-3, 0.3, 7)
 
 
-def strain_sweep(folder: Path, name: str, celsius: float, drop: float) -> None:
+def strain_sweep(folder, name, celsius, drop):
     rows = [
         f"{100 * s:.5g},"
         f"{10 / (1 + drop * s / 0.02):.6g},{2 / (1 + drop * s / 0.05):.6g},{celsius:g}"
@@ -112,7 +82,7 @@ def strain_sweep(folder: Path, name: str, celsius: float, drop: float) -> None:
     (folder / name).write_text("\n".join([titles, *rows]))
 
 
-def test_strain_sweeps_at_two_temperatures(tmp_path: Path) -> None:
+def test_strain_sweeps_at_two_temperatures(tmp_path):
     strain_sweep(tmp_path, "warm.csv", 60.0, 0.5)
     strain_sweep(tmp_path, "cold.csv", 20.0, 1.0)
     sweeps = (
@@ -122,8 +92,6 @@ def test_strain_sweeps_at_two_temperatures(tmp_path: Path) -> None:
     file = read_case_file(written(tmp_path, BASE + sweeps))
     assert file.case.named_files() == [("conditions", "warm.csv"), ("conditions", "cold.csv")]
     found = stated(file)
-    assert found is not None
-    assert found.softening is not None
     measured_at, strain = 2e-3, STRAIN[4]
     for kelvin, drop in ((293.15, 1.0), (333.15, 0.5)):
         left = found.softening.factors(strain, kelvin)
@@ -132,28 +100,7 @@ def test_strain_sweeps_at_two_temperatures(tmp_path: Path) -> None:
         assert float(left.storage) == pytest.approx(exact, rel=1e-2)
 
 
-def test_strain_sweeps_of_which_little_is_stated(tmp_path: Path) -> None:
-    strain_sweep(tmp_path, "sweep.csv", 20.0, 1.0)
-    table = '[conditions.softening]\nkind = "table"\nfiles = ["sweep.csv"]\n'
-    laws = []
-    for lines in ("", 'measured_at = "0.1 %"\ndeformation = "shear"\n'):
-        conditions = stated(read_case_file(written(tmp_path, BASE + table + lines)))
-        assert conditions is not None
-        assert isinstance(conditions.softening, SofteningTable)
-        laws.append(conditions.softening)
-    open_law, complete = laws
-    assert (open_law.measured_at, open_law.deformation) == (None, None)
-    assert (complete.measured_at, complete.deformation) == (1e-3, "shear")
-    # 0.1 % is the default; a shear strain is 3^(1/4) of the strain half-way to tension
-    factor = complete.factors(0.01 / 3**0.25, 293.15)
-    assert open_law.factors(0.01, 293.15).storage == pytest.approx(factor.storage)
-    assert len(list(assumptions(open_law))) == 2
-    refused = table + 'deformation = "bending"\n'
-    with pytest.raises(InputError, match="deformation = 'bending': expected"):
-        read_case_file(written(tmp_path, BASE + refused))
-
-
-def sweeps_file(folder: Path) -> None:
+def sweeps_file(folder):
     """Ten frequencies at each of five temperatures, shifted by WLF."""
     frequency, rows = (
         np.geomspace(0.1, 100.0, 10),
@@ -175,50 +122,37 @@ def sweeps_file(folder: Path) -> None:
 NAMED = 'name = "styrene_butadiene"\nshift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }'
 
 
-def test_sweeps_at_several_temperatures_make_the_rubber(tmp_path: Path) -> None:
+def test_sweeps_at_several_temperatures_make_the_rubber(tmp_path):
     sweeps_file(tmp_path)
     text = BASE.replace(NAMED, 'file = "sweeps.csv"\nreference_temperature = "20 C"')
     results = read_case(written(tmp_path, text + TEMPERATURE))
     rubber = results.rubber
-    assert rubber.shift is not None
     assert float(rubber.shift.log_a(313.15, 293.15)) == pytest.approx(-8 * 20 / 140, abs=0.02)
     assert results.measured_rubber.superposition is not None
     assert results.rubber_before.reference_temperature == pytest.approx(313.15)
 
 
 WRONG = [
-    # wrong unit, or none
     ('temperature = "40 C"', "temperature = 313.15",
      "[conditions] temperature = 313.15: the unit is"),
-    ('temperature = "40 C"', 'temperature = "40 mm"',
-     "[conditions] temperature = '40 mm': unknown unit"),
     ('"1.15 g/cm^3"', '"1150 kg"',
      "[conditions] heat: density = '1150 kg': unknown unit 'kg'; expected"),
-    ('"0.25 W/(m K)"', '"0.25 W/K"', "[conditions] heat: conductivity = '0.25 W/K': unknown unit"),
-    ('"5 MPa"', '"5 Mpa"', "[conditions] shear_stress: stress_0 = '5 Mpa': unknown unit 'Mpa'"),
     ('"6 mm/s"', '"0 mm/s"',
      "shear_stress: speed_0 = '0 mm/s': expected a value greater than zero"),
-    ('critical_strain = "2 %"', 'critical_strain = "2 mm"', "softening: critical_strain = '2 mm'"),
     ('c2 = "120 K"', 'c2 = "120 kg"', "[rubber] shift: c2 = '120 kg': unknown unit"),
-    # half
     ('measured_at = "0.1 %"\n', "", "[conditions] softening: measured_at is missing"),
-    ("width = 0.1\n", "", "[conditions] shear_stress: width is missing"),
     ('kind = "kraus"\n', "",
      "[conditions] softening: kind is missing; expected one of kraus, table"),
     ('reference_temperature = "20 C"', "",
      "reference_temperature must be given with an activation_energy"),
     (SOFTENING, 'strain_norm = "slope"\n',
      "strain_norm belongs to softening, which is not asked for"),
-    (', c2 = "120 K"', "", "[rubber] shift: c2 is missing"),
-    # twice
     ('temperature = "40 C"', 'temperature = "40 C"\ntemperature = "50 C"',
      "is not valid TOML: Cannot overwrite"),
     ('kind = "kraus"', 'kind = "kraus"\nfiles = ["a.csv"]',
      "[conditions] softening: unknown key files"),
-    ("[conditions]\n", "vertical = true\n[conditions]\n", "unknown key [solver] vertical"),
     (NAMED, NAMED + "\nvertical = true", "vertical belongs to a measured file"),
     (NAMED, 'file = "a.csv"\nvertical = true\nshift = "b.csv"', "either shift (given) or vertical"),
-    # misspelt, or what nobody has
     ("storage_ratio", "storage_ration",
      "softening: unknown key storage_ration; did you mean storage_ratio"),
     ('kind = "gaussian"', 'kind = "gauss"',
@@ -226,19 +160,13 @@ WRONG = [
     (SOFTENING, '[conditions.softening]\nkind = "table"\nfiles = ["a.csv"]\nmeasured_at = "0.2 %"\n'
      'modulus_unit = "Mpa"\n',
      "[conditions] softening: modulus_unit = 'Mpa': expected one of Pa, kPa,"),
-    ("[conditions.heat]", "[conditions.heating]",
-     "unknown key [conditions] heating; did you mean heat?"),
     ("storage_ratio = 0.3", "storage_ratio = 1.3",
      "softening: storage_ratio = 1.3: expected a number, above 0, at most 1"),
-    ("[conditions]\n", '[compare]\nmeasured = "mu.csv"\n[conditions]\n',
-     "[compare]: unknown key measured; expected one of layer_ratio"),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("old", "new", "words"), WRONG)
-def test_wrong_half_or_twice_is_one_sentence(
-    tmp_path: Path, old: str, new: str, words: str
-) -> None:
+def test_wrong_half_or_twice_is_one_sentence(tmp_path, old, new, words):
     assert words in refusal(read_case_file, tmp_path, ALL, old, new)
 
 
@@ -253,13 +181,11 @@ UNUSABLE = [
 
 
 @pytest.mark.parametrize(("old", "new", "words"), UNUSABLE)
-def test_conditions_the_rubber_cannot_follow_are_refused_before_solving(
-    tmp_path: Path, old: str, new: str, words: str
-) -> None:
+def test_conditions_the_rubber_cannot_follow_are_refused_before_solving(tmp_path, old, new, words):
     assert words in refusal(read_case, tmp_path, ALL, old, new)
 
 
-def test_a_key_of_sweeps_is_refused_with_a_master_curve(tmp_path: Path) -> None:
+def test_a_key_of_sweeps_is_refused_with_a_master_curve(tmp_path):
     rows = [f"{10.0**i} {2 + i} {1 + 0.1 * i}" for i in range(6)]
     (tmp_path / "dma.txt").write_text("\n".join(["f (Hz)  E' (MPa)  E'' (MPa)", *rows]))
     text = BASE.replace(NAMED, 'file = "dma.txt"\nvertical = true')
@@ -270,7 +196,7 @@ def test_a_key_of_sweeps_is_refused_with_a_master_curve(tmp_path: Path) -> None:
         read_case(written(tmp_path, text))
 
 
-def test_sweeps_ask_for_the_temperature_they_are_shifted_to(tmp_path: Path) -> None:
+def test_sweeps_ask_for_the_temperature_they_are_shifted_to(tmp_path):
     sweeps_file(tmp_path)
     text = BASE.replace(NAMED, 'file = "sweeps.csv"')
     with pytest.raises(InputError, match='reference_temperature must be given, such as "20 C"'):

@@ -1,12 +1,8 @@
 """The JSON Schema of a case: it allows what the reader reads, and marks what it refuses."""
 
-from __future__ import annotations
-
 import json
 import tomllib
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -14,10 +10,9 @@ import gripscale as gs
 from gripscale.case_file.examples import EXAMPLES, write_example
 from gripscale.case_file.keys import SCHEMA_FILE, SCHEMA_LINE, case_schema, sections
 from tests.samples import EXAMPLES as EXAMPLE_FILES
-from tests.samples import Shell
 
 SCHEMA = json.loads(case_schema())
-KINDS: dict[str, Any] = {
+KINDS = {
     "object": dict,
     "array": list,
     "string": str,
@@ -27,12 +22,12 @@ KINDS: dict[str, Any] = {
 }
 
 
-def is_of(kind: str, value: Any) -> bool:
+def is_of(kind, value):
     """Return whether a value is of a type of JSON Schema: true is no number there."""
     return isinstance(value, KINDS[kind]) and (kind == "boolean") == isinstance(value, bool)
 
 
-def complaints(value: Any, schema: dict[str, Any], at: str = "") -> Iterator[str]:
+def complaints(value, schema, at=""):
     """Yield where a value is not as a schema with the keywords used here wants it."""
     if "anyOf" in schema and all(list(complaints(value, part)) for part in schema["anyOf"]):
         yield at
@@ -66,7 +61,7 @@ CASES = sorted(EXAMPLE_FILES.rglob("*.toml"))
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: str(path.relative_to(EXAMPLE_FILES)))
-def test_shipped_cases_are_as_the_schema_wants_them(path: Path) -> None:
+def test_shipped_cases_are_as_the_schema_wants_them(path):
     assert list(complaints(tomllib.loads(path.read_text()), SCHEMA)) == []
 
 
@@ -99,7 +94,7 @@ bulk_modulus = ["1 GPa", "3 GPa"]
 """
 
 
-def test_keys_of_several_kinds_of_values_are_allowed() -> None:
+def test_keys_of_several_kinds_of_values_are_allowed():
     assert list(complaints(tomllib.loads(GOOD), SCHEMA)) == []
 
 
@@ -116,12 +111,12 @@ def test_keys_of_several_kinds_of_values_are_allowed() -> None:
         ("[load]", "[solver]\ncolumns = 2\n[load]", ".solver.columns"),
     ],
 )
-def test_what_is_wrong_is_marked(old: str, new: str, place: str) -> None:
+def test_what_is_wrong_is_marked(old, new, place):
     assert old in GOOD
     assert place in list(complaints(tomllib.loads(GOOD.replace(old, new, 1)), SCHEMA))
 
 
-def tables(schema: dict[str, Any], path: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
+def tables(schema, path=""):
     """Yield all tables of the schema by their names, of kinds of a law each one."""
     for part in (schema, *schema.get("anyOf", ()), schema.get("items", {})):
         if "properties" in part:
@@ -130,7 +125,7 @@ def tables(schema: dict[str, Any], path: str = "") -> Iterator[tuple[str, dict[s
                 yield from tables(inner, f"{path}.{key}".strip("."))
 
 
-def test_every_key_has_its_meaning() -> None:
+def test_every_key_has_its_meaning():
     of_schema = {
         (name, frozenset(properties)): properties for name, properties in tables(SCHEMA) if name
     }
@@ -140,11 +135,11 @@ def test_every_key_has_its_meaning() -> None:
             assert properties[key.name]["description"].startswith(key.meaning), section.title
 
 
-def test_the_command_prints_it(shell: Shell) -> None:
+def test_the_command_prints_it(shell):
     assert json.loads(shell("keys", "--schema").stdout) == SCHEMA
 
 
-def test_written_cases_refer_to_the_schema_beside_them(shell: Shell, tmp_path: Path) -> None:
+def test_written_cases_refer_to_the_schema_beside_them(shell, tmp_path):
     assert "synthetic" in EXAMPLES
     case = write_example(tmp_path / "example", "synthetic")[0]
     made = tmp_path / "new" / "case.toml"

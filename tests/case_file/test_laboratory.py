@@ -1,12 +1,8 @@
 """A laboratory's folder: each file is taken for what it is, and the case needs no edit."""
 
-from __future__ import annotations
-
 import sys
 import tomllib
 from itertools import product
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -18,20 +14,19 @@ from gripscale.case_file.prepare import read_case
 from gripscale.core.errors import FileError, InputError
 from gripscale.io.text_table import files_read_once
 from tests.case_file.test_new import SOLID, keys, moduli_rows, modulus, road
-from tests.samples import Shell
 
 HERTZ = np.geomspace(1e-3, 1e6, 28)
 STRAINS = np.geomspace(1e-3, 0.2, 12)
 
 
-def moduli(titles: str, scale: float = 1e-6, at: float = 40.0) -> str:
+def moduli(titles, scale=1e-6, at=40.0):
     curve = ((f, modulus(at, f)) for f in HERTZ)
     return "\n".join(
         [titles, *(f"{f:.6g},{scale * e.real:.6g},{scale * e.imag:.6g}" for f, e in curve)]
     )
 
 
-def strain_sweeps(titles: str, strain: float = 100.0, prefix: str = "") -> str:
+def strain_sweeps(titles, strain=100.0, prefix=""):
     """Moduli that fall to half of those at small strain, at two temperatures."""
     rows = [
         f"{t},{prefix}{strain * e:.5g},{(9 - 0.05 * t) / (1 + 20 * e):.5g},{2 / (1 + 10 * e):.5g}"
@@ -41,7 +36,7 @@ def strain_sweeps(titles: str, strain: float = 100.0, prefix: str = "") -> str:
     return "\n".join([titles, *rows])
 
 
-def shifts(titles: str = "temperature [C],a_T [-]") -> str:
+def shifts(titles="temperature [C],a_T [-]"):
     """Factors of a table whose curve holds at 40 °C."""
     rows = (f"{t},{SOLID.shift.a(t + 273.15, 313.15):.6g}" for t in range(-20, 81, 10))
     return "\n".join([titles, *rows])
@@ -130,7 +125,7 @@ KINDS = {
 
 
 @pytest.mark.parametrize("what", KINDS)
-def test_a_file_is_taken_for_what_it_is(tmp_path: Path, what: str) -> None:
+def test_a_file_is_taken_for_what_it_is(tmp_path, what):
     text, kind = KINDS[what]
     (tmp_path / "file.txt").write_text(text, encoding="utf-8")
     (taken,) = all_taken([tmp_path], FileKeys(), {})
@@ -139,7 +134,7 @@ def test_a_file_is_taken_for_what_it_is(tmp_path: Path, what: str) -> None:
         assert "expected a column named friction; got speed, hysteresis friction" in taken.why
 
 
-def test_tables_of_as_many_rows_are_not_taken_for_each_other(tmp_path: Path) -> None:
+def test_tables_of_as_many_rows_are_not_taken_for_each_other(tmp_path):
     """Inside one look at files, of which each is read once."""
     path = tmp_path / "file.txt"
     rows = "".join(
@@ -153,7 +148,7 @@ def test_tables_of_as_many_rows_are_not_taken_for_each_other(tmp_path: Path) -> 
     assert [round(sweep.storage[0] / 1e6) for sweep in taken.measured] == [1, 21, 41]
 
 
-def folder_of(path: Path, names: dict[str, str]) -> Path:
+def folder_of(path, names):
     path.mkdir()
     road(path / "road.csv")
     for name, text in names.items():
@@ -170,7 +165,7 @@ COMPOUND = {
 }
 
 
-def test_the_files_of_a_compound_make_its_case(tmp_path: Path) -> None:
+def test_the_files_of_a_compound_make_its_case(tmp_path):
     folder = folder_of(tmp_path / "A", COMPOUND)
     case = new_case([folder], folder / "case.toml")
     found = keys(case)
@@ -190,15 +185,15 @@ def test_the_files_of_a_compound_make_its_case(tmp_path: Path) -> None:
     assert found_modulus == pytest.approx(modulus(20, 10.0), rel=0.02)
 
 
-def test_of_two_compounds_the_files_of_one_are_taken(tmp_path: Path) -> None:
+def test_of_two_compounds_the_files_of_one_are_taken(tmp_path):
     two = {
         **COMPOUND,
         **{f"B{name[1:]}": text for name, text in COMPOUND.items() if name[0] == "A"},
     }
     folder = folder_of(tmp_path / "both", two)
-    asked: list[tuple[str, list[str]]] = []
+    asked = []
 
-    def second(question: str, answers: Any) -> str:
+    def second(question, answers):
         asked.append((question, list(answers)))
         return str(answers[1])
 
@@ -217,14 +212,12 @@ def test_of_two_compounds_the_files_of_one_are_taken(tmp_path: Path) -> None:
     assert keys(stated)["rubber"]["file"] == "B_curve.csv"
 
 
-def test_a_terminal_asks_for_what_no_file_tells(
-    tmp_path: Path, shell: Shell, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_terminal_asks_for_what_no_file_tells(tmp_path, shell, monkeypatch):
     texts = {"A.csv": COMPOUND["A_curve.csv"], "B.csv": COMPOUND["A_curve.csv"]}
     folder, asked = folder_of(tmp_path / "two", texts), []
     replies = iter(["3", "B.csv", "YES"])  # the first is no answer
 
-    def reply(text: str, **_: Any) -> str:
+    def reply(text, **_):
         asked.append(text.partition("\n")[0])
         return next(replies)
 
@@ -238,7 +231,7 @@ def test_a_terminal_asks_for_what_no_file_tells(
     assert (rubber["file"], rubber["filled"]) == ("B.csv", True)
 
 
-def test_friction_of_another_compound_is_left_out(tmp_path: Path) -> None:
+def test_friction_of_another_compound_is_left_out(tmp_path):
     other = {"B_curve.csv": COMPOUND["A_curve.csv"], "B_friction.csv": FRICTION}
     names = {name: text for name, text in COMPOUND.items() if name != "A_friction.csv"}
     folder = folder_of(tmp_path / "both", names | other)
@@ -248,7 +241,7 @@ def test_friction_of_another_compound_is_left_out(tmp_path: Path) -> None:
     assert why == "friction; by its name not of A_curve.csv"
 
 
-def test_friction_may_state_temperature_and_pressure(tmp_path: Path) -> None:
+def test_friction_may_state_temperature_and_pressure(tmp_path):
     text = "v [mm/s],mu,T [C],pressure [kPa]\n1,0.8,35,200\n10,1.0,35,200\n100,1.1,35,200\n"
     folder = folder_of(tmp_path / "A", COMPOUND | {"A_friction.csv": text})
     found = keys(new_case([folder], folder / "case.toml"))
@@ -257,7 +250,7 @@ def test_friction_may_state_temperature_and_pressure(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("zero", "unit"), [(0.0, "C"), (273.15, "K")])
-def test_the_unit_of_the_shift_factors_is_proposed(tmp_path: Path, zero: float, unit: str) -> None:
+def test_the_unit_of_the_shift_factors_is_proposed(tmp_path, zero, unit):
     titles, *rows = shifts("temperature,a_T").splitlines()
     bare = [f"{float(t) + zero:.2f},{a}" for t, a in (row.split(",") for row in rows)]
     text = "\n".join([titles, *bare])
@@ -268,14 +261,14 @@ def test_the_unit_of_the_shift_factors_is_proposed(tmp_path: Path, zero: float, 
     assert any("the shift factors do not state it" in str(finding) for finding in case.findings)
 
 
-def test_a_ramp_takes_the_shift_factors(tmp_path: Path) -> None:
+def test_a_ramp_takes_the_shift_factors(tmp_path):
     folder = folder_of(tmp_path / "A", {"ramp.csv": RAMP, "shift.csv": shifts()})
     case = new_case([folder], folder / "case.toml", temperature="40 C")
     assert keys(case)["rubber"]["shift"] == "shift.csv"
     assert read_case(case.path).rubber_before.reference_temperature == pytest.approx(313.15)
 
 
-def test_a_file_without_units_is_not_pooled_with_a_road(tmp_path: Path) -> None:
+def test_a_file_without_units_is_not_pooled_with_a_road(tmp_path):
     numbers = "\n".join(f"{t},{10.0 ** (-t / 20):.4g}" for t in range(-40, 80, 5))
     folder = folder_of(tmp_path / "A", COMPOUND | {"numbers.csv": numbers})
     case = new_case([folder], folder / "case.toml")
@@ -284,7 +277,7 @@ def test_a_file_without_units_is_not_pooled_with_a_road(tmp_path: Path) -> None:
     assert "names no unit, unlike others; --as profile takes it" in why
 
 
-def test_a_kind_goes_before_the_content(tmp_path: Path, shell: Shell) -> None:
+def test_a_kind_goes_before_the_content(tmp_path, shell):
     folder = folder_of(tmp_path / "A", COMPOUND)
     options = ("--as", "unused", "A_friction.csv", "--as", f"unused={folder / 'A_strain.csv'}")
     outcome = shell("new", folder, "-o", folder / "case.toml", *options)
@@ -302,21 +295,7 @@ def test_a_kind_goes_before_the_content(tmp_path: Path, shell: Shell) -> None:
         new_case([folder], folder / "b.toml", kinds={"road.csv": "sweeps"})
 
 
-@pytest.mark.verification
-def test_three_commands_calibrate_a_folder(tmp_path: Path, shell: Shell) -> None:
-    """Two temperatures tell the four constants of the area term from six points."""
-    measured = {20: {0.001: 1.0, 0.01: 1.3, 0.1: 1.5}, 40: {0.001: 0.7, 0.01: 1.0, 0.1: 1.3}}
-    rows = (f"{v},{mu},{t}" for t, by_speed in measured.items() for v, mu in by_speed.items())
-    friction = "\n".join(["speed [m/s],friction,temperature [C]", *rows])
-    folder = folder_of(tmp_path / "A", COMPOUND | {"A_friction.csv": friction})
-    case = folder / "case.toml"
-    for command in (("new", folder, "-o", case), ("run", case), ("calibrate", case)):
-        outcome = shell(*command)
-        assert outcome.exit_code == 0, outcome.output
-    assert "stress_0" in outcome.output
-
-
-def test_look_shows_how_a_file_is_read(tmp_path: Path, shell: Shell) -> None:
+def test_look_shows_how_a_file_is_read(tmp_path, shell):
     bare = tmp_path / "bare.csv"
     bare.write_text("\n".join(["x;z", *HEIGHTS]).replace(",", ";"))
     (tmp_path / "strain.csv").write_text(KINDS["strain sweeps"][0])

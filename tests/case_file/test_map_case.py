@@ -1,16 +1,11 @@
 """A case on a measured map: all its lines describe it, the direct contact is that of the map."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import gripscale as gs
 from gripscale.case_file import prepare_surface, read_case, read_case_file
 from gripscale.case_file.named_inputs import read_surface
-from gripscale.chain import Chain
 from gripscale.charts.draw import FigureFolder
 from gripscale.core.errors import InputError
 from gripscale.experiment.task import Task
@@ -18,7 +13,6 @@ from gripscale.half_space import DirectContact
 from gripscale.model import Load
 from gripscale.questions.inputs.charts_of_surface import surface_figures
 from gripscale.questions.inputs.page import surface_lines
-from gripscale.theory import HalfPlane
 from tests.half_space.rough_cases import ZENER, isotropic_heights
 
 LOAD = Load(3e5, 0.3, 0.1)
@@ -39,7 +33,7 @@ footprint = "0.1 m"
 """
 
 
-def road() -> np.ndarray:
+def road():
     z = isotropic_heights(64, length=0.0128, rms=2e-4, shortest=8e-4)[:, :32].copy()
     z[30:33, 10:12] = np.nan
     z[5, 5] = 9.0
@@ -47,11 +41,11 @@ def road() -> np.ndarray:
 
 
 @pytest.fixture
-def case(tmp_path: Path):
+def case(tmp_path):
     """Write a table of heights and a case that names it; `also` are further keys."""
     np.savetxt(tmp_path / "road.txt", 1e3 * road().T)
 
-    def write(also: str = "", text: str = STATED):
+    def write(also="", text=STATED):
         path = tmp_path / "case.toml"
         path.write_text(text.replace("scales = 3", f"scales = 3\n{also}"), encoding="utf-8")
         return read_case_file(path)
@@ -101,12 +95,6 @@ def test_the_direct_contact_is_that_of_the_map(case):
     assert float(found.total_contact_fraction) == alone.contact_fraction
 
 
-def test_the_chain_goes_on_as_from_profiles(case):
-    found = Chain(HalfPlane()).predict(ZENER, prepared(case()), LOAD)
-    assert found.sizes["wave"] == 3
-    assert float(found.total_friction) > 0.0
-
-
 def test_a_result_depends_on_the_map_and_on_nothing_else(case):
     keys = [
         Task(ZENER, prepared(case(also)), LOAD, DirectContact()).key
@@ -140,22 +128,6 @@ def test_one_line_of_the_map_is_shown(case, tmp_path):
     assert np.ptp(np.diff(plane, 2)) < 1e-12
     surface_figures(surface, FigureFolder(tmp_path))
     assert (tmp_path / "profile.png").exists()
-
-
-@pytest.mark.parametrize(
-    ("also", "words"),
-    [
-        ('files = ["a.dat"]', "expected either files (measured profiles), map (a measured map)"),
-        ('detrend = "mean"', "detrend belongs to a surface from files"),
-        ("form = 9", "form = 9: expected a whole number, at least 0, at most 8"),
-        ("trim = 2.0", "trim = 2.0: expected a number, at least 0, at most 1"),
-        ('crop_across = ["2 mm", "1 mm"]', "crop_across runs from 2 mm to 1 mm"),
-    ],
-)
-def test_keys_that_do_not_go_with_a_map(case, also, words):
-    with pytest.raises(InputError) as error:
-        case(also)
-    assert words in str(error.value)
 
 
 def test_keys_that_need_a_map(case):

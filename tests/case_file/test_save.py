@@ -1,10 +1,7 @@
 """A saved case has the same answers, to the last digit, wherever its folder goes."""
 
-from __future__ import annotations
-
 import shutil
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -30,19 +27,19 @@ SINES = gs.SineStack([10e-3, 3e-3], [3e-4, 1e-4])
 QUICK = Chain(HalfPlane(points=128))
 
 
-def line(seed: int = 3) -> gs.Profile:
+def line(seed=3):
     return self_affine_profile(
         hurst=0.8, xi_parallel=3e-3, xi_perpendicular=0.4e-3, length=0.02, step=0.05e-3, seed=seed
     )
 
 
-def height_map() -> gs.HeightMap:
+def height_map():
     z = isotropic_heights(64, length=0.0128, rms=1e-4, shortest=8e-4)[:, :32].copy()
     z[30:33, 10:12] = np.nan
     return gs.HeightMap(2e-4 * np.arange(64), 4e-4 * np.arange(32) + 1e-3, z, "ground")
 
 
-def moved(case: gs.Case, folder: Path) -> gs.Case:
+def moved(case, folder):
     """Save a case, move its folder, read it there."""
     written = case.save(folder / "made" / "mine.toml")
     assert written == folder / "made" / "mine.toml"
@@ -50,18 +47,22 @@ def moved(case: gs.Case, folder: Path) -> gs.Case:
     return gs.read_case(folder / "moved" / "mine.toml")
 
 
-def assert_same(case: gs.Case, other: gs.Case) -> None:
-    """Compare all numbers of two answers to the last bit, and those of the chain."""
+def assert_same(case, other, *, answers=True):
+    """Compare heights, the chain and, if wanted, all numbers of two answers to the last bit."""
+    measured = [each.surface.measured for each in (case, other)]
+    for ours, theirs in zip(*(m.surfaces if m else () for m in measured), strict=True):
+        np.testing.assert_array_equal(ours.z, theirs.z)
     chains = [
         each.chain.solve(each.rubber, each.surface.sines, each.load) for each in (case, other)
     ]
     assert chains[0].friction == chains[1].friction > 0.0
-    before, after = gs.answer(case).to_dataset(), gs.answer(other).to_dataset()
-    assert set(before) == set(after)
-    for name, values in before.items():
-        if values.dtype.kind == "f":
-            xr.testing.assert_identical(values.drop_attrs(), after[name].drop_attrs())
-    assert case.surface.measured is None or before["total_friction"] > 0.0
+    if answers:
+        before, after = gs.answer(case).to_dataset(), gs.answer(other).to_dataset()
+        assert set(before) == set(after)
+        for name, values in before.items():
+            if values.dtype.kind == "f":
+                xr.testing.assert_identical(values.drop_attrs(), after[name].drop_attrs())
+        assert measured[0] is None or before["total_friction"] > 0.0
 
 
 SURFACES = {
@@ -74,15 +75,15 @@ SURFACES = {
 
 
 @pytest.mark.parametrize("surface", SURFACES)
-def test_every_surface_comes_back(surface: str, tmp_path: Path) -> None:
+def test_every_surface_comes_back(surface, tmp_path):
     case = gs.Case(SURFACES[surface], SHIFTED_RUBBER, **LOAD, waves=3, chain=QUICK)
     other = moved(case, tmp_path)
-    assert_same(case, other)
+    assert_same(case, other, answers=surface in ("profile", "map"))
     assert other.chain == case.chain
     assert other.load == case.load
 
 
-def test_heights_taken_as_they_are_are_not_cropped(tmp_path: Path) -> None:
+def test_heights_taken_as_they_are_are_not_cropped(tmp_path):
     case = gs.Case(SURFACES["profiles"], SHIFTED_RUBBER, **LOAD, waves=3, chain=QUICK)
     written = case.save(tmp_path / "case.toml")
     text = written.read_text()
@@ -91,7 +92,7 @@ def test_heights_taken_as_they_are_are_not_cropped(tmp_path: Path) -> None:
         gs.read_case(written)
 
 
-def test_a_prony_series_needs_its_moduli_only(tmp_path: Path) -> None:
+def test_a_prony_series_needs_its_moduli_only(tmp_path):
     written = gs.Case(SINES, SHIFTED_RUBBER, **LOAD).save(tmp_path / "case.toml")
     series = tmp_path / "inputs" / "rubber.json"
     series.write_text('{"equilibrium_modulus": 1e6, "moduli": [9e6], "relaxation_times": [1e-3]}')
@@ -111,7 +112,7 @@ def test_a_prony_series_needs_its_moduli_only(tmp_path: Path) -> None:
         gs.read_case(written)
 
 
-def test_profiles_are_cleaned_as_before(tmp_path: Path) -> None:
+def test_profiles_are_cleaned_as_before(tmp_path):
     """Distances as a file in mm gives them; a spike, a slope and missing heights to clean."""
     x = np.linspace(0.0, 20.0, 401)
     z = 1e3 * line().z[:401] + 0.05 * x
@@ -130,7 +131,7 @@ def test_profiles_are_cleaned_as_before(tmp_path: Path) -> None:
     assert_same(case, other)
 
 
-def test_what_an_instrument_resolves_comes_back(tmp_path: Path) -> None:
+def test_what_an_instrument_resolves_comes_back(tmp_path):
     road = gs.Profile(line().x, line().z, reliable=6e-4)
     case = gs.Case(road, SHIFTED_RUBBER, **LOAD, chain=QUICK)
     other = moved(case, tmp_path)
@@ -173,7 +174,7 @@ RUBBERS = {
 
 
 @pytest.mark.parametrize("name", RUBBERS)
-def test_every_rubber_comes_back(name: str, tmp_path: Path) -> None:
+def test_every_rubber_comes_back(name, tmp_path):
     rubber, conditions = RUBBERS[name]
     case = gs.Case(SINES, rubber, **LOAD, conditions=conditions, chain=QUICK)
     other = moved(case, tmp_path)
@@ -186,7 +187,7 @@ def test_every_rubber_comes_back(name: str, tmp_path: Path) -> None:
     assert solved[0].friction == solved[1].friction
 
 
-def test_everything_else_of_a_case_comes_back(tmp_path: Path) -> None:
+def test_everything_else_of_a_case_comes_back(tmp_path):
     measured = MeasuredFriction([0.1, 1.0], [0.5, 0.7], spread=[0.1, np.nan])
     case = gs.Case(
         line(),
@@ -211,7 +212,7 @@ def test_everything_else_of_a_case_comes_back(tmp_path: Path) -> None:
         np.testing.assert_array_equal(getattr(other.friction, column), getattr(measured, column))
 
 
-def test_a_case_from_a_file_keeps_its_text_and_takes_its_files_along(tmp_path: Path) -> None:
+def test_a_case_from_a_file_keeps_its_text_and_takes_its_files_along(tmp_path):
     written = gs.Case(line(), SHIFTED_RUBBER, **LOAD, chain=QUICK).save(tmp_path / "case.toml")
     case = gs.read_case(written)
     other = moved(case, tmp_path)
@@ -224,7 +225,7 @@ def test_a_case_from_a_file_keeps_its_text_and_takes_its_files_along(tmp_path: P
     assert not (tmp_path / "late").exists()
 
 
-def test_saving_twice_replaces_its_own_files_and_no_others(tmp_path: Path) -> None:
+def test_saving_twice_replaces_its_own_files_and_no_others(tmp_path):
     (tmp_path / "inputs").mkdir()
     (tmp_path / "inputs" / "profile.csv").write_text("somebody else's")
     for seed in (1, 2):
@@ -245,7 +246,7 @@ def test_saving_twice_replaces_its_own_files_and_no_others(tmp_path: Path) -> No
         ({"surface": gs.SineStack([1e-2], [1e-4], cut_off=5e-3)}, "waves that end beyond"),
     ],
 )
-def test_what_no_file_can_state_is_refused(options: dict, words: str, tmp_path: Path) -> None:
+def test_what_no_file_can_state_is_refused(options, words, tmp_path):
     surface = options.pop("surface", SINES)
     case = gs.Case(surface, SHIFTED_RUBBER, **LOAD, **options)
     with pytest.raises(InputError, match=f"a case file cannot state {words}"):

@@ -1,12 +1,7 @@
 """A case saved with its results runs from there, wherever the folder goes."""
 
-from __future__ import annotations
-
 import shutil
 import tomllib
-from pathlib import Path
-
-import pytest
 
 from gripscale.case_file import folder, read_case_file
 from gripscale.case_file import folder as results_folder
@@ -14,9 +9,7 @@ from gripscale.case_file.folder import renamed, saved_case
 from tests.run_case import run_case
 
 
-def test_the_results_folder_alone_gives_the_same_result_elsewhere(
-    inputs: Path, tmp_path: Path
-) -> None:
+def test_the_results_folder_alone_gives_the_same_result_elsewhere(inputs, tmp_path):
     there = tmp_path / "work"
     shutil.copytree(inputs, there)
     first = run_case(there / "case.toml", there / "results")
@@ -29,7 +22,7 @@ def test_the_results_folder_alone_gives_the_same_result_elsewhere(
     assert (tmp_path / "again" / "case.toml").read_text() == (moved / "case.toml").read_text()
 
 
-def test_a_saved_case_run_into_its_own_folder_keeps_its_files(inputs: Path, tmp_path: Path) -> None:
+def test_a_saved_case_run_into_its_own_folder_keeps_its_files(inputs, tmp_path):
     first = run_case(inputs / "case.toml", tmp_path / "results")
     case = tmp_path / "results" / "case.toml"
     text = case.read_text()
@@ -56,7 +49,7 @@ friction = "m\\u00fc.csv"
 """
 
 
-def test_only_names_of_files_are_changed() -> None:
+def test_only_names_of_files_are_changed():
     places = {"a.txt": "A", "b/a.txt": "B", 'c"d.txt': "C", "e.txt": "E", "mü.csv": 'M"'}
     text = renamed(STRANGE, places)
     tables = tomllib.loads(text)
@@ -67,7 +60,7 @@ def test_only_names_of_files_are_changed() -> None:
     assert text.splitlines()[2].endswith("# 'a.txt'")
 
 
-def named(tmp_path: Path, *names: str) -> Path:
+def named(tmp_path, *names):
     """Write a case of files by these names, each with its name as its text."""
     for name in names:
         (tmp_path / name).parent.mkdir(exist_ok=True)
@@ -81,7 +74,7 @@ def named(tmp_path: Path, *names: str) -> Path:
     return case
 
 
-def test_files_of_one_name_and_files_of_others_keep_their_places(tmp_path: Path) -> None:
+def test_files_of_one_name_and_files_of_others_keep_their_places(tmp_path):
     case = read_case_file(named(tmp_path, "a/road.txt", "b/road.txt"))
     target = tmp_path / "out"
     (target / "inputs").mkdir(parents=True)
@@ -97,9 +90,7 @@ def test_files_of_one_name_and_files_of_others_keep_their_places(tmp_path: Path)
     assert sorted(p.name for p in (target / "inputs").iterdir()) == ["c.txt", "road.txt"]
 
 
-def test_large_files_are_named_where_they_are(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_large_files_are_named_where_they_are(tmp_path, monkeypatch):
     monkeypatch.setattr(folder, "COPIED_AT_MOST", 8)
     kept = saved_case(read_case_file(named(tmp_path, "long name.txt")), tmp_path / "out")
     assert not kept.copies

@@ -1,7 +1,5 @@
 """Cases on a surface that is known by its spectrum only."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -20,7 +18,7 @@ from tests.samples import MEASURED_DMA
 LOAD = {"pressure": 3e5, "speed": 0.3}
 
 
-def spectrum(phases: str = "real") -> gs.Spectrum:
+def spectrum(phases="real"):
     """Return that of a surface with waves of 10 to 1 mm."""
     q = 2.0 * np.pi * np.geomspace(1e2, 1e3, 21)
     return gs.Spectrum(q, 1e-12 * (q / q[0]) ** -3.6, name="psd", phases=phases)
@@ -35,7 +33,7 @@ def folder(tmp_path):
     return tmp_path
 
 
-def case_text(surface: str) -> str:
+def case_text(surface):
     return (
         f'[surface]\n{surface}\n[rubber]\nname = "styrene_butadiene"\nfilled = false\n'
         "[load]\npressure = 3e5\nspeed = 0.3\nfootprint = 0.1\n"
@@ -52,9 +50,11 @@ def test_a_case_file_is_the_case_in_python(folder):
     ):
         np.testing.assert_array_equal(ours.z, theirs.z)
     np.testing.assert_array_equal(read.surface.sines.amplitude, made.surface.sines.amplitude)
-    first, second = gs.answer(read), gs.answer(made)
-    assert first.friction == second.friction
-    assert first.contact_fraction_interval == second.contact_fraction_interval
+    assert (read.load, read.rubber, read.surface.spectrum.phases) == (
+        made.load,
+        made.rubber,
+        made.surface.spectrum.phases,
+    )
 
 
 def test_a_saved_case_is_the_same(tmp_path):
@@ -67,9 +67,10 @@ def test_a_saved_case_is_the_same(tmp_path):
 
 
 def test_real_phases_are_a_factor_and_random_ones_are_said():
-    random = gs.answer(gs.Case(spectrum("random"), styrene_butadiene(), filled=False, **LOAD))
-    real = gs.answer(gs.Case(spectrum(), styrene_butadiene(), filled=False, **LOAD))
-    worn = gs.answer(gs.Case(spectrum("worn"), styrene_butadiene(), filled=False, **LOAD))
+    random, real, worn = (
+        gs.answer(gs.Case(spectrum(phases), styrene_butadiene(), filled=False, **LOAD))
+        for phases in ("random", "real", "worn")
+    )
     assert "roughness down to 1 mm, for random phases." in str(random)
     assert "Solved on lines of your spectrum with random phases" in str(real)
     for answer, phases in ((real, "real"), (worn, "worn")):
@@ -98,22 +99,6 @@ def test_questions_on_a_spectrum():
     assert shorter.surface.measured.cleaned[0].step == pytest.approx(2e-3 / 8)
 
 
-@pytest.mark.parametrize(
-    ("surface", "message"),
-    [
-        ('spectrum = "psd.csv"\nscales = 8\ncrop = [0, "1 m"]', "crop belongs to a surface from"),
-        ('spectrum = "psd.csv"\nscales = 8\nz_unit = "mm"', "z_unit belongs to a surface from"),
-        ('spectrum = "psd.csv"\nscales = 8\nmax_lag = "1 mm"', "max_lag belongs to a surface from"),
-        ('files = ["psd.csv"]\nscales = 8\nphases = "random"', "phases belongs to .* spectrum"),
-        ('files = ["psd.csv"]\nspectrum = "psd.csv"\nscales = 8', "expected either files"),
-    ],
-)
-def test_keys_that_do_not_belong(folder, surface, message):
-    (folder / "case.toml").write_text(case_text(surface))
-    with pytest.raises(InputError, match=message):
-        gs.read_case(folder / "case.toml")
-
-
 def test_a_spectrum_is_recognised(folder):
     file = take(folder / "psd.csv", FileKeys())
     assert (file.kind, file.columns[2].name) == ("spectrum", "C(q)")
@@ -124,10 +109,3 @@ def test_a_spectrum_is_recognised(folder):
     result = CliRunner().invoke(app, [*command, "--output", str(out)])
     assert result.exit_code == 0, result.output
     assert gs.read_case(out).surface.spectrum == replace(spectrum(), source=str(folder / "psd.csv"))
-
-
-def test_a_spectrum_that_cannot_be_read_is_named(folder):
-    (folder / "psd.csv").write_text("q [1/m],C(q)\n1,2\n2,1\n3,0.5\n")
-    file = take(folder / "psd.csv", FileKeys())
-    assert file.kind == "spectrum"
-    assert "density_unit must be given" in file.why

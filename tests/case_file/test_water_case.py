@@ -1,9 +1,5 @@
 """Water of a case: from Python and the case file to the answer, and where it is refused."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -25,11 +21,11 @@ LOAD = {"pressure": 7e5, "speed": 0.3}
 
 
 @pytest.fixture(scope="module")
-def wet() -> gs.Case:
+def wet():
     return gs.Case(MAP, ZENER, water=True, **LOAD)
 
 
-def test_the_answer_is_that_of_the_wet_contact(wet: gs.Case) -> None:
+def test_the_answer_is_that_of_the_wet_contact(wet):
     """Alone it has the numbers of `solve_rough_contact` with water, and says so."""
     answer = gs.answer(wet)
     end = wet.surface.cutoff_wavelength
@@ -46,19 +42,19 @@ def test_the_answer_is_that_of_the_wet_contact(wet: gs.Case) -> None:
     assert any(line in text for text in answer.basis)
 
 
-def test_a_dry_case_says_nothing_of_water() -> None:
+def test_a_dry_case_says_nothing_of_water():
     samples = solve_direct_contact(gs.Case(MAP, ZENER, **LOAD))
     assert samples is not None
     assert "water_load_share" not in samples
 
 
-def test_derivatives_of_a_wet_contact_are_refused(wet: gs.Case) -> None:
+def test_derivatives_of_a_wet_contact_are_refused(wet):
     with pytest.raises(InputError, match="dry contacts only: leave out the water"):
         gs.sensitivity(wet)
     assert "water=flooded" in repr(wet)
 
 
-def test_a_saved_case_keeps_its_water(wet: gs.Case, tmp_path: Path) -> None:
+def test_a_saved_case_keeps_its_water(wet, tmp_path):
     for water, film in ((True, np.inf), ("0.2 mm", 2e-4)):
         case = gs.Case(MAP, ZENER, water=water, **LOAD)
         conditions = gs.read_case(case.save(tmp_path / "case.toml")).conditions
@@ -68,14 +64,14 @@ def test_a_saved_case_keeps_its_water(wet: gs.Case, tmp_path: Path) -> None:
     assert case.key != wet.key
 
 
-def test_water_is_an_effect_of_the_direct_contact(wet: gs.Case) -> None:
+def test_water_is_an_effect_of_the_direct_contact(wet):
     model = AnswerModel(conditions=wet.conditions)
     assert inputs.conditions_of(inputs.with_effects(model, "no water")).water is None
     assert wet.chain.conditions == Conditions()
     assert "water: flooded" in "\n".join(conditions_lines(wet.conditions, ZENER))
 
 
-def test_water_is_refused_where_no_law_is_known() -> None:
+def test_water_is_refused_where_no_law_is_known():
     line = sine()
     with pytest.raises(InputError, match="water needs a map"):
         gs.Case(line, ZENER, water=True, **LOAD)

@@ -1,18 +1,15 @@
 """The algebra of the chain, with powers of two so that every number is exact."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 
-from gripscale.chain import ChainError, ChainResult, solve_chain
+from gripscale.chain import ChainError, solve_chain
 from gripscale.core.errors import ConvergenceError, InputError
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.theory import HalfPlane
-from gripscale.wave import Sine
 from tests.samples import THREE_SINES as THREE
 
 from .stand_ins import Scripted, Spring
@@ -20,7 +17,7 @@ from .stand_ins import Scripted, Spring
 LOAD = {"pressure": 2.0**18, "speed": 0.25, "footprint": 0.125}
 
 
-def test_pressure_area_and_friction_follow_equations_1_to_3() -> None:
+def test_pressure_area_and_friction_follow_equations_1_to_3():
     solver = Scripted([0.5, 0.25, 0.125])
     result = solve_chain(Spring(), THREE, solver=solver, **LOAD)
     assert [s.pressure_received for s in result.scales] == [2.0**18, 2.0**19, 2.0**21]
@@ -31,19 +28,12 @@ def test_pressure_area_and_friction_follow_equations_1_to_3() -> None:
     assert result.friction_from_dissipation == 0.75 * 0.875
 
 
-def test_pressure_times_running_area_is_the_nominal_pressure() -> None:
-    result = solve_chain(Spring(), THREE, solver=Scripted([0.3, 0.7, 0.9]), **LOAD)
-    received = np.array([s.pressure_received for s in result.scales])
-    above = np.concatenate([[1.0], result.running_contact_fraction[:-1]])
-    np.testing.assert_allclose(received * above, LOAD["pressure"], rtol=1e-14)
-
-
-def test_full_contact_passes_the_pressure_on_unchanged() -> None:
+def test_full_contact_passes_the_pressure_on_unchanged():
     result = solve_chain(Spring(), THREE, solver=Scripted([1.0, 1.0, 0.5]), **LOAD)
     assert [s.pressure_received for s in result.scales] == [LOAD["pressure"]] * 3
 
 
-def test_load_time_is_the_passage_of_the_contact_above() -> None:
+def test_load_time_is_the_passage_of_the_contact_above():
     solver = Scripted([0.5, 0.25, 0.125])
     solve_chain(Spring(), THREE, solver=solver, **LOAD)
     assert [problem.load.load_time for problem in solver.asked] == [
@@ -54,26 +44,20 @@ def test_load_time_is_the_passage_of_the_contact_above() -> None:
 
 
 @pytest.mark.parametrize(("stated", "used"), [(math.inf, math.inf), (2.0, 2.0)])
-def test_stated_load_time_holds_for_every_wave(stated: float, used: float) -> None:
+def test_stated_load_time_holds_for_every_wave(stated, used):
     solver = Scripted([0.5, 0.5, 0.5])
     solve_chain(Spring(), THREE, solver=solver, load_time=stated, **LOAD)
     assert [problem.load.load_time for problem in solver.asked] == [used] * 3
 
 
 @pytest.mark.parametrize("stated", ["passage", 2.0])
-def test_at_rest_the_load_lasts_for_ever(stated: float | str) -> None:
+def test_at_rest_the_load_lasts_for_ever(stated):
     solver = Scripted([0.5, 0.5, 0.5])
     solve_chain(Spring(), THREE, solver=solver, load_time=stated, **{**LOAD, "speed": 0.0})
     assert [problem.load.load_time for problem in solver.asked] == [math.inf] * 3
 
 
-def test_solver_gets_the_rubber() -> None:
-    solver, rubber = Scripted([0.5, 0.5, 0.5]), Spring()
-    solve_chain(rubber, THREE, solver=solver, **LOAD)
-    assert all(problem.rubber is rubber for problem in solver.asked)
-
-
-def test_solver_by_name_or_by_its_face_gets_the_options() -> None:
+def test_solver_by_name_or_by_its_face_gets_the_options():
     rubber, load = Rubber(5e6, [1e6], [1e-3]), {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
     one = SineStack([10e-3], [0.8e-3])
     block = solve_chain(rubber, one, columns=32, rows=8, depth=2.0, **load).scales[0]
@@ -93,20 +77,20 @@ def test_solver_by_name_or_by_its_face_gets_the_options() -> None:
         ({"solver": HalfPlane(), "points": 64}, "points belongs to the solver"),
     ],
 )
-def test_solver_or_option_that_is_none_is_refused(given: dict[str, object], words: str) -> None:
+def test_solver_or_option_that_is_none_is_refused(given, words):
     with pytest.raises(InputError) as caught:
         solve_chain(Rubber(5e6), SineStack([10e-3], [0.8e-3]), **{**LOAD, **given})
     assert words in str(caught.value)
 
 
-def test_start_shorter_than_the_stack_starts_only_its_own_waves() -> None:
+def test_start_shorter_than_the_stack_starts_only_its_own_waves():
     first = solve_chain(Spring(), THREE, solver=Scripted([0.5]), smallest_wavelength=5e-3, **LOAD)
     solver = Scripted([0.5, 0.5, 0.5])
     solve_chain(Spring(), THREE, solver=solver, start=first, **LOAD)
     assert solver.starts == [first.scales[0], None, None]
 
 
-def test_half_plane_neither_gives_nor_takes_a_start() -> None:
+def test_half_plane_neither_gives_nor_takes_a_start():
     rubber, one = Rubber(5e6, [1e6], [1e-3]), SineStack([10e-3], [0.8e-3])
     plane = solve_chain(rubber, one, solver="half_plane", **LOAD)
     with pytest.raises(InputError, match="start must be None: the half-plane model"):
@@ -115,8 +99,8 @@ def test_half_plane_neither_gives_nor_takes_a_start() -> None:
         solve_chain(rubber, one, start=plane, **LOAD)
 
 
-def test_rubber_of_a_wave_may_depend_on_what_was_solved() -> None:
-    def softer(wave: Sine, so_far: ChainResult) -> Rubber:
+def test_rubber_of_a_wave_may_depend_on_what_was_solved():
+    def softer(wave, so_far):
         return Rubber(4e6 / (1 + len(so_far.scales)), name=f"{wave.wavelength:g}")
 
     solver = Scripted([0.5, 0.5, 0.5])
@@ -134,26 +118,14 @@ def test_rubber_of_a_wave_may_depend_on_what_was_solved() -> None:
         ({"smallest_wavelength": 4.001e-3}, 1),
     ],
 )
-def test_chain_stops_at_the_cut_off(limits: dict[str, float], count: int) -> None:
+def test_chain_stops_at_the_cut_off(limits, count):
     result = solve_chain(Spring(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **limits, **LOAD)
     assert len(result.scales) == count
 
 
-def test_every_wave_is_reported_as_it_comes() -> None:
-    seen: list[int] = []
-    solve_chain(
-        Spring(),
-        THREE,
-        solver=Scripted([0.5, 0.5, 0.5]),
-        on_scale=lambda so_far: seen.append(len(so_far.scales)),
-        **LOAD,
-    )
-    assert seen == [1, 2, 3]
-
-
-def test_modulus_and_loss_factor_are_taken_at_the_fundamental_frequency() -> None:
+def test_modulus_and_loss_factor_are_taken_at_the_fundamental_frequency():
     class Dashpot(Spring):
-        def complex_modulus(self, omega: np.ndarray) -> np.ndarray:
+        def complex_modulus(self, omega):
             return 4.0 + 1j * np.asarray(omega)
 
     result = solve_chain(Dashpot(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **LOAD)
@@ -163,9 +135,9 @@ def test_modulus_and_loss_factor_are_taken_at_the_fundamental_frequency() -> Non
     np.testing.assert_allclose([s.loss_factor for s in result.scales], omega / 4.0, rtol=1e-15)
 
 
-def test_wave_that_fails_stops_the_chain_and_loses_nothing() -> None:
+def test_wave_that_fails_stops_the_chain_and_loses_nothing():
     solver = Scripted([0.5, 0.25, 0.5], statuses=["converged", "iteration limit", "converged"])
-    seen: list[str] = []
+    seen = []
     with pytest.raises(ConvergenceError, match=r"wave 2 of 3.*4 mm.*iteration limit") as caught:
         solve_chain(
             Spring(),
@@ -187,7 +159,7 @@ def test_wave_that_fails_stops_the_chain_and_loses_nothing() -> None:
 
 
 @pytest.mark.parametrize("fraction", [0.0, -0.1, 1.1, math.nan])
-def test_wave_without_a_usable_contact_stops_the_chain(fraction: float) -> None:
+def test_wave_without_a_usable_contact_stops_the_chain(fraction):
     with pytest.raises(ChainError, match=r"wave 1 of 3.*contact fraction"):
         solve_chain(Spring(), THREE, solver=Scripted([fraction, 0.5, 0.5]), **LOAD)
 
@@ -196,10 +168,8 @@ def test_wave_without_a_usable_contact_stops_the_chain(fraction: float) -> None:
     ("change", "words"),
     [
         ({"pressure": 0.0}, "pressure must be greater than zero [Pa]; got 0"),
-        ({"pressure": math.nan}, "pressure must be a finite number [Pa]; got nan"),
         ({"pressure": "3 barrels"}, "pressure = '3 barrels': unknown unit"),
         ({"speed": -1.0}, "speed must not be negative [m/s]; got -1"),
-        ({"speed": math.inf}, "speed must be a finite number [m/s]; got inf"),
         ({"footprint": -0.1}, "footprint must be greater than zero [m]; got -0.1"),
         ({"load_time": 0.0}, "load_time must be greater than zero [s]; got 0"),
         ({"load_time": "soon"}, 'load_time must be "passage", "infinite" or a time'),
@@ -207,9 +177,7 @@ def test_wave_without_a_usable_contact_stops_the_chain(fraction: float) -> None:
         ({"smallest_wavelength": 1.0}, "smallest_wavelength must not exceed the largest wave"),
     ],
 )
-def test_bad_input_is_refused_before_any_wave_is_solved(
-    change: dict[str, object], words: str
-) -> None:
+def test_bad_input_is_refused_before_any_wave_is_solved(change, words):
     solver = Scripted([0.5, 0.5, 0.5])
     with pytest.raises(InputError) as caught:
         solve_chain(Spring(), THREE, solver=solver, **{**LOAD, **change})

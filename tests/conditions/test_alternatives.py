@@ -9,7 +9,6 @@ from gripscale.conditions.conditions import (
     AMPLITUDE,
     MASTER_CURVE_STRAIN,
     TENSION_OR_SHEAR,
-    Alternative,
     Conditions,
     alternatives,
 )
@@ -21,16 +20,16 @@ STATED = SofteningTable(
 )
 
 
-def by_label(law: SofteningTable) -> dict[str, Alternative]:
+def by_label(law):
     return {each.label: each for each in alternatives(Conditions(softening=law))}
 
 
-def test_sweeps_that_state_all_have_no_alternative() -> None:
+def test_sweeps_that_state_all_have_no_alternative():
     assert not by_label(STATED)
     assert [*by_label(replace(STATED, deformation=None))] == [TENSION_OR_SHEAR]
 
 
-def test_a_master_curve_of_unknown_strain_is_stiffer_if_it_was_measured_at_more() -> None:
+def test_a_master_curve_of_unknown_strain_is_stiffer_if_it_was_measured_at_more():
     """At e times the usual strain: the factors, one there, are larger at every strain beyond."""
     law = replace(STATED, measured_at=None)
     other = by_label(law)[MASTER_CURVE_STRAIN].conditions.softening
@@ -44,7 +43,7 @@ def test_a_master_curve_of_unknown_strain_is_stiffer_if_it_was_measured_at_more(
 LOG = np.log(STRAIN), np.log([10.0, 9.0, 6.0, 4.0])
 
 
-def test_strains_that_may_be_peak_to_peak_are_halved() -> None:
+def test_strains_that_may_be_peak_to_peak_are_halved():
     """Also where the strain of the master curve is then beyond the sweep."""
     law = replace(STATED, measured_at=1e-1, amplitude_assumed=True)
     found = by_label(law)[AMPLITUDE]

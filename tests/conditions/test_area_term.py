@@ -7,15 +7,21 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import (
+    Conditions,
     ConstantStress,
     GaussianStress,
     LeGalKlueppelStress,
     TableStress,
+    ThermalProperties,
     adhesive_friction,
     shear_stress_from_dict,
     shear_stress_to_dict,
 )
 from gripscale.conditions.area_term import BOLTZMANN
+from gripscale.rubber.softening import Kraus
+from tests.samples import SHIFTED_RUBBER as RUBBER
+from tests.samples import SHIFTED_SINES as SINES
+from tests.samples import SHIFTED_VALUES as LOAD
 
 LAWS = [
     ConstantStress(5e6),
@@ -91,3 +97,59 @@ def test_a_contact_that_is_not_known_has_no_area_term():
     assert math.isnan(adhesive_friction(5e6, math.nan, 3e5))
     with pytest.raises(gs.InputError, match="pressure must be greater than zero"):
         adhesive_friction(5e6, 0.03, 0.0)
+
+
+# The area term beside the hysteresis: in the chain, in the direct contact, in files.
+
+TURNS = 2.0 * np.pi * np.arange(512) / 512
+LINE = gs.Profile(np.arange(512) * 2e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS))
+EVERYTHING = Conditions(
+    temperature=300.0,
+    softening=Kraus(0.3, 0.15, 0.02, 1e-3, "shear"),
+    heat=ThermalProperties(0.25, 1150.0, 1500.0),
+    shear_stress=GaussianStress(6e6, 0.1, 6e-3, 0.97, 293.15),
+)
+
+
+def test_the_chain_shears_its_real_area_and_keeps_its_hysteresis():
+    plain = gs.solve_chain(RUBBER, SINES, solver="half_plane", **LOAD)
+    both = gs.solve_chain(
+        RUBBER,
+        SINES,
+        solver="half_plane",
+        conditions=Conditions(shear_stress=ConstantStress(2e6)),
+        **LOAD,
+    )
+    assert both.friction == plain.friction
+    assert both.adhesive_friction == pytest.approx(2e6 * plain.contact_fraction / 3e5)
+    assert both.total_friction == both.friction + both.adhesive_friction
+    assert math.isnan(plain.adhesive_friction)
+    data = both.to_dataset()
+    assert float(data.total_friction) == plain.friction
+    assert float(data.total_adhesive_friction) == both.adhesive_friction
+    assert "total_adhesive_friction" not in plain.to_dataset()
+
+
+def test_the_direct_contact_shears_its_real_area():
+    found = gs.solve_rough_contact(
+        RUBBER,
+        LINE,
+        pressure=3e5,
+        speed=1.0,
+        periodic=True,
+        conditions=Conditions(shear_stress=ConstantStress(2e6)),
+    )
+    assert found.adhesive_friction == pytest.approx(2e6 * found.contact_fraction / 3e5)
+    assert found.total_friction == found.friction + found.adhesive_friction
+
+
+@pytest.mark.parametrize("conditions", [Conditions(), EVERYTHING])
+def test_conditions_survive_their_dict(conditions):
+    assert Conditions.from_dict(conditions.to_dict()) == conditions
+
+
+def test_at_rest_there_is_no_area_term():
+    at_rest = LOAD | {"speed": 0.0}
+    shear = Conditions(shear_stress=ConstantStress(2e6))
+    found = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=shear, **at_rest)
+    assert math.isnan(found.adhesive_friction)

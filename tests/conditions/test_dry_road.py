@@ -1,7 +1,5 @@
 """The shear stress of a dry road: its numbers from measured friction, each compound left out."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Uniform heat of sources at different depths, where each loses its energy."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,7 @@ from gripscale.conditions.flash_temperature import ierfc, uniform_from_others
 from tests.samples import THERMAL
 
 
-def exact(depth: LossDepth, other: LossDepth, time: float) -> float:
+def exact(depth, other, time):
     """Return q l/(2 kappa) (E ierfc(|Z - Z'|/l) + E ierfc((Z + Z')/l)) of sampled depths."""
     draw = np.random.default_rng(1)
     length = 2.0 * np.sqrt(THERMAL.diffusivity * time)
@@ -21,7 +19,7 @@ def exact(depth: LossDepth, other: LossDepth, time: float) -> float:
 
 @pytest.mark.parametrize("ratio", [2.0, 8.0, 32.0])
 @pytest.mark.parametrize("spread", [1.0, 3.0, 10.0])
-def test_the_deeper_of_two_depths_decides(spread: float, ratio: float) -> None:
+def test_the_deeper_of_two_depths_decides(spread, ratio):
     """2 sqrt(D t) = `spread` times the deeper depth: 20 % off where both are near, 5 % else."""
     deep, shallow = LossDepth(1e-4), LossDepth(1e-4 / ratio)
     time = (0.5e-4 * spread) ** 2 / THERMAL.diffusivity
@@ -32,7 +30,7 @@ def test_the_deeper_of_two_depths_decides(spread: float, ratio: float) -> None:
         assert rise == pytest.approx(exact(deep, shallow, time), rel=error)
 
 
-def test_what_lies_deeper_than_the_heat_spreads_stays_cold() -> None:
+def test_what_lies_deeper_than_the_heat_spreads_stays_cold():
     deep, shallow, time = LossDepth(1e-2), LossDepth(1e-5), 0.1
     tops = [uniform_at_surface(time, each, THERMAL) for each in (deep, shallow)]
     assert uniform_from_others([0.0, 1.0], tops, 0) < 0.01 * tops[1]

@@ -21,7 +21,7 @@ K = 2.0 * np.pi / WAVELENGTH
 PLANE = LossDepth.under(K)
 
 
-def sampled(layers: int) -> LossLayers:
+def sampled(layers):
     """(k z)^2 exp(-2 k z) in layers that grow with depth."""
     edges = 1.5 * WAVELENGTH * np.linspace(0.0, 1.0, layers + 1) ** 2
     s = 2.0 * K * edges
@@ -29,7 +29,7 @@ def sampled(layers: int) -> LossLayers:
     return LossLayers.of(edges, -np.diff(below))
 
 
-def errors(layers: int) -> list[float]:
+def errors(layers):
     """Errors of the temperatures it decides, relative to those where energy is lost."""
     one = sampled(layers)
     out = []
@@ -61,7 +61,7 @@ def test_the_mean_depth_is_the_mean():
 RUBBER = gs.Rubber(1e6, [2e6, 4e6], [1e-4, 1e-5], bulk_modulus=1e11)
 
 
-def solved(amplitude: float, **mesh) -> gs.ScaleResult:
+def solved(amplitude, **mesh):
     return gs.solve_scale(
         RUBBER, wavelength=WAVELENGTH, amplitude=amplitude, pressure=3e5, speed=3.0, **mesh
     )

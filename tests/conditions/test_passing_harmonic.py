@@ -1,7 +1,5 @@
 """Harmonics of heat switched on when a contact begins: against time integrals and both limits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -19,11 +17,11 @@ from gripscale.conditions.flash_temperature import PassingHarmonics
 from tests.samples import THERMAL
 
 
-def integrated(m: complex, time: float, depth: LossDepth, of: str) -> complex:
+def integrated(m, time, depth, of):
     """Return D/kappa times the integral of E exp(-d^2/(4 D s) - D m^2 s) / sqrt(pi D s) over s."""
     diffusivity, rate = THERMAL.diffusivity, depth.rate
 
-    def met(s: float) -> float:
+    def met(s):
         length = 2.0 * np.sqrt(diffusivity * s)
         if of == "between":
             own = lambda d: rate * (3 + 3 * rate * d + (rate * d) ** 2) / 8 * np.exp(-rate * d)  # noqa: E731
@@ -33,8 +31,8 @@ def integrated(m: complex, time: float, depth: LossDepth, of: str) -> complex:
         end = min(60.0 / rate, 7.0 * length)
         return float(quad(lambda d: own(d) * np.exp(-((d / length) ** 2)), 0.0, end, limit=200)[0])
 
-    def part(unit: complex) -> float:
-        def at(root: float) -> float:
+    def part(unit):
+        def at(root):
             wave = np.exp(-diffusivity * m**2 * root**2)
             return float(2.0 * (unit * wave).real / np.sqrt(np.pi * diffusivity) * met(root**2))
 
@@ -47,9 +45,7 @@ def integrated(m: complex, time: float, depth: LossDepth, of: str) -> complex:
     ("speed", "along", "number", "time", "mean"),
     [(1.0, 0.0, 1e3, 0.1, 1e-3), (1.0, 50.0, 300.0, 0.1, 1e-4), (0.3, 60.0, 60.0, 0.3, 1e-3)],
 )
-def test_slow_harmonics_are_the_integral_over_the_time_of_contact(
-    speed: float, along: float, number: float, time: float, mean: float
-) -> None:
+def test_slow_harmonics_are_the_integral_over_the_time_of_contact(speed, along, number, time, mean):
     m, depth = harmonic_decay([number], [along], speed, THERMAL), LossDepth(mean)
     [surface] = PassingHarmonics(m, time, THERMAL).at_surface(depth)
     assert surface == pytest.approx(integrated(m[0], time, depth, "one"), rel=1e-8)
@@ -58,7 +54,7 @@ def test_slow_harmonics_are_the_integral_over_the_time_of_contact(
     assert lost == pytest.approx(0.5 * sum(both), rel=1e-8)
 
 
-def test_no_wavenumber_is_uniform_heat_and_a_long_time_is_steady() -> None:
+def test_no_wavenumber_is_uniform_heat_and_a_long_time_is_steady():
     depth, time = LossDepth(2e-4), 0.1
     still = np.array([0.1 + 0j])
     [surface] = PassingHarmonics(still, time, THERMAL).at_surface(depth)
@@ -75,12 +71,3 @@ def test_no_wavenumber_is_uniform_heat_and_a_long_time_is_steady() -> None:
     np.testing.assert_allclose(
         PassingHarmonics(m, long, THERMAL).where_lost(depth), where, rtol=1e-7
     )
-
-
-def test_across_the_way_of_sliding_a_short_contact_warms_no_more_than_its_energy() -> None:
-    """It is no warmer than under the same heat everywhere; the steady one would be four times."""
-    number, time, depth = 2.0 * np.pi / 6e-3, 0.1, LossDepth(0.0)
-    m = np.array([number + 0j])
-    [risen] = PassingHarmonics(m, time, THERMAL).at_surface(depth)
-    assert risen.real <= uniform_at_surface(time, depth, THERMAL)
-    assert harmonic_at_surface(m, depth, THERMAL)[0].real > 4.0 * risen.real

@@ -6,7 +6,6 @@ import pytest
 import gripscale as gs
 from gripscale.conditions import Conditions, fixed_point
 from gripscale.half_space import conditions as half_space
-from gripscale.rubber.softening import Kraus
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave import FiniteStrainBlock
 from tests.samples import KRAUS as SOFTENING
@@ -115,19 +114,6 @@ def test_the_grids_of_the_result_come_last():
     found = gs.solve_rough_contact(RUBBER, LINE, conditions=EFFECTS[0], **load)
     assert found.coarse_passes > 4
     assert found.grids[-1].friction == found.friction
-
-
-def test_errors_are_told_from_as_many_grids_as_without_conditions():
-    """A law that softens nothing: grid and errors are those of the rubber."""
-    nothing = Conditions(softening=Kraus(1.0, 1.0, 0.02, 1e-3, "shear"))
-    load = DIRECT | {"tolerance": 0.02}
-    plain, same = (
-        gs.solve_rough_contact(RUBBER, LINE, conditions=conditions, **load)
-        for conditions in (None, nothing)
-    )
-    assert same.grid.shape == plain.grid.shape
-    assert same.friction_error == pytest.approx(plain.friction_error, rel=1e-3)
-    assert same.contact_fraction_error == pytest.approx(plain.contact_fraction_error, rel=1e-3)
 
 
 def test_a_slow_chain_is_warmed_by_what_lasts():

@@ -100,9 +100,3 @@ def test_heat_moves_harmonics_into_the_band():
 def test_wrong_conditions_are_one_sentence(values, word):
     with pytest.raises(gs.InputError, match=word):
         Conditions(**values)
-
-
-def test_a_rubber_without_shift_has_no_other_temperature():
-    plain = gs.Rubber(5e6, [1e7], [1e-3])
-    with pytest.raises(gs.InputError, match="shift"):
-        gs.solve_chain(plain, SINES, speed=0.1, conditions=Conditions(temperature=310.0), **LOAD)

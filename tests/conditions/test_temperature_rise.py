@@ -154,16 +154,6 @@ def _jaeger_peak(b, speed):
     return 2.0 * D / (math.pi * KAPPA * speed) * max(map(at, np.linspace(-half, half, 81)))
 
 
-def test_at_high_speed_heat_only_spreads_downwards():
-    """m^2 -> i k v/D: the temperature of a surface source falls as 1/sqrt(v)."""
-    slow, fast = (
-        harmonic_at_surface(harmonic_decay(1e3, 1e3, v, THERMAL), SURFACE, THERMAL)
-        for v in (1e3, 4e3)
-    )
-    assert abs(slow / fast) == pytest.approx(2.0, rel=1e-6)
-    assert np.angle(fast) == pytest.approx(-math.pi / 4.0, rel=1e-6)
-
-
 @pytest.mark.parametrize(
     ("name", "value"), [("conductivity", 0.0), ("density", -1.0), ("specific_heat", math.nan)]
 )

@@ -18,6 +18,7 @@ from gripscale.experiment import MeasuredFriction
 from gripscale.model import Load
 from gripscale.questions import fit_area_term
 from gripscale.rubber import softening
+from tests.samples import EXAMPLES
 
 SOLID = gs.Rubber(1e6, [4e6], [1e-2], name="solid")
 FREQUENCY = np.geomspace(1e-2, 1e6, 30)
@@ -59,6 +60,7 @@ def public_functions() -> Iterator[PublicFunction]:
     """Yield every one."""
     yield from _theory()
     yield from _rubber()
+    yield from _sweeps()
     yield from _surface()
     yield from _wave()
     yield from _rough()
@@ -191,6 +193,23 @@ def _shifts() -> Iterator[PublicFunction]:
     yield PublicFunction(rubber.ShiftTable, table)
     moved = replace(SOLID, reference_temperature=293.0, shift=rubber.WLF(8.0, 120.0))
     yield PublicFunction(moved.at, {"temperature": 300.0})
+
+
+def _sweeps() -> Iterator[PublicFunction]:
+    rows = {"temperature": [280.0, 280.0, 300.0, 300.0], "frequency": [1.0, 10.0] * 2}
+    rows |= {"storage": [2e6, 3e6, 1e6, 2e6], "loss": [1e6] * 4}
+    yield PublicFunction(rubber.Sweeps, {**rows, "tolerance": 1.0, "name": "", "source": ""})
+    yield PublicFunction(rubber.sweeps_from_ramps, {**rows, "step": 10.0})
+    choice = {"vertical": False, "shift": None, "moduli": "both"}
+    sweeps = {"sweeps": rubber.Sweeps(**rows), "reference_temperature": 290.0}
+    yield PublicFunction(gs.superpose, {**sweeps, **choice}, slow=True)
+    table = rubber.ShiftTable([280.0, 300.0, 320.0], [1.8, 0.0, -1.2], reference_temperature=300.0)
+    span = {"table": table, "reference_temperature": 300.0, "lowest": 270.0}
+    yield PublicFunction(rubber.fit_wlf, span)
+    yield PublicFunction(rubber.fit_arrhenius, {**span, "highest": 330.0})
+    file = str(EXAMPLES / "data/rubber/multi_temperature_polymer/freq_user_raw.csv")
+    layout = {"temperature": None, "sheet": None}
+    yield PublicFunction(gs.read_sweeps, {"path": file, **layout}, slow=True)
 
 
 def _surface() -> Iterator[PublicFunction]:

@@ -3,20 +3,17 @@
 Warnings are errors here. The sentence names an argument of the function, or what follows from it.
 """
 
-from __future__ import annotations
-
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import pytest
 
 from gripscale.core.checks import short_repr
 from gripscale.core.errors import ConvergenceError, FileError, InputError
-from tests.core.public_functions import PublicFunction, public_functions
+from tests.core.public_functions import public_functions
 
-FOLLOWS = ("omega", "wavelength", "amplitude", "load_time", "profile", "heights")
+FOLLOWS = ("omega", "wavelength", "amplitude", "load_time", "profile", "heights", "temperature")
 """What else a sentence may name: it follows from the arguments."""
 
 NEVER = ["3 barrels", b"1", object(), {}, 1 + 1j, float("nan"), -float("inf"), 10**5000, -(10**400)]
@@ -39,7 +36,7 @@ COMPLEX = ("plane_strain_modulus", "youngs_modulus")
 DOORS = list(public_functions())
 
 
-def fault(function: PublicFunction, argument: str, value: Any) -> str | None:
+def fault(function, argument, value):
     """Return what is wrong with the answer to an absurd value, None if nothing is."""
     try:
         found = function.call(**{**function.good, argument: value})
@@ -57,7 +54,7 @@ def fault(function: PublicFunction, argument: str, value: Any) -> str | None:
     return None if np.isfinite(told).all() else "converged to NaN"
 
 
-def faults(function: PublicFunction, values: list[Any]) -> list[str]:
+def faults(function, values):
     """Return what is wrong with any argument at any of the values."""
     return [
         f"{argument} = {short_repr(value)} ({type(value).__name__}): {found}"
@@ -68,7 +65,7 @@ def faults(function: PublicFunction, values: list[Any]) -> list[str]:
 
 
 @pytest.mark.parametrize("function", DOORS, ids=lambda function: function.name)
-def test_absurd_values(function: PublicFunction) -> None:
+def test_absurd_values(function):
     found = faults(function, NEVER if function.slow else [*NEVER, *WORDS, *NUMBERS])
     assert not found, f"{len(found)}\n" + "\n".join(found[:12])
 
@@ -77,13 +74,13 @@ def test_absurd_values(function: PublicFunction) -> None:
 @pytest.mark.parametrize(
     "function", [d for d in DOORS if d.slow], ids=lambda function: function.name
 )
-def test_absurd_values_that_may_be_solved(function: PublicFunction) -> None:
+def test_absurd_values_that_may_be_solved(function):
     found = faults(function, [*WORDS, *NUMBERS])
     assert not found, f"{len(found)}\n" + "\n".join(found[:12])
 
 
 @pytest.mark.parametrize("function", DOORS, ids=lambda function: function.name)
-def test_what_nothing_takes_is_refused(function: PublicFunction) -> None:
+def test_what_nothing_takes_is_refused(function):
     """Not only no other exception: an answer to such a value would be a wrong one."""
     for argument in function.good:
         for value in (object(), 1 + 1j, [object()]):

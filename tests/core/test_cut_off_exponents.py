@@ -1,7 +1,5 @@
 """How predictions change with the smallest wavelength: closed forms of curves, means, reasons."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -11,7 +9,7 @@ from gripscale.cut_off_exponents import NOT_TOLD, CutOffExponents, between, of_c
 
 
 @pytest.mark.parametrize("factor", [2.0**0.25, 2.0, 3.5])
-def test_power_laws_and_logarithms_are_exact_however_far_waves_are_apart(factor: float) -> None:
+def test_power_laws_and_logarithms_are_exact_however_far_waves_are_apart(factor):
     wavelength = 0.01 / factor ** np.arange(6)
     area, mu = wavelength**0.3, 0.1 + 0.05 * np.log(0.01 / wavelength)
     found = of_curve(wavelength, area, mu, moving=True)
@@ -21,7 +19,7 @@ def test_power_laws_and_logarithms_are_exact_however_far_waves_are_apart(factor:
     assert found.why_not == ""
 
 
-def test_waves_less_than_an_octave_apart_all_count() -> None:
+def test_waves_less_than_an_octave_apart_all_count():
     found = of_curve([1.0, 0.8], [0.5, 0.4], [0.1, 0.2], moving=True)
     assert found.contact_fraction == pytest.approx(1.0)
     assert found.friction == pytest.approx(-math.log(2.0) / math.log(1.25))
@@ -37,12 +35,12 @@ def test_waves_less_than_an_octave_apart_all_count() -> None:
         (of_mean([], [], []), NOT_TOLD.why_not),
     ],
 )
-def test_what_is_not_known_has_a_reason(found: CutOffExponents, why: str) -> None:
+def test_what_is_not_known_has_a_reason(found, why):
     assert math.isnan(found.friction) or math.isnan(found.contact_fraction)
     assert why in found.why_not
 
 
-def test_a_mean_changes_as_its_parts_do_together() -> None:
+def test_a_mean_changes_as_its_parts_do_together():
     areas, frictions = np.array([0.1, 0.3]), np.array([0.2, 0.6])
     exponents = [CutOffExponents(0.2, -0.1), CutOffExponents(0.5, -0.4)]
     step = 1e-6

@@ -1,10 +1,7 @@
 """Ctrl-C while a result is written: the file is whole, and only then the interrupt acts."""
 
-from __future__ import annotations
-
 import signal
 import threading
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,14 +11,14 @@ from gripscale.core.parallel import held_back
 from gripscale.io import netcdf
 
 
-def interrupt() -> None:
+def interrupt():
     signal.raise_signal(signal.SIGINT)
 
 
-def test_interrupt_acts_when_the_block_is_left() -> None:
+def test_interrupt_acts_when_the_block_is_left():
     done = []
 
-    def work() -> None:
+    def work():
         with held_back():
             interrupt()
             done.append("the rest of the block")
@@ -33,17 +30,17 @@ def test_interrupt_acts_when_the_block_is_left() -> None:
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-def test_nothing_is_raised_without_an_interrupt() -> None:
+def test_nothing_is_raised_without_an_interrupt():
     with held_back():
         pass
     with pytest.raises(KeyboardInterrupt):
         interrupt()
 
 
-def test_other_threads_are_left_alone() -> None:
+def test_other_threads_are_left_alone():
     seen = []
 
-    def work() -> None:
+    def work():
         with held_back():
             seen.append(signal.getsignal(signal.SIGINT))
 
@@ -53,13 +50,11 @@ def test_other_threads_are_left_alone() -> None:
     assert seen == [signal.default_int_handler]
 
 
-def test_result_being_written_is_whole_and_the_next_one_does_not_wait(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_result_being_written_is_whole_and_the_next_one_does_not_wait(tmp_path, monkeypatch):
     data = xr.Dataset({"x": ("t", np.arange(3.0))})
     write = xr.Dataset.dump_to_store
 
-    def interrupted(self: xr.Dataset, *args: object, **options: object) -> object:
+    def interrupted(self, *args, **options):
         interrupt()
         return write(self, *args, **options)
 

@@ -14,17 +14,17 @@ from gripscale.core.errors import InputError
 from gripscale.core.parallel import cores, in_threads, sharing, worker_count
 from gripscale.experiment import solve
 from gripscale.experiment.task import Task
-from gripscale.model import Load, Model, OnProgress
+from gripscale.model import Load, Model
 from gripscale.surface import Surface
 from tests.samples import THREE_SINES
 
 
-def count(_: object = None) -> int:
+def count(_=None):
     """Return what a solve that is not told otherwise would use."""
     return worker_count(None)
 
 
-def test_what_is_asked_for_comes_before_all_else() -> None:
+def test_what_is_asked_for_comes_before_all_else():
     before = count()
     with sharing(5):
         assert count() == 5
@@ -35,13 +35,13 @@ def test_what_is_asked_for_comes_before_all_else() -> None:
 @pytest.mark.parametrize(
     ("jobs", "workers", "each"), [(1, 4, 4), (2, 4, 2), (3, 4, 1), (4, 4, 1), (9, 4, 1), (1, 1, 1)]
 )
-def test_jobs_side_by_side_share_the_workers(jobs: int, workers: int, each: int) -> None:
+def test_jobs_side_by_side_share_the_workers(jobs, workers, each):
     with closing(in_threads([count] * jobs, workers)) as stream:
         assert [used for _, used in stream] == [each] * jobs
 
 
 @pytest.mark.parametrize(("at_once", "each"), [(1, 4), (2, 2), (4, 1)])
-def test_fewer_jobs_at_once_have_more_workers_each(at_once: int, each: int) -> None:
+def test_fewer_jobs_at_once_have_more_workers_each(at_once, each):
     with closing(in_threads([count] * 5, 4, at_once)) as stream:
         assert [used for _, used in stream] == [each] * 5
 
@@ -53,19 +53,17 @@ class Shared(Model):
     threads: int
     name = "shared"
 
-    def parts(self, surface: Surface) -> int:
+    def parts(self, surface):
         return self.threads
 
-    def predict(
-        self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None
-    ) -> xr.Dataset:
+    def predict(self, rubber, surface, load, *, on_progress=None):
         return xr.Dataset({"used": count()})
 
 
 @pytest.mark.parametrize(
     ("parts", "workers", "each"), [(1, 2, 1), (2, 2, 2), (2, 8, 2), (3, 2, 1), (4, 4, 4)]
 )
-def test_tasks_with_parts_leave_them_threads(parts: int, workers: int, each: int) -> None:
+def test_tasks_with_parts_leave_them_threads(parts, workers, each):
     loads = [Load(1e5, float(speed), 0.1) for speed in range(1, 10)]
     surface, model = Surface(THREE_SINES, ""), Shared(parts)
     tasks = {str(load): Task(Rubber(6e6), surface, load, model) for load in loads}
@@ -73,8 +71,8 @@ def test_tasks_with_parts_leave_them_threads(parts: int, workers: int, each: int
     assert [int(answer["used"]) for answer in answers.values()] == [each] * len(loads)
 
 
-def test_a_share_is_that_of_one_thread() -> None:
-    found: list[int] = []
+def test_a_share_is_that_of_one_thread():
+    found = []
     with sharing(1):
         other = threading.Thread(target=lambda: found.append(count()))
         other.start()
@@ -82,17 +80,17 @@ def test_a_share_is_that_of_one_thread() -> None:
     assert found == [cores()]
 
 
-def test_a_share_is_given_back_after_an_error() -> None:
+def test_a_share_is_given_back_after_an_error():
     before = count()
     with pytest.raises(InputError), sharing(before + 1):
         worker_count(0)
     assert count() == before
 
 
-def test_a_worker_of_a_cluster_uses_one_core() -> None:
+def test_a_worker_of_a_cluster_uses_one_core():
     class Counting:
-        def solve(self) -> int:
+        def solve(self):
             return count()
 
     with sharing(7):
-        assert solve._alone(Counting()) == 1  # type: ignore[arg-type,comparison-overlap]
+        assert solve._alone(Counting()) == 1

@@ -1,9 +1,6 @@
 """Public functions take texts with units wherever they take numbers with a unit."""
 
-from __future__ import annotations
-
 from dataclasses import fields, is_dataclass
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +8,7 @@ import xarray as xr
 
 import gripscale as gs
 from gripscale.core.units import readable, si_value
-from tests.core.public_functions import PublicFunction, public_functions
+from tests.core.public_functions import public_functions
 
 UNITS = {
     "Pa": "pressure full_contact_pressure nominal_pressure stress_0 stress_at shear_stress storage "
@@ -44,11 +41,12 @@ OTHERS = {
     ("ProfileSpectrum", "density"),
     ("relaxation_modulus", "time"),
     ("read_map", "step"),
+    ("sweeps_from_ramps", "step"),
 }
 """Tables of numbers, depths in wavelengths, and numbers of a file that is not there."""
 
 
-def pairs() -> list[tuple[PublicFunction, str]]:
+def pairs():
     """Return public functions with each argument that has a unit."""
     return [
         (function, name)
@@ -59,7 +57,7 @@ def pairs() -> list[tuple[PublicFunction, str]]:
     ]
 
 
-def numbers(result: Any) -> Any:
+def numbers(result):
     """Return the numbers of a result, comparable."""
     if isinstance(result, xr.Dataset):
         return {name: result[name].values.tolist() for name in result.data_vars}
@@ -76,7 +74,7 @@ def numbers(result: Any) -> Any:
 @pytest.mark.parametrize(
     ("function", "name"), [pytest.param(*pair, id=f"{pair[0].name}-{pair[1]}") for pair in pairs()]
 )
-def test_a_text_with_a_unit_is_its_number(function: PublicFunction, name: str) -> None:
+def test_a_text_with_a_unit_is_its_number(function, name):
     value, unit = function.good[name], UNIT_OF[name]
     text = (
         f"{value!r} {unit}"
@@ -87,7 +85,7 @@ def test_a_text_with_a_unit_is_its_number(function: PublicFunction, name: str) -
     assert str(numbers(result)) == str(numbers(expected))
 
 
-def test_units_are_converted() -> None:
+def test_units_are_converted():
     assert gs.wave.Sine("8 mm", "500 um") == gs.wave.Sine(8e-3, 5e-4)
     assert si_value("temperature", "20 C", "K") == 293.15
     assert gs.rubber.WLF(c1=8.0, c2="100 C").c2 == 100.0  # a difference has no zero
@@ -104,12 +102,12 @@ def test_units_are_converted() -> None:
         ("inf bar", "pressure = 'inf bar': expected a finite pressure"),
     ],
 )
-def test_a_text_without_a_unit_of_the_kind_is_refused(text: str, message: str) -> None:
+def test_a_text_without_a_unit_of_the_kind_is_refused(text, message):
     with pytest.raises(gs.InputError, match=message):
         gs.wave.WaveLoad(text)
 
 
-def test_a_readable_number_keeps_its_size() -> None:
+def test_a_readable_number_keeps_its_size():
     texts = [readable(value, "m") for value in (0.0, 1e-4, -2.5e-2, 3.0, 1e-12)]
     assert texts == ["0 m", "100 um", "-25 mm", "3 m", "1e-12 m"]
     assert readable(0.25, "") == "0.25"

@@ -1,7 +1,5 @@
 """What a package needs only in one function it must not load when it is imported."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path
@@ -33,7 +31,7 @@ print(*sorted({name.partition(".")[0] for name in sys.modules}))
         ("gripscale.cli", {"typer"}),
     ],
 )
-def test_a_package_loads_only_what_it_must(package: str, light: set[str]) -> None:
+def test_a_package_loads_only_what_it_must(package, light):
     folder = str(Path(gripscale.__file__).parent)
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, folder, package], capture_output=True, text=True, check=True
@@ -42,7 +40,7 @@ def test_a_package_loads_only_what_it_must(package: str, light: set[str]) -> Non
     assert set(done.stdout.split()) & heavy == light
 
 
-def test_a_saved_result_needs_no_dask(tmp_path: Path) -> None:
+def test_a_saved_result_needs_no_dask(tmp_path):
     """Dask, where it is installed, takes longer to import than a prediction to be solved."""
     program = (
         "import sys, xarray; from gripscale.io import netcdf; "

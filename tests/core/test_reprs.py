@@ -28,7 +28,7 @@ HTML = {
 
 
 @cache
-def objects() -> dict[str, Any]:
+def objects():
     """Return the named small objects, and what public functions make of them and of others."""
     made = public_objects()
     road, solid, case = made["road"], made["rubber"], made["case"]
@@ -56,7 +56,7 @@ def objects() -> dict[str, Any]:
     return made | {"answers": answers, "classes": classes}
 
 
-def public_classes() -> dict[type, str]:
+def public_classes():
     """Return the classes of the names by their names, without errors and protocols."""
     names = [
         (package, name)
@@ -71,9 +71,9 @@ def public_classes() -> dict[type, str]:
     }
 
 
-def test_every_object_is_shown_in_few_lines() -> None:
+def test_every_object_is_shown_in_few_lines():
     kept, wanted = objects(), public_classes()
-    shown: dict[str, str] = {}
+    shown = {}
     for item in gc.get_objects():
         if type(item) in wanted and wanted[type(item)] not in shown:
             shown[wanted[type(item)]] = repr(item)
@@ -86,7 +86,7 @@ def test_every_object_is_shown_in_few_lines() -> None:
         assert " object at 0x" not in text, (name, text)
 
 
-def test_numbers_have_units_and_arrays_a_range() -> None:
+def test_numbers_have_units_and_arrays_a_range():
     made = objects()
     assert repr(wave.Sine(8e-3, 5e-4)) == "Sine(wavelength=8 mm, amplitude=500 um)"
     assert "frequency    61 values from 0.01 Hz to 100 MHz, 10.0 decades" in repr(made["master"])
@@ -96,7 +96,7 @@ def test_numbers_have_units_and_arrays_a_range() -> None:
     assert "step 100 um, length 200 mm" in repr(made["road"])
 
 
-def test_notebooks_show_a_figure_beside_the_text() -> None:
+def test_notebooks_show_a_figure_beside_the_text():
     made = objects()
     answers = {type(item).__name__: item for item in made["answers"]}
     wave_result = made["chain"].scales[0]
@@ -111,11 +111,11 @@ def test_notebooks_show_a_figure_beside_the_text() -> None:
         assert len(text) < 200_000, name
 
 
-def test_an_object_without_a_figure_is_shown_as_text() -> None:
+def test_an_object_without_a_figure_is_shown_as_text():
     empty = gs.Rubber(1e6)
 
-    class Undrawn(type(empty)):  # type: ignore[misc]
-        def plot(self) -> Any:
+    class Undrawn(type(empty)):
+        def plot(self):
             raise gs.InputError("nothing to draw")
 
     html = Undrawn(1e6)._repr_html_()
@@ -123,12 +123,12 @@ def test_an_object_without_a_figure_is_shown_as_text() -> None:
     assert "<img" not in html
 
 
-def test_many_fields_are_cut() -> None:
+def test_many_fields_are_cut():
     @dataclass(repr=False)
     class Many(Described):
         values: Any
 
-        def shown_rows(self) -> Any:
+        def shown_rows(self):
             yield from ((f"row {k}", "x" * 150) for k in range(20))
 
     lines = repr(Many(np.zeros(3))).splitlines()

@@ -1,10 +1,7 @@
 """Result files on disk: what was written is read, and nothing else."""
 
-from __future__ import annotations
-
 import random
 import shutil
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -18,17 +15,17 @@ DATA = xr.Dataset({"friction": ("scale", np.arange(5.0))}, attrs={"title": "wave
 
 
 @pytest.fixture
-def path(tmp_path: Path) -> Path:
+def path(tmp_path):
     return netcdf.save(DATA, tmp_path / "result.nc", {"group": DATA})
 
 
-def refused(path: Path) -> None:
+def refused(path):
     for read in (netcdf.load_dataset, netcdf.load_tree):
         with pytest.raises(FileError, match=r"result\.nc cannot be read as a netCDF result"):
             read(path)
 
 
-def test_any_byte_changed_is_seen(path: Path) -> None:
+def test_any_byte_changed_is_seen(path):
     """HDF5 alone reads one of six hundred such files as other numbers."""
     sound, chance = path.read_bytes(), random.Random(1)
     for at in [*range(60), *(chance.randrange(len(sound)) for _ in range(200)), len(sound) - 1]:
@@ -39,7 +36,7 @@ def test_any_byte_changed_is_seen(path: Path) -> None:
 
 
 @pytest.mark.parametrize("change", ["cut", "half the seal", "more", "twice", "a bit lost"])
-def test_another_length(path: Path, change: str) -> None:
+def test_another_length(path, change):
     sound = path.read_bytes()
     path.write_bytes(
         {
@@ -53,14 +50,14 @@ def test_another_length(path: Path, change: str) -> None:
     refused(path)
 
 
-def test_files_from_elsewhere_have_no_seal(path: Path, tmp_path: Path) -> None:
+def test_files_from_elsewhere_have_no_seal(path, tmp_path):
     other = tmp_path / "other.nc"
     DATA.to_netcdf(other, engine=netcdf.ENGINE)
     assert netcdf.load_dataset(other).identical(DATA)
     assert xr.load_dataset(path, engine=netcdf.ENGINE).identical(DATA)
 
 
-def test_a_result_changed_on_purpose(path: Path) -> None:
+def test_a_result_changed_on_purpose(path):
     """Another program that writes to the file takes the seal off."""
     import netCDF4
 
@@ -72,14 +69,12 @@ def test_a_result_changed_on_purpose(path: Path) -> None:
     assert found.friction[0] == 7.0
 
 
-def test_a_full_disk_is_a_sentence_whatever_the_library_raises(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_full_disk_is_a_sentence_whatever_the_library_raises(tmp_path, monkeypatch):
     """HDF5 raises a RuntimeError, Matplotlib an AttributeError; what was there stays whole."""
     path = netcdf.save(xr.Dataset({"a": 1.0}), tmp_path / "a.nc")
     before = path.read_bytes()
 
-    def write(temporary: Path) -> None:
+    def write(temporary):
         temporary.write_bytes(b"half")
         raise RuntimeError("NetCDF: HDF error")
 

@@ -1,13 +1,7 @@
 """A case of three small waves by hand on a coarse mesh, which solves in a fraction of a second."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 import pytest
-import xarray as xr
 
 from tests.samples import THREE_WAVES, case_text
 
@@ -15,17 +9,17 @@ CASE = case_text(THREE_WAVES)
 
 
 @pytest.fixture
-def case(tmp_path: Path) -> Path:
+def case(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text(CASE)
     return path
 
 
 @pytest.fixture
-def same_bytes() -> Callable[[xr.Dataset, xr.Dataset], None]:
+def same_bytes():
     """Assert that two Datasets hold the same, to the last bit."""
 
-    def compare(one: xr.Dataset, other: xr.Dataset) -> None:
+    def compare(one, other):
         assert list(one.variables) == list(other.variables)
         assert one.attrs == other.attrs
         for name in one.variables:

@@ -1,30 +1,26 @@
 """The same study on a cluster of processes, one of which is killed on the way."""
 
-from __future__ import annotations
-
 import logging
 import os
 import signal
-from collections.abc import Callable, Iterator
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable
 
 import pytest
 import xarray as xr
 
 from gripscale.case_file import read_case
 from gripscale.core.errors import InputError
-from gripscale.experiment import Progress, solve
+from gripscale.experiment import solve
 from gripscale.questions import Study
 
-distributed: Any = pytest.importorskip("distributed")
+distributed = pytest.importorskip("distributed")
 
 Compare = Callable[[xr.Dataset, xr.Dataset], None]
 pytestmark = pytest.mark.filterwarnings("default")
 
 
 @pytest.fixture
-def workers() -> Iterator[Any]:
+def workers():
     """A real local cluster: a scheduler, two worker processes, and what restarts them."""
     with distributed.LocalCluster(
         n_workers=2,
@@ -36,16 +32,14 @@ def workers() -> Iterator[Any]:
         yield made
 
 
-def test_worker_killed_on_the_way_changes_nothing(
-    workers: Any, case: Path, tmp_path: Path, same_bytes: Compare
-) -> None:
+def test_worker_killed_on_the_way_changes_nothing(workers, case, tmp_path, same_bytes):
     study = Study(read_case(case), {"speed": "0.003:3:log6"})
-    told: list[Progress] = []
+    told = []
     with distributed.Client(workers) as client:
         before = set(client.run(os.getpid).values())
         victim = min(before)
 
-        def kill_one(progress: Progress) -> None:
+        def kill_one(progress):
             told.append(progress)
             if len(told) == 1:
                 os.kill(victim, signal.SIGKILL)
@@ -58,9 +52,7 @@ def test_worker_killed_on_the_way_changes_nothing(
     same_bytes(result, study.run(tmp_path / "threads"))
 
 
-def test_scheduler_is_reached_by_its_address(
-    workers: Any, case: Path, tmp_path: Path, same_bytes: Compare, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_scheduler_is_reached_by_its_address(workers, case, tmp_path, same_bytes, monkeypatch):
     study = Study(read_case(case), {"speed": [0.01, 1.0]})
     result = study.run(tmp_path / "cluster", client=workers.scheduler_address)
     same_bytes(result, study.run(tmp_path / "threads"))
@@ -69,9 +61,7 @@ def test_scheduler_is_reached_by_its_address(
         study.run(tmp_path / "other", client=workers.scheduler_address)
 
 
-def test_no_scheduler_is_one_sentence_and_leaves_nothing_behind(
-    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_scheduler_is_one_sentence_and_leaves_nothing_behind(case, tmp_path, monkeypatch):
     monkeypatch.setattr(solve, "CONNECT_SECONDS", 0.2)
     study = Study(read_case(case), {"speed": [1.0]})
     for address in ("tcp://127.0.0.1:9", "nonsense"):
@@ -80,10 +70,8 @@ def test_no_scheduler_is_one_sentence_and_leaves_nothing_behind(
     assert study.run(tmp_path).sizes["scale"] == 3
 
 
-def test_dask_missing_is_one_sentence(
-    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def missing(name: str) -> None:
+def test_dask_missing_is_one_sentence(case, tmp_path, monkeypatch):
+    def missing(name):
         raise ModuleNotFoundError(name)
 
     monkeypatch.setattr(solve.importlib, "import_module", missing)

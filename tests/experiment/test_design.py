@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
 import gripscale as gs
-from gripscale.experiment import Bench, Design, Point, Progress, Store, Task, solve_design
+from gripscale.experiment import Bench, Design, Point, Store, Task, solve_design
 from gripscale.experiment.design import stack
 from gripscale.model import Load, Model, predicted_answer
 from gripscale.surface import Surface
@@ -29,7 +27,7 @@ class Amontons(Model):
     name = "amontons"
     needs = frozenset({"waves"})
 
-    def predict(self, rubber: Any, surface: Any, load: Load, **_: Any) -> xr.Dataset:
+    def predict(self, rubber, surface, load, **_):
         mu = self.factor * load.pressure
         totals = dict.fromkeys(("total_friction", "total_friction_from_dissipation"), mu)
         totals["total_contact_fraction"] = 0.1
@@ -37,21 +35,21 @@ class Amontons(Model):
         return predicted_answer(waves, totals, "converged", self.name, load)
 
 
-def task(factor: float, pressure: float = 1.0) -> Task:
+def task(factor, pressure=1.0):
     return Task(RUBBER, SURFACE, replace(LOAD, pressure=pressure), Amontons(factor))
 
 
 @pytest.fixture
-def seen() -> list[Progress]:
+def seen():
     return []
 
 
 @pytest.fixture
-def bench(tmp_path: Path, seen: list[Progress]) -> Bench:
+def bench(tmp_path, seen):
     return Bench(Store(tmp_path), workers=1, on_task=seen.append)
 
 
-def test_points_are_solved_once_and_labelled(bench: Bench, seen: list[Progress]) -> None:
+def test_points_are_solved_once_and_labelled(bench, seen):
     points = [
         Point((0, 0), "first", task(1.0)),
         Point((0, 1), "second", task(2.0)),
@@ -72,13 +70,13 @@ def test_points_are_solved_once_and_labelled(bench: Bench, seen: list[Progress])
     assert float(data.total_friction.mean("draw")[1]) == 1.0
 
 
-def test_a_point_that_is_missing_has_no_status(bench: Bench) -> None:
+def test_a_point_that_is_missing_has_no_status(bench):
     data = solve_design(Design({"draw": 2}, [Point((1,), "only", task(1.0))]), bench)
     assert data.prediction_status.values.tolist() == ["", "converged"]
     assert np.isnan(data.total_friction[0])
 
 
-def test_what_is_picked_is_padded(bench: Bench) -> None:
+def test_what_is_picked_is_padded(bench):
     points = [Point((at,), str(at), task(float(at + 1))) for at in range(3)]
     pick = lambda found, _: found[["part", "prediction_status"]]  # noqa: E731
     data = solve_design(Design({"draw": 3}, points), bench, pick)
@@ -88,14 +86,14 @@ def test_what_is_picked_is_padded(bench: Bench) -> None:
     np.testing.assert_array_equal(data.part, [[0, nan, nan], [0, 1, nan], [0, 1, 2]])
 
 
-def test_a_second_time_nothing_is_solved(bench: Bench, seen: list[Progress]) -> None:
+def test_a_second_time_nothing_is_solved(bench, seen):
     design = Design({"draw": 1}, [Point((0,), "only", task(1.0))])
     first, second = (solve_design(design, bench) for _ in range(2))
     assert [progress.stored for progress in seen] == [False, True]
     assert second.identical(first)
 
 
-def test_parts_are_aligned_by_their_coordinates() -> None:
+def test_parts_are_aligned_by_their_coordinates():
     parts = {
         (0,): xr.Dataset({"y": ("decade", [1.0, 2.0])}, {"decade": [-1, 0]}),
         (1,): xr.Dataset({"y": ("decade", [3.0]), "text": "words"}, {"decade": [2]}),

@@ -1,12 +1,8 @@
 """The same study in processes of this machine, one of which may die."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
 import pytest
 import xarray as xr
@@ -24,7 +20,7 @@ from tests.samples import THREE_SINES
 Compare = Callable[[xr.Dataset, xr.Dataset], None]
 
 
-def test_processes_change_nothing(case: Path, tmp_path: Path, same_bytes: Compare) -> None:
+def test_processes_change_nothing(case, tmp_path, same_bytes):
     study = Study(read_case(case), {"speed": [0.01, 0.1, 1.0]})
     result = study.run(tmp_path / "processes", client=PROCESSES, workers=2)
     same_bytes(result, study.run(tmp_path / "threads", workers=3))
@@ -37,12 +33,12 @@ class Dying(Model):
 
     name = "dying"
 
-    def predict(self, *_: Any, **__: Any) -> xr.Dataset:
+    def predict(self, *_, **__):
         """Return nothing."""
         os._exit(1)
 
 
-def test_a_process_that_dies_is_one_sentence(tmp_path: Path) -> None:
+def test_a_process_that_dies_is_one_sentence(tmp_path):
     task = Task(Rubber(6e6), Surface(THREE_SINES, ""), Load(3e5, 0.3, 0.1), Dying())
     with pytest.raises(ConvergenceError, match="short of memory"):
         Bench(Store(tmp_path), 1, PROCESSES).solve({"dying": task})

@@ -1,21 +1,16 @@
 """A study that was killed goes on where it was, and ends in the same bytes."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
-import xarray as xr
 
 from gripscale.case_file import read_case
 from gripscale.core.parallel import Stopped
-from gripscale.experiment import Progress, Store
+from gripscale.experiment import Store
 from gripscale.questions import Study
 
 VARY = {"speed": "0.01:1:log3", "pressure": "1 bar,3 bar"}
@@ -30,7 +25,7 @@ Study(read_case(sys.argv[1]), vary).run(
 """
 
 
-def killed_after(count: int, case: Path, folder: Path) -> None:
+def killed_after(count, case, folder):
     """Run the study in a process of its own and `kill -9` it after so many chains."""
     command = [sys.executable, "-c", PROGRAM, str(case), str(folder)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
@@ -42,16 +37,14 @@ def killed_after(count: int, case: Path, folder: Path) -> None:
     assert process.returncode == -signal.SIGKILL
 
 
-def test_killed_study_resumes_to_the_same_bytes(
-    case: Path, tmp_path: Path, same_bytes: Callable[[xr.Dataset, xr.Dataset], None]
-) -> None:
+def test_killed_study_resumes_to_the_same_bytes(case, tmp_path, same_bytes):
     killed_after(2, case, tmp_path / "killed")
     cases = tmp_path / "killed" / "predictions"
     kept = {path.name: path.stat().st_mtime_ns for path in cases.glob("[!.]*.nc")}
     assert 2 <= len(kept) < 6
     assert not (tmp_path / "killed" / "study.nc").exists()
 
-    told: list[Progress] = []
+    told = []
     study = Study(read_case(case), VARY)
     resumed = study.run(tmp_path / "killed", on_task=told.append)
     assert sum(t.stored for t in told) == len(kept)
@@ -65,9 +58,7 @@ def test_killed_study_resumes_to_the_same_bytes(
     assert all(task.stored for task in told), "a whole study is read"
 
 
-def test_damaged_file_counts_as_not_there(
-    case: Path, tmp_path: Path, same_bytes: Callable[[xr.Dataset, xr.Dataset], None]
-) -> None:
+def test_damaged_file_counts_as_not_there(case, tmp_path, same_bytes):
     study = Study(read_case(case), {"speed": [0.01, 1.0]})
     first = study.run(tmp_path)
     store = Store(tmp_path / "predictions")
@@ -75,27 +66,25 @@ def test_damaged_file_counts_as_not_there(
     foreign.write_bytes(cut.read_bytes())  # a whole file under the wrong name
     cut.write_bytes(cut.read_bytes()[:1000])
     (tmp_path / "study.nc").unlink()
-    told: list[Progress] = []
+    told = []
     same_bytes(first, study.run(tmp_path, on_task=told.append))
     assert [t.stored for t in told] == [False, False]
 
 
-def test_study_stopped_by_the_caller_keeps_what_was_solved_and_solves_no_more(
-    case: Path, tmp_path: Path
-) -> None:
-    def stop(progress: Progress) -> None:
+def test_study_stopped_by_the_caller_keeps_what_was_solved_and_solves_no_more(case, tmp_path):
+    def stop(progress):
         raise KeyboardInterrupt
 
     study = Study(read_case(case), {"speed": "0.01:1:log8"})
     with pytest.raises(KeyboardInterrupt):
         study.run(tmp_path, workers=2, on_task=stop)
     assert not [t for t in threading.enumerate() if t.name.startswith("gripscale")]
-    told: list[Progress] = []
+    told = []
     study.run(tmp_path, on_task=told.append)
     assert sum(t.stored for t in told) == 1
 
 
-def test_chain_is_given_up_between_two_waves(case: Path) -> None:
+def test_chain_is_given_up_between_two_waves(case):
     task = Study(read_case(case), {"speed": [0.1]}).points[0].task
     stop = threading.Event()
     assert task.solve(stop)[1].sizes["scale"] == 3

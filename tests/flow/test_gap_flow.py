@@ -1,10 +1,7 @@
 """Flow through a gap against closed forms, an independent solution and percolation by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale.half_space.regions import periodic_regions
@@ -14,7 +11,7 @@ from tests.half_space.rough_cases import isotropic_map, solve
 SQUARE = (1e-5, 1e-5)
 
 
-def gaussian_heights(points: int, correlation: float, seed: int) -> NDArray[np.float64]:
+def gaussian_heights(points, correlation, seed):
     """Return periodic heights of unit rms with a Gaussian correlation, its length in points."""
     q = 2.0 * np.pi * np.fft.fftfreq(points)
     passed = np.exp(-((correlation * np.hypot(q[:, None], q)) ** 2) / 8.0)
@@ -23,7 +20,7 @@ def gaussian_heights(points: int, correlation: float, seed: int) -> NDArray[np.f
     return (z - z.mean()) / z.std()
 
 
-def test_a_parallel_gap_flows_as_reynolds_says() -> None:
+def test_a_parallel_gap_flows_as_reynolds_says():
     flow = gs.gap_flow(np.full((24, 16), 2e-6), spacing=(1e-5, 3e-5))
     assert flow.flow_factor == pytest.approx((1.0, 1.0), rel=1e-6)
     assert flow.percolates == (True, True)
@@ -34,7 +31,7 @@ def test_a_parallel_gap_flows_as_reynolds_says() -> None:
 
 
 @pytest.mark.parametrize("amplitude", [0.3, 0.7, 0.9])
-def test_a_sine_across_and_along(amplitude: float) -> None:
+def test_a_sine_across_and_along(amplitude):
     angle = 2.0 * np.pi * np.arange(64) / 64
     gap = np.tile(1e-6 * (1.0 + amplitude * np.sin(angle)), (12, 1))
     across, along = (closed_forms.flow_factor_across, closed_forms.flow_factor_along)
@@ -47,7 +44,7 @@ def test_a_sine_across_and_along(amplitude: float) -> None:
 @pytest.mark.parametrize(
     "ratio", [3.0, *(pytest.param(r, marks=pytest.mark.verification) for r in (4.0, 5.0)), 6.0]
 )
-def test_gaussian_roughness_as_patir_and_cheng(ratio: float) -> None:
+def test_gaussian_roughness_as_patir_and_cheng(ratio):
     """Their simulations scatter by some per cent; theirs have the roughness cut at three rms."""
     factors = []
     for seed in range(3):
@@ -56,7 +53,7 @@ def test_gaussian_roughness_as_patir_and_cheng(ratio: float) -> None:
     assert np.mean(factors) == pytest.approx(closed_forms.patir_cheng_flow_factor(ratio), rel=0.05)
 
 
-def dense_flow_factor(gap: NDArray[np.float64]) -> float:
+def dense_flow_factor(gap):
     """Return the flow factor along x by elimination of all nodes, cell by cell."""
     nx, ny = gap.shape
     cubed = (gap / gap.mean()) ** 3
@@ -78,7 +75,7 @@ def dense_flow_factor(gap: NDArray[np.float64]) -> float:
     )
 
 
-def test_a_gap_with_contacts_against_elimination() -> None:
+def test_a_gap_with_contacts_against_elimination():
     heights = gaussian_heights(24, 4.0, 5)
     for level in (0.6, 0.2):
         gap = np.maximum(level - heights, 0.0)
@@ -86,7 +83,7 @@ def test_a_gap_with_contacts_against_elimination() -> None:
         assert flow.flow_factor[0] == pytest.approx(dense_flow_factor(gap), rel=1e-5, abs=1e-9)
 
 
-def test_regions_that_meet_their_image() -> None:
+def test_regions_that_meet_their_image():
     """A diagonal path percolates along both axes; a path that ends at itself along none."""
     ring = np.zeros((8, 8), dtype=bool)
     ring[2:6, 2:6], ring[3:5, 3:5] = True, False
@@ -104,7 +101,7 @@ def test_regions_that_meet_their_image() -> None:
     assert np.bincount(periodic_regions(across_corner).labels.ravel()).tolist() == [52, 12]
 
 
-def test_nothing_flows_without_a_path() -> None:
+def test_nothing_flows_without_a_path():
     gap = np.full((16, 16), 1e-6)
     gap[:, 5] = 0.0
     flow = gs.gap_flow(gap, spacing=SQUARE)
@@ -115,18 +112,17 @@ def test_nothing_flows_without_a_path() -> None:
     assert gs.gap_flow(np.zeros((8, 8)), spacing=SQUARE).flow_factor == (0.0, 0.0)
 
 
-def test_the_critical_junction_is_the_widest_hole_in_a_wall() -> None:
+def test_the_critical_junction_is_the_widest_hole_in_a_wall():
     gap = np.full((32, 32), 5e-6)
     gap[20] = 0.0
     gap[20, 8:11] = 2e-6
     gap[20, 25] = 3e-6
     junction = gs.gap_flow(gap, spacing=(1e-5, 2e-5)).junction[0]
-    assert junction is not None
     assert (junction.x, junction.y) == pytest.approx((20 * 1e-5, 25 * 2e-5))
     assert junction.gap == pytest.approx(3e-6)
 
 
-def test_a_contact_and_its_gap_have_the_same_flow() -> None:
+def test_a_contact_and_its_gap_have_the_same_flow():
     contact = solve(isotropic_map(64, shortest=1.6e-3), pressure=4e4, tolerance=None)
     flow = gs.gap_flow(contact)
     again = gs.gap_flow(contact.gap, spacing=contact.grid.spacing)
@@ -149,12 +145,12 @@ def test_a_contact_and_its_gap_have_the_same_flow() -> None:
         (np.ones((8, 8)), (1e-5,), "spacing"),
     ],
 )
-def test_bad_gaps_are_refused(gap: NDArray[np.float64], spacing: object, words: str) -> None:
+def test_bad_gaps_are_refused(gap, spacing, words):
     with pytest.raises(gs.InputError, match=words):
         gs.gap_flow(gap, spacing=spacing)
 
 
-def test_a_line_has_no_flow() -> None:
+def test_a_line_has_no_flow():
     x = np.arange(256) * 1e-5
     profile = gs.Profile(x, 1e-5 * np.cos(2.0 * np.pi * x / 2.56e-3))
     with pytest.raises(gs.InputError, match="of a map"):

@@ -1,7 +1,5 @@
 """Squeeze-out and mixed lubrication against Stefan and the dry limit."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -31,7 +29,7 @@ ROUGH = GapCurve(
 )
 
 
-def test_parallel_plates_thin_as_stefan_says() -> None:
+def test_parallel_plates_thin_as_stefan_says():
     water = squeeze_out(PLATES, film=1e-3, length=LENGTH, pressure=LOAD)
     for film in (5e-4, 1e-4, 1e-5):
         time = float(np.interp(-film, -water.mean_gap, water.time))
@@ -39,7 +37,7 @@ def test_parallel_plates_thin_as_stefan_says() -> None:
         assert time == pytest.approx(expected, rel=1e-2)
 
 
-def test_slow_passage_is_dry_and_fast_passage_floats() -> None:
+def test_slow_passage_is_dry_and_fast_passage_floats():
     water = squeeze_out(ROUGH, film=1e-3, length=LENGTH, pressure=LOAD)
     slow, fast = (water.until(t, water.asperity_share) for t in (1e4 * water.time[-1], 1e-7))
     assert slow == pytest.approx(1.0, abs=1e-2)
@@ -48,19 +46,19 @@ def test_slow_passage_is_dry_and_fast_passage_floats() -> None:
     assert stress / LOAD == pytest.approx(ROUGH.friction[-1], rel=1e-2)
 
 
-def test_water_below_the_gap_of_the_contact_is_dry() -> None:
+def test_water_below_the_gap_of_the_contact_is_dry():
     water = squeeze_out(ROUGH, film=1e-5, length=LENGTH, pressure=LOAD)
     assert water.until(1e-3, water.asperity_share) == pytest.approx(1.0)
 
 
-def test_a_gap_that_does_not_percolate_keeps_its_water() -> None:
+def test_a_gap_that_does_not_percolate_keeps_its_water():
     closed = GapCurve(ROUGH.pressure, ROUGH.mean_gap, np.zeros(8), ROUGH.friction, math.inf)
     water = squeeze_out(closed, film=2e-4, length=LENGTH, pressure=LOAD)
     expected = float(closed.contact_pressure(np.array(2e-4))) / LOAD
     assert water.until(1.0, water.asperity_share) == pytest.approx(expected, rel=1e-6)
 
 
-def test_wet_friction_of_a_map_falls_with_speed() -> None:
+def test_wet_friction_of_a_map_falls_with_speed():
     surface = isotropic_map(32, shortest=3.2e-3)
     data = wet_friction(
         ZENER,
@@ -81,9 +79,9 @@ def test_wet_friction_of_a_map_falls_with_speed() -> None:
     assert float(slow.film) < float(fast.film) < 2e-3
 
 
-def test_a_line_and_a_negative_film_are_refused() -> None:
+def test_a_line_and_a_negative_film_are_refused():
     x = np.arange(64) * 1e-5
     with pytest.raises(gs.InputError, match="map"):
-        gap_curve(ZENER, gs.Profile(x, 1e-6 * np.cos(1e5 * x)), pressure=1e5, speed=1.0)  # type: ignore[arg-type]
+        gap_curve(ZENER, gs.Profile(x, 1e-6 * np.cos(1e5 * x)), pressure=1e5, speed=1.0)
     with pytest.raises(gs.InputError, match="film"):
         squeeze_out(ROUGH, film=-1e-3, length=LENGTH, pressure=LOAD)

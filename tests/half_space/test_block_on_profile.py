@@ -1,7 +1,5 @@
 """The block on whole profiles as a model: what it answers, and when it does not."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -19,13 +17,13 @@ LOAD = Load(5e4, 0.1, 0.1)
 X = np.arange(64) * (20e-3 / 64)
 
 
-def line(phase: float, length: float = 20e-3) -> Profile:
+def line(phase, length=20e-3):
     place = 2.0 * np.pi * X / X[-1] * (63 / 64)
     z = 2e-4 * np.cos(2.0 * place) + 5e-5 * np.cos(5.0 * place + phase)
     return Profile(X * (length / 20e-3), z * (length / 20e-3))
 
 
-def surface_of(*lines: Profile) -> Surface:
+def surface_of(*lines):
     sines = SineStack([10e-3, 4e-3], [2e-4, 5e-5])
     return Surface(sines, "", measured=Measured.of(lines))
 

@@ -1,7 +1,5 @@
 """The direct contact against closed forms, a reference table, the half-plane model and Tamaas."""
 
-from __future__ import annotations
-
 import csv
 
 import numpy as np
@@ -35,7 +33,7 @@ FULL = full_contact_pressure(
 )
 
 
-def table(name: str) -> list[dict[str, float]]:
+def table(name):
     with (REFERENCE / name).open() as file:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 

@@ -1,7 +1,5 @@
 """What large maps are solved by: single precision, waves in parts, a grid kept in a file."""
 
-from __future__ import annotations
-
 import time
 
 import numpy as np

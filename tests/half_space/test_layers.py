@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import gripscale as gs
 from gripscale.core.errors import InputError
@@ -16,7 +15,7 @@ BASE = gs.Rubber(1e6, [0.5e6], [1e-4], BULK, name="base")
 LOAD = {"pressure": 1e5, "speed": 0.3, "periodic": True, "smallest_wavelength": 4e-3}
 
 
-def rough_line() -> gs.Profile:
+def rough_line():
     random = np.random.default_rng(1)
     x = np.arange(512) / 512 * 0.1
     phases = enumerate(random.random(25), start=1)
@@ -24,13 +23,13 @@ def rough_line() -> gs.Profile:
     return gs.Profile(x, np.asarray(z))
 
 
-def compliance(depth: float, number: np.ndarray, modulus: complex, bulk: float) -> np.ndarray:
+def compliance(depth, number, modulus, bulk):
     shear, compression = shear_and_compression(np.full(number.shape, modulus), bulk)
     half_space = (1.0 - 0.5 * (1.0 - compression)) / (shear * number)
     return half_space * thickness_factor(number * depth, compression)[0]
 
 
-def boundary_values(depth: float, number: float, modulus: complex, bulk: float) -> complex:
+def boundary_values(depth, number, modulus, bulk):
     """Return K by an Airy function, phi = (a + b z) cosh qz + (c + e z) sinh qz, bonded at z = 0.
 
     Plane strain: s_zz = -q^2 phi, s_xz = -i q phi', s_xx = phi''. The displacements follow from
@@ -40,7 +39,7 @@ def boundary_values(depth: float, number: float, modulus: complex, bulk: float) 
     nu = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
     q = number
 
-    def derivatives(z: float) -> np.ndarray:
+    def derivatives(z):
         """Return phi, phi', phi'', phi''' of the four functions at z, shape (4, 4)."""
         c, s = np.cosh(q * z), np.sinh(q * z)
         return np.array(
@@ -52,7 +51,7 @@ def boundary_values(depth: float, number: float, modulus: complex, bulk: float) 
             ]
         )
 
-    def displacements(z: float) -> np.ndarray:
+    def displacements(z):
         """Return i q 2 G u_x and 2 G q^2 u_z, rows of four."""
         phi, first, second, third = derivatives(z)
         along = (1.0 - nu) * second + nu * q**2 * phi
@@ -71,14 +70,14 @@ def boundary_values(depth: float, number: float, modulus: complex, bulk: float) 
 
 @pytest.mark.parametrize("bulk", [2e7, 2e9])
 @pytest.mark.parametrize("modulus", [6e6, 6e6 + 3e6j])
-def test_closed_form_solves_the_boundary_value_problem(modulus: complex, bulk: float) -> None:
+def test_closed_form_solves_the_boundary_value_problem(modulus, bulk):
     number = np.array([0.5, 1.0, 2.0, 5.0]) / 0.01
     expected = [boundary_values(0.01, q, modulus, bulk) for q in number]
     # the matrix of the reference has a condition up to 1e4 at these depths
     np.testing.assert_allclose(compliance(0.01, number, modulus, bulk), expected, rtol=1e-11)
 
 
-def test_limits_are_half_space_thin_sheet_and_oedometer() -> None:
+def test_limits_are_half_space_thin_sheet_and_oedometer():
     compression = shear_and_compression(np.full(1, 6e6 + 1e6j), BULK)[1]
     assert thickness_factor(np.array([1e4]), compression)[0] == 1.0
     thin = thickness_factor(np.array([1e-2]), np.zeros(1, complex))[0]
@@ -88,7 +87,7 @@ def test_limits_are_half_space_thin_sheet_and_oedometer() -> None:
     assert flat == pytest.approx(1e-3 / modulus, rel=1e-8)
 
 
-def test_two_equal_layers_are_one_and_losses_sum() -> None:
+def test_two_equal_layers_are_one_and_losses_sum():
     number = np.geomspace(0.3, 2000.0, 40) / 0.01
     modulus = np.full(number.shape, 6e6 + 3e6j)
     # at |q| d < 0.3 rounding of the 4 x 4 matrices exceeds this
@@ -100,7 +99,7 @@ def test_two_equal_layers_are_one_and_losses_sum() -> None:
         assert (losses <= 1e-15 * np.abs(value)).all()
 
 
-def test_only_lossy_layers_lose() -> None:
+def test_only_lossy_layers_lose():
     number = np.geomspace(0.5, 5.0, 5) / 0.01
     stiff, lossy = np.full(5, 6e6 + 0j), np.full(5, 3e6 + 1e6j)
     losses = stack_compliance(number, [stiff, lossy], [BULK, BULK], [0.004, 0.006])[1]
@@ -108,11 +107,11 @@ def test_only_lossy_layers_lose() -> None:
     assert (losses[1] < 0.0).all()
 
 
-def test_derivatives_of_the_modulus_are_those_of_differences() -> None:
+def test_derivatives_of_the_modulus_are_those_of_differences():
     grid = Grid((64,), (0.1,))
     by_modulus, by_bulk = HalfSpace(CAP, 0.3, thickness=4e-3).log_modulus_by(grid)
 
-    def log_modulus(stiffer: float, bulk: float) -> np.ndarray:
+    def log_modulus(stiffer, bulk):
         rubber = gs.Rubber(2e6 * stiffer, CAP.moduli * stiffer, CAP.relaxation_times, BULK * bulk)
         return np.log(HalfSpace(rubber, 0.3, thickness=4e-3).modulus(grid))[1:-1]
 
@@ -124,7 +123,7 @@ def test_derivatives_of_the_modulus_are_those_of_differences() -> None:
         np.testing.assert_allclose((high - low) / (2.0 * step), derivative[1:-1], atol=1e-7)
 
 
-def test_thick_rubber_is_a_half_space_and_thin_rubber_is_stiffer() -> None:
+def test_thick_rubber_is_a_half_space_and_thin_rubber_is_stiffer():
     line = rough_line()
     areas = [
         gs.solve_rough_contact(CAP, line, thickness=d, **LOAD).contact_fraction
@@ -134,7 +133,7 @@ def test_thick_rubber_is_a_half_space_and_thin_rubber_is_stiffer() -> None:
     assert areas[0] > 1.1 * areas[2] > 1.1**2 * areas[3]
 
 
-def test_equal_layers_have_the_contact_of_one() -> None:
+def test_equal_layers_have_the_contact_of_one():
     """Rounding of K changes iterations that stop at 1e-6 of the pressure, and totals by 1e-8."""
     line = rough_line()
     one = gs.solve_rough_contact(CAP, line, thickness=8e-3, **LOAD)
@@ -143,10 +142,10 @@ def test_equal_layers_have_the_contact_of_one() -> None:
     assert two.friction == pytest.approx(one.friction, rel=1e-7)
 
 
-def test_losses_of_the_layers_sum_to_the_friction() -> None:
+def test_losses_of_the_layers_sum_to_the_friction():
     layers = gs.Layers([(CAP, 3e-3), (BASE, 5e-3)])
     contact = gs.solve_rough_contact(layers, rough_line(), **LOAD)
-    data: xr.Dataset = contact.to_dataset(fields=False)
+    data = contact.to_dataset(fields=False)
     total = contact.friction_from_dissipation
     assert float(data.friction_by_layer.sum()) == pytest.approx(total, rel=1e-12)
     assert data.friction_by_layer.attrs["units"] == "1"
@@ -155,7 +154,7 @@ def test_losses_of_the_layers_sum_to_the_friction() -> None:
     assert contact.friction == pytest.approx(total, rel=0.03)
 
 
-def test_a_map_across_the_sliding_direction_has_the_contact_of_its_line() -> None:
+def test_a_map_across_the_sliding_direction_has_the_contact_of_its_line():
     line = rough_line()
     heights = gs.HeightMap(line.x, np.arange(32) * line.step, np.repeat(line.z[:, None], 32, 1))
     load = LOAD | {"tolerance": None}
@@ -170,40 +169,10 @@ def test_a_map_across_the_sliding_direction_has_the_contact_of_its_line() -> Non
         )
 
 
-@pytest.mark.parametrize("name", ["storage", "loss", "speed", "bulk_modulus"])
-def test_sensitivity_of_a_layer_is_that_of_solved_differences(name: str) -> None:
-    line, load = rough_line(), LOAD | {"thickness": 8e-3, "tolerance": 5e-3}
-    contact = gs.solve_rough_contact(CAP, line, **load)
-    derivative = gs.half_space.contact_sensitivity(contact)
-    value = float(derivative[f"d_ln_friction_d_ln_{name}"].sum())
-    step = 0.02
-
-    def friction(by: float) -> float:
-        factor = np.exp(by)
-        equilibrium, moduli, bulk = CAP.equilibrium_modulus, CAP.moduli, BULK
-        changed = dict(load)
-        if name == "bulk_modulus":
-            bulk *= factor
-        if name == "speed":
-            changed["speed"] *= factor
-        if name in ("storage", "loss"):
-            # both moduli together, less the one that stays, is the other
-            equilibrium, moduli = equilibrium * factor, moduli * factor
-        rubber = gs.Rubber(equilibrium, moduli, CAP.relaxation_times, bulk)
-        solved = gs.solve_rough_contact(rubber, line, start=contact, **changed)
-        return solved.friction_from_dissipation
-
-    difference = np.log(friction(step) / friction(-step)) / (2.0 * step)
-    if name in ("storage", "loss"):
-        other = "loss" if name == "storage" else "storage"
-        difference -= float(derivative[f"d_ln_friction_d_ln_{other}"].sum())
-    assert value == pytest.approx(difference, abs=0.03)
-
-
 STIFFENED = ("ln_storage", "ln_loss", "ln_modulus", "ln_bulk_modulus")
 
 
-def test_derivatives_of_equal_layers_sum_to_those_of_one() -> None:
+def test_derivatives_of_equal_layers_sum_to_those_of_one():
     """Moduli of both layers together are those of the rubber; speed is that of the stack."""
     line, load = rough_line(), LOAD | {"tolerance": 0.02}
     one = gs.half_space.contact_sensitivity(
@@ -220,7 +189,7 @@ def test_derivatives_of_equal_layers_sum_to_those_of_one() -> None:
 
 
 @pytest.mark.parametrize("layer", [0, 1])
-def test_derivatives_of_a_layer_are_those_of_solved_stacks(layer: int) -> None:
+def test_derivatives_of_a_layer_are_those_of_solved_stacks(layer):
     """Cap or base stiffer by a factor. Borders err by 0.011 on 2048 points, by 0.003 on 8192."""
     line, load = rough_line(), LOAD | {"tolerance": 1e-3}
     contact = gs.solve_rough_contact(gs.Layers([(CAP, 1e-3), (BASE, 5e-3)]), line, **load)
@@ -229,7 +198,7 @@ def test_derivatives_of_a_layer_are_those_of_solved_stacks(layer: int) -> None:
     assert derivative.sizes["term"] == (3, 2)[layer]
     step = 0.02
 
-    def friction(by: float) -> float:
+    def friction(by):
         rubbers = [CAP, BASE]
         old, factor = rubbers[layer], np.exp(by)
         rubbers[layer] = gs.Rubber(
@@ -244,7 +213,7 @@ def test_derivatives_of_a_layer_are_those_of_solved_stacks(layer: int) -> None:
     assert abs(value) > 0.1
 
 
-def test_what_layers_do_not_have_is_refused() -> None:
+def test_what_layers_do_not_have_is_refused():
     line, layers = rough_line(), gs.Layers([(CAP, 3e-3), (BASE, 5e-3)])
     contact = gs.solve_rough_contact(layers, line, **LOAD)
     with pytest.raises(InputError, match="layer must be a whole number from 0 to 1; got 2"):
@@ -266,21 +235,15 @@ def test_what_layers_do_not_have_is_refused() -> None:
         ([(CAP, np.inf)], "thickness of layer 0"),
     ],
 )
-def test_layers_name_what_is_wrong(layers: object, words: str) -> None:
+def test_layers_name_what_is_wrong(layers, words):
     with pytest.raises(InputError, match=words):
-        gs.Layers(layers)  # type: ignore[arg-type]
-
-
-def test_layers_cannot_be_changed() -> None:
-    layers = gs.Layers([(CAP, 3e-3)])
-    with pytest.raises(AttributeError, match="cannot assign to field"):
-        layers.rubbers = []  # type: ignore[misc]
+        gs.Layers(layers)
 
 
 LOW = gs.Rubber(2e6, [1e6, 1e6], [1e-2, 1e-3], BULK)
 
 
-def block_over_layer(amplitude: float, depth: float, speed: float) -> np.ndarray:
+def block_over_layer(amplitude, depth, speed):
     """Return area and friction of the finite-strain block over those of the layer.
 
     The amplitude and the depth are in wavelengths; the pressure is in proportion to the amplitude,
@@ -303,14 +266,14 @@ def block_over_layer(amplitude: float, depth: float, speed: float) -> np.ndarray
     return np.array([area, friction])
 
 
-def test_layer_is_the_finite_strain_block_of_its_height() -> None:
+def test_layer_is_the_finite_strain_block_of_its_height():
     np.testing.assert_allclose(block_over_layer(0.004, 0.2, 0.3), 1.0, atol=0.005)
 
 
 @pytest.mark.verification
 @pytest.mark.parametrize("speed", [0.0, 0.3])
 @pytest.mark.parametrize("depth", [0.1, 0.2, 0.4, 1.0])
-def test_layers_are_the_finite_strain_blocks_of_their_height(depth: float, speed: float) -> None:
+def test_layers_are_the_finite_strain_blocks_of_their_height(depth, speed):
     """The two differ by the strain of the block, in proportion to amplitude over depth."""
     steep = block_over_layer(0.004, depth, speed)
     np.testing.assert_allclose(steep, 1.0, atol=0.005 if depth > 0.1 else 0.007)
@@ -319,7 +282,7 @@ def test_layers_are_the_finite_strain_blocks_of_their_height(depth: float, speed
     np.testing.assert_allclose(2.0 * gentle - steep, 1.0, atol=0.004)
 
 
-def test_layers_are_printed_by_the_number_that_a_sensitivity_takes() -> None:
+def test_layers_are_printed_by_the_number_that_a_sensitivity_takes():
     shown = dict(gs.Layers([(CAP, 4e-3), (CAP, 6e-3)]).shown_rows())
     assert [*shown] == ["layer 0", "layer 1"]
     assert shown["layer 1"].startswith("6")

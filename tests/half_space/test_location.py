@@ -1,7 +1,5 @@
 """Where a contact makes its friction: shares by slope, strongest stretches, and traces of lines."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -19,7 +17,7 @@ MAP = solve(isotropic_map(64, shortest=1.6e-3), tolerance=None)
 STEP, LENGTH = 2.5e-5, 0.1
 
 
-def stones(steep_at: float) -> Profile:
+def stones(steep_at):
     """Ten gentle stones of one height, and one as high with ten times the slope."""
     x = np.arange(round(LENGTH / STEP)) * STEP
     gentle = 2e-4 * np.cos(2.0 * np.pi * 10.0 * x / LENGTH)
@@ -129,12 +127,6 @@ def test_a_trace_keeps_every_extreme():
     # single precision of sums
     assert float(trace.running_friction[-1]) == pytest.approx(1.0, abs=1e-5)
     assert float(trace.running_load[-1]) == pytest.approx(1.0, abs=1e-5)
-
-
-def test_a_short_line_is_kept_point_by_point():
-    trace = contact_trace(STONES)
-    np.testing.assert_array_equal(trace.x, STONES.x)
-    np.testing.assert_array_equal(trace.height_low, trace.height_high)
 
 
 def test_a_map_has_its_section_and_field():

@@ -1,7 +1,5 @@
 """Parts of the direct contact on their own: linear system, grids, area, estimated errors."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np
@@ -12,7 +10,7 @@ import gripscale as gs
 from gripscale._kernel import GapExtension
 from gripscale.half_space import active_set
 from gripscale.half_space.active_set import CONTACT_REACH, FAR, LOSSY
-from gripscale.half_space.grid import Grid, doubled, resampled
+from gripscale.half_space.grid import Grid, resampled
 from gripscale.half_space.grid_sequence import GridRecord, errors, grid_contact_fraction
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.surface import self_affine_profile
@@ -144,23 +142,6 @@ def test_lossy_lines_take_few_products(monkeypatch):
     assert products[0] < 0.6 * products[1], products
 
 
-@pytest.mark.parametrize("speed", [0.0, 0.3])
-def test_carrying_the_gap_saves_products(speed, monkeypatch):
-    """Iterations of the linear system alone, from nothing to 1e-4, with and without."""
-    grid = Grid((128, 128), (0.0256, 0.0256))
-    response = Response.of(HalfSpace(ZENER, speed), grid, 1)
-    height = isotropic_map(128).z
-    where = np.flatnonzero(height > np.quantile(height, 0.8))
-    products = {}
-    for far in (FAR, 1e6):
-        monkeypatch.setattr(active_set, "FAR", far)
-        points = active_set.PointsInContact(response, where)
-        right = points.missing(height.reshape(-1)[where])
-        points.correction((right / np.linalg.norm(right)).astype(np.float32), 1e-4, 60)
-        products[far] = points.products
-    assert products[FAR] <= 0.9 * products[1e6]
-
-
 @pytest.mark.parametrize(("shape", "onto"), [((48,), (75,)), ((24, 30), (45, 32)), ((30,), (20,))])
 def test_resampling_is_exact_for_what_both_grids_carry(shape, onto):
     def wave(n):
@@ -169,14 +150,6 @@ def test_resampling_is_exact_for_what_both_grids_carry(shape, onto):
 
     found = resampled(scipy.fft.rfftn(wave(shape)), shape, Grid(onto, (1.0,) * len(onto)))
     np.testing.assert_allclose(found, wave(onto), atol=1e-12)
-
-
-def test_doubling_is_linear_between_points():
-    np.testing.assert_allclose(doubled(np.array([0.0, 2.0, 6.0])), [0.0, 1.0, 2.0, 4.0, 6.0, 3.0])
-    x, y = np.arange(3.0)[:, None], np.arange(4.0)
-    map_ = doubled(x * y)
-    assert map_.shape == (6, 8)
-    np.testing.assert_allclose(map_[:5, :7], 0.25 * np.arange(5.0)[:, None] * np.arange(7.0))
 
 
 @pytest.mark.verification

@@ -1,14 +1,11 @@
 """What a direct contact tells, as a result, a Dataset and a model, and what it refuses."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr
 
 from gripscale.core.errors import InputError
 from gripscale.half_space import DirectContact
-from gripscale.half_space.regions import periodic_regions
 from gripscale.io import netcdf
 from gripscale.model import TOTALS, Load, Model
 from gripscale.surface import HeightMap, Measured, Profile, SineStack, Surface, self_affine_profile
@@ -23,20 +20,6 @@ SURFACE = Surface(
     measured=Measured([(profile, profile) for profile in PROFILES], [], None, ""),
 )
 LOAD = Load(pressure=1e5, speed=0.3, footprint=0.1)
-
-
-def test_patches_join_across_the_period():
-    active = np.zeros((8, 8), dtype=bool)
-    active[0, 0] = active[-1, 0] = active[0, -1] = active[-1, -1] = True  # one, at the corners
-    active[3:5, 3:6] = True
-    active[6, 6] = True
-    for mask, points in (
-        (active, [1, 4, 6]),
-        (np.array([1, 0, 1, 1, 0, 1], dtype=bool), [2, 2]),
-        (np.ones(5, dtype=bool), [5]),
-    ):
-        labels = periodic_regions(mask).labels
-        assert sorted(np.bincount(labels.ravel())[1:].tolist()) == points
 
 
 def test_patches_and_pressures_add_up():
@@ -141,32 +124,6 @@ def test_a_profile_that_fails_makes_the_totals_nan():
 
 X = np.arange(64) * 1e-4
 WAVE = Profile(X, 1e-5 * np.cos(2 * np.pi * X / 64e-4))
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ({"pressure": 0.0}, r"pressure must be greater than zero \[Pa\]; got 0"),
-        ({"pressure": np.nan}, "pressure must be a finite number"),
-        ({"speed": -1.0}, "speed must not be negative"),
-        ({"tolerance": 0.0}, "tolerance must be greater than zero"),
-        ({"smallest_wavelength": 1e-4}, "from 0.0002 m, two steps of the surface, to 0.0064 m"),
-        ({"smallest_wavelength": 1e-2}, "its length; got 0.01 m"),
-        ({"most_points": 10}, "most_points must be at least 128, four points in each wave"),
-        ({"workers": 0}, "workers must be a whole number"),
-    ],
-)
-def test_what_makes_no_sense_is_refused(arguments, words):
-    surface = isotropic_map(64) if "workers" in arguments else WAVE
-    with pytest.raises(InputError, match=words):
-        solve(surface, **arguments)
-
-
-def test_what_is_no_surface_is_refused():
-    with pytest.raises(InputError, match="surface must be a Profile or a HeightMap; got ndarray"):
-        solve(WAVE.z)
-    with pytest.raises(InputError, match="at least 16 points a way; got 1"):
-        HeightMap(X, X[:1], WAVE.z[:, None])
 
 
 @pytest.mark.parametrize("periodic", [True, False])

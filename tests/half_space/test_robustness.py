@@ -1,7 +1,5 @@
 """Random rubbers on random surfaces: contacts are found, estimated errors cover the true ones."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -14,9 +12,7 @@ from .rough_cases import random_case
 FRICTION_THAT_COUNTS = 1e-3
 
 
-def covered(
-    seed: int, points_of_line: int, points_of_map: int, most_points: int
-) -> tuple[bool, bool]:
+def covered(seed, points_of_line, points_of_map, most_points):
     """Return whether the errors of area and friction are within the estimates, a grid four times
     finer being the truth."""
     case = random_case(seed, points_of_line, points_of_map)

@@ -1,7 +1,5 @@
 """Standard errors from pieces of one contact against the scatter from road to road."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -15,7 +13,7 @@ RUBBER = gs.Rubber(3e6, [2e7], [1e-3], bulk_modulus=2e9)
 WAVE, WAVES, POINTS = 8e-3, 32, 2048
 
 
-def road(seed: int) -> gs.Profile:
+def road(seed):
     """Return a periodic Gaussian line of 32 largest waves, self-affine down to 0.5 mm."""
     length = WAVES * WAVE
     k = np.fft.rfftfreq(POINTS, length / POINTS)
@@ -26,7 +24,7 @@ def road(seed: int) -> gs.Profile:
     return gs.Profile(length / POINTS * np.arange(POINTS), 3e-4 * z / z.std())
 
 
-def contact(seed: int, speed: float = 0.3) -> gs.half_space.RoughContact:
+def contact(seed, speed=0.3):
     solved = gs.solve_rough_contact(
         RUBBER,
         road(seed),
@@ -40,7 +38,7 @@ def contact(seed: int, speed: float = 0.3) -> gs.half_space.RoughContact:
     return solved
 
 
-def test_it_is_the_scatter_from_road_to_road() -> None:
+def test_it_is_the_scatter_from_road_to_road():
     roads = [contact(seed) for seed in range(40)]
     stated = [sampling_error(solved, 2.0 * WAVE) for solved in roads]
     for name, measure in (
@@ -55,7 +53,7 @@ def test_it_is_the_scatter_from_road_to_road() -> None:
         assert error == pytest.approx(scatter, rel=0.45)
 
 
-def test_the_pieces_share_the_friction_that_is_lost() -> None:
+def test_the_pieces_share_the_friction_that_is_lost():
     """A road of equal pieces has no error, however the pieces are placed."""
     line = road(0)
     x = line.step * np.arange(4 * POINTS)
@@ -70,7 +68,7 @@ def test_the_pieces_share_the_friction_that_is_lost() -> None:
     assert error.friction < 1e-3
 
 
-def test_few_pieces_tell_nothing() -> None:
+def test_few_pieces_tell_nothing():
     solved = contact(0)
     few = sampling_error(solved, WAVES * WAVE / (FEWEST_PIECES - 1))
     assert few.pieces <= FEWEST_PIECES - 1
@@ -81,7 +79,7 @@ def test_few_pieces_tell_nothing() -> None:
         sampling_error(solved, 0.0)
 
 
-def white_map(seed: int) -> gs.half_space.RoughContact:
+def white_map(seed):
     """Return the contact of a map with independent summits and a quarter of contact."""
     x = 5e-4 * np.arange(64)
     z = np.random.default_rng(seed).standard_normal((64, 64))
@@ -92,7 +90,7 @@ def white_map(seed: int) -> gs.half_space.RoughContact:
     )  # fmt: skip
 
 
-def test_the_error_of_a_map_is_the_scatter_from_map_to_map() -> None:
+def test_the_error_of_a_map_is_the_scatter_from_map_to_map():
     """Twenty maps tell their scatter to 16 %; the errors are 0.97 and 1.07 of it."""
     maps = [white_map(seed) for seed in range(20)]
     stated = [sampling_error(solved, 16e-3) for solved in maps]
@@ -102,7 +100,7 @@ def test_the_error_of_a_map_is_the_scatter_from_map_to_map() -> None:
         assert math.sqrt(np.mean(np.square(errors))) == pytest.approx(values.std(ddof=1), rel=0.35)
 
 
-def test_degrees_of_freedom_of_a_map_are_its_cosines() -> None:
+def test_degrees_of_freedom_of_a_map_are_its_cosines():
     """Quarter of a circle of radius 4 in orders of both sides, for an even load: 16 of them.
 
     Load on a sixteenth of the map moves them together; a map as short as its wave has two.
@@ -120,7 +118,7 @@ def test_degrees_of_freedom_of_a_map_are_its_cosines() -> None:
     assert sampling_error(solved, 16e-3).pieces - 1.0 < 8.0
 
 
-def test_pieces_without_load_do_not_count() -> None:
+def test_pieces_without_load_do_not_count():
     """Half of a road lies too deep to be touched: its pieces tell nothing of the scatter."""
     line = road(0)
     deep = np.where(np.arange(POINTS) < POINTS // 2, line.z, line.z - 5e-3)

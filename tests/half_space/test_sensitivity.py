@@ -1,7 +1,5 @@
 """Derivatives of the direct contact's friction against differences and closed forms."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -28,7 +26,7 @@ STEP = 2.5e-3
 1e-4 of a derivative near one. Points that come into contact add what it measures beyond that."""
 
 
-def line(points: int = 16384, length: float = 0.128, shortest: float = 5e-4) -> gs.Profile:
+def line(points=16384, length=0.128, shortest=5e-4):
     """A Gaussian line of 16 largest waves, one period."""
     x = np.arange(points) * length / points
     q = 2.0 * np.pi * np.fft.rfftfreq(points, length / points)
@@ -61,7 +59,7 @@ def again(contact, *, change=0.0, pressure=None, height=None):
     return float(lost_by_harmonic(compliance, grid, solved.pressure).sum())
 
 
-def difference(contact, change) -> float:
+def difference(contact, change):
     """The derivative of ln mu along a change of ln M of each wave, from two more contacts."""
     high, low = (again(contact, change=sign * STEP * change) for sign in (1.0, -1.0))
     return float(np.log(high / low) / (2.0 * STEP))

@@ -5,8 +5,6 @@ repeated with a period. Only M = E/(1 - nu^2) counts in both, so that a nearly i
 with E = 3/4 M stands for any Poisson's ratio.
 """
 
-from __future__ import annotations
-
 import csv
 from itertools import filterfalse
 
@@ -14,7 +12,6 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.half_space import RoughContact
 from gripscale.surface import HeightMap, Profile
 from tests.samples import ROOT
 
@@ -24,7 +21,7 @@ STIFF = 1e14
 """Bulk modulus [Pa] beyond which M is 4/3 E to 1e-5."""
 
 
-def rows(name: str) -> list[dict[str, str]]:
+def rows(name):
     lines = (ROOT / "tests" / "reference" / name).read_text().splitlines()
     return list(csv.DictReader(filterfalse(lambda line: line.startswith("#"), lines)))
 
@@ -44,7 +41,7 @@ HERTZ = (3.0 * FORCE * RADIUS / (4.0 * RELAXED)) ** (1.0 / 3.0)
 CREEP_TIME = 0.01
 
 
-def sphere(speed: float, length: int, per_radius: int, width: int = 12) -> RoughContact:
+def sphere(speed, length, per_radius, width=12):
     """Return the contact at v tau/a0 = `speed` in a period of `length` x `width` radii a0."""
     x, y = (HERTZ * np.arange(n * per_radius) / per_radius for n in (length, width))
     away = (x - x.mean())[:, None] ** 2 + (y - y.mean())[None, :] ** 2
@@ -72,7 +69,7 @@ CASES = list(zip(SPHERE, WITHIN, LENGTHS, strict=True))
 
 
 @pytest.mark.parametrize(("row", "within", "length"), CASES)
-def test_sliding_sphere(row, within, length) -> None:
+def test_sliding_sphere(row, within, length):
     speed, friction = float(row["v_tau_over_a0"]), float(row["mu"])
     found = sphere(speed, length, 25)
     assert found.converged
@@ -80,7 +77,7 @@ def test_sliding_sphere(row, within, length) -> None:
     assert found.friction_from_dissipation == pytest.approx(found.friction, rel=5e-3)
 
 
-def test_slow_sphere_is_the_closed_form() -> None:
+def test_slow_sphere_is_the_closed_form():
     """mu = (1 - E0/E1) v tau/R for v tau << a0.
 
     Friction is int q_x^2 v tau (1/M0 - 1/M1) 2/|q| |p(q)|^2 d2q/(4 pi^2) with Hertz' pressure
@@ -95,7 +92,7 @@ def test_slow_sphere_is_the_closed_form() -> None:
 
 @pytest.mark.verification
 @pytest.mark.parametrize(("row", "within", "length"), CASES)
-def test_sliding_sphere_on_finer_grids_in_longer_periods(row, within, length) -> None:
+def test_sliding_sphere_on_finer_grids_in_longer_periods(row, within, length):
     """Twice the period and 40 points in a0 instead of 25 change friction by less than 1 %."""
     speed, friction = float(row["v_tau_over_a0"]), float(row["mu"])
     found = sphere(speed, 2 * length, 40, 16)
@@ -112,7 +109,7 @@ PERIOD = 2.0 * np.pi * WIDTH
 2 ln(WIDTH/|x|) near the contact. So approaches can be compared as they are."""
 
 
-def cylinders(row: dict[str, str]) -> RoughContact:
+def cylinders(row):
     """Return the contact of a rigid parabola with a body of half the contact modulus.
 
     Both have nu = 0.4 and M = 2 G/(1 - nu); their creep compliance doubles within the creep time.
@@ -134,12 +131,12 @@ def cylinders(row: dict[str, str]) -> RoughContact:
     )
 
 
-def case(row: dict[str, str]) -> str:
+def case(row):
     return f"case {row['case']}"
 
 
 @pytest.mark.parametrize("row", CYLINDERS, ids=case)
-def test_rolling_cylinders(row) -> None:
+def test_rolling_cylinders(row):
     """Width and middle within an element of the reference, whose rubber moves along -x; the peak to
     its four digits, of which points of ours take 2e-4."""
     found = cylinders(row)
@@ -153,7 +150,7 @@ def test_rolling_cylinders(row) -> None:
 
 
 @pytest.mark.parametrize("row", [row for row in CYLINDERS if row["case"] != "4"], ids=case)
-def test_approach_of_cylinders(row) -> None:
+def test_approach_of_cylinders(row):
     """Crest over the mean plane: five digits, four where the memory of 45 mm feels the width."""
     found = cylinders(row)
     approach = found.height.max() - (found.gap + found.height).mean()
@@ -161,7 +158,7 @@ def test_approach_of_cylinders(row) -> None:
 
 
 @pytest.mark.parametrize("row", CYLINDERS[1:4], ids=case)
-def test_approach_of_a_strip(row) -> None:
+def test_approach_of_a_strip(row):
     """Under our pressure a strip that creeps as it moves on approaches by the reference's five
     digits (1e-4), also with a memory of 2 m, where a line and a strip of 1 m differ by 6 %."""
     found = cylinders(row)

@@ -4,8 +4,6 @@ Sixteen lines of eight kinds of surface: four with sharp edges, four without. 0.
 are spikes of 0.5 to 4 mm, cleaned by the default rule, cut off at 0.4 mm.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -6,8 +6,6 @@ Gaussian, and is solved with all its waves. A sharp cut of the spectrum gave an 
 0.75 and 15 times the friction at a cut-off of 0.4 mm, and less area with a finer one.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Progress and stopping of a direct contact."""
 
-from __future__ import annotations
-
 import itertools
 import signal
 import threading

@@ -1,12 +1,10 @@
 """Measured surfaces made periodic: gaps, ends, cut-off, any size, windows; and synthetic ones."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from gripscale.core.errors import InputError
-from gripscale.half_space import surface_of_sines, windows
+from gripscale.half_space import one_period, spread_windows, surface_of_sines, windows
 from gripscale.half_space.grid import joined, periodic_heights
 from gripscale.surface import HeightMap, Profile, SineStack, self_affine_profile
 
@@ -138,3 +136,30 @@ def test_surface_of_sines_has_their_slopes():
     np.testing.assert_allclose(spectrum[counts] * counts / 0.05, stack.amplitude / stack.wavelength)
     with pytest.raises(InputError, match="length must be at least the largest wavelength"):
         surface_of_sines(stack, 0.005, seed=1)
+
+
+# Windows of a profile, spread over it and made one period.
+
+
+def test_one_period_is_what_the_direct_contact_sees():
+    period = one_period(LINE, 2e-3)
+    there = periodic_heights(LINE, smallest_wavelength=2e-3, periodic=False)
+    here = periodic_heights(period, smallest_wavelength=None, periodic=True)
+    assert here.grid.lengths == pytest.approx(there.grid.lengths, rel=1e-12)
+    # but for waves below half the cut-off, of which 1/16 is left: the period has no points for them
+    np.testing.assert_allclose(here.on((800,)), there.on((800,)), atol=1e-2 * np.ptp(LINE.z))
+
+
+def test_windows_are_spread_over_all_profiles():
+    other = Profile(LINE.x + 1.0, LINE.z)
+    found = spread_windows([LINE, other], 0.02, 5)
+    assert len(found) == 5
+    assert found[0].x[0] < 0.02
+    assert found[-1].x[0] > 1.15
+    assert len(spread_windows([LINE], 0.02, 1000)) == 10
+
+
+@pytest.mark.parametrize("most", [0, 2.5])
+def test_the_number_of_windows_is_a_whole_one(most):
+    with pytest.raises(InputError, match="most"):
+        spread_windows([LINE], 0.02, most)

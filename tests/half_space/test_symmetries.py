@@ -1,7 +1,5 @@
 """What must stay the same: scaled, turned and mirrored problems, and the balance of energy."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

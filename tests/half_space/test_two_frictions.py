@@ -1,7 +1,5 @@
 """Without a tolerance the two frictions of a direct contact still judge its grid."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -15,7 +13,7 @@ from .rough_cases import isotropic_map, random_case, solve
 
 
 @pytest.mark.parametrize("seed", [85, 175])
-def test_friction_of_the_wrong_sign_is_not_converged(seed: int) -> None:
+def test_friction_of_the_wrong_sign_is_not_converged(seed):
     """A few points on steep crests, four in the smallest wave: -0.049 and -0.054 from traction.
 
     A grid eight times finer has 0.018 and 0.042 both from traction and from dissipation.
@@ -28,7 +26,7 @@ def test_friction_of_the_wrong_sign_is_not_converged(seed: int) -> None:
     assert f"Friction is {found.friction:.3g} from traction" in note
 
 
-def test_an_answer_keeps_the_numbers_and_the_status_of_the_contact() -> None:
+def test_an_answer_keeps_the_numbers_and_the_status_of_the_contact():
     case = random_case(97, points_of_map=32)
     cut_off = 2.0 * float(np.max(case.surface.step))
     options = {"smallest_wavelength": cut_off, "tolerance": None, "periodic": True}
@@ -42,7 +40,7 @@ def test_an_answer_keeps_the_numbers_and_the_status_of_the_contact() -> None:
     assert "from dissipation" in answer.attrs["notes"]
 
 
-def test_frictions_that_roughly_agree_converged() -> None:
+def test_frictions_that_roughly_agree_converged():
     """On four points in the smallest wave 10 to 20 % apart is usual."""
     found = solve(isotropic_map(64), tolerance=None)
     assert 0.01 < found.friction_mismatch < 0.3
@@ -50,7 +48,7 @@ def test_frictions_that_roughly_agree_converged() -> None:
     assert not any("from dissipation" in note for note in found.notes)
 
 
-def test_at_rest_there_is_no_friction_to_judge() -> None:
+def test_at_rest_there_is_no_friction_to_judge():
     found = random_case(175, points_of_map=32)
     at_rest = solve(
         found.surface, rubber=found.rubber, pressure=found.pressure, speed=0.0, tolerance=None

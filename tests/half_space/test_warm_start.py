@@ -1,7 +1,5 @@
 """A contact that starts from that of another rubber, and what it may not start from."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -25,7 +23,7 @@ def contact(request):
     )
 
 
-def solve_from(surface, start: gs.RoughContact | None, **more):
+def solve_from(surface, start, **more):
     rubber = replace(SHIFTED_RUBBER, moduli=1.3 * SHIFTED_RUBBER.moduli, bulk_modulus=3e9)
     length = {"smallest_wavelength": 1e-3 if isinstance(surface, gs.Profile) else 1.6e-3}
     return solve(surface, rubber=rubber, start=start, **length | {"tolerance": None} | more)

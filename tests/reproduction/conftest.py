@@ -1,12 +1,10 @@
 """The inputs of the reproduction, read and fitted once."""
 
-from __future__ import annotations
-
 import pytest
 
-from gripscale.reproduction.inputs import PaperInputs, read_inputs
+from gripscale.reproduction.inputs import read_inputs
 
 
 @pytest.fixture(scope="session")
-def inputs() -> PaperInputs:
+def inputs():
     return read_inputs()

@@ -1,14 +1,10 @@
 """Each statement is judged by its number: made-up numbers that keep it, and ones that break it."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import xarray as xr
 
 from gripscale.reproduction import judges
-from gripscale.reproduction.figures import TITLES, Results, pair_name
+from gripscale.reproduction.figures import TITLES, pair_name
 from gripscale.reproduction.inputs import (
     COARSE,
     DENSE,
@@ -18,7 +14,6 @@ from gripscale.reproduction.inputs import (
     R60,
     SBR,
     SPEED,
-    PaperInputs,
 )
 from gripscale.reproduction.judges import Evidence
 from gripscale.reproduction.run import CLAIMS, judged
@@ -27,7 +22,7 @@ from gripscale.reproduction.statement import Statement, as_markdown, number_hold
 WAVELENGTHS = 20e-3 / 3.0 ** np.arange(5)
 
 
-def prediction(area: Any, friction: Any = None, factor: float = 3.0, **per_wave: Any) -> xr.Dataset:
+def prediction(area, friction=None, factor=3.0, **per_wave):
     """Return a prediction with the given running areas and frictions of the waves."""
     area = np.asarray(area, dtype=float)
     friction = np.zeros(area.size) if friction is None else np.asarray(friction, dtype=float)
@@ -42,20 +37,18 @@ def prediction(area: Any, friction: Any = None, factor: float = 3.0, **per_wave:
         "modulus": np.full(area.size, 5e6),
         **{name: np.asarray(values, dtype=float) for name, values in per_wave.items()},
     }
-    data: dict[str, Any] = {name: ("scale", values) for name, values in columns.items()}
+    data = {name: ("scale", values) for name, values in columns.items()}
     scale = np.arange(1, area.size + 1)
     return xr.Dataset(
         data | {"prediction_status": "converged", "nominal_speed": 0.0}, coords={"scale": scale}
     )
 
 
-def judge(
-    figure: str, inputs: PaperInputs, solved: Results, rest: Results | None = None
-) -> list[Statement]:
+def judge(figure, inputs, solved, rest=None):
     return judged(figure, Evidence(inputs, solved, rest or {}))
 
 
-def verdicts(statements: list[Statement]) -> list[bool | None]:
+def verdicts(statements):
     for statement in statements:
         assert statement.figure
         assert statement.criterion
@@ -69,13 +62,13 @@ DENSE_PAIRS = ("3.5/2.4", "3/2.2", "6/3")
 """The last fits worst."""
 
 
-def three(worst: Any) -> Results:
+def three(worst):
     areas = (SETTLING, SETTLING, worst)
     lines = {name: prediction(area) for name, area in zip(DENSE_PAIRS, areas, strict=True)}
     return {DENSE: lines}
 
 
-def test_progression(inputs: PaperInputs) -> None:
+def test_progression(inputs):
     assert verdicts(judge("fig5a", inputs, three(SETTLING))) == [True, True]
     same, _ = judge("fig5a", inputs, three([0.3, 0.15, 0.10, 0.07, 0.06]))
     assert same.holds is False
@@ -83,8 +76,8 @@ def test_progression(inputs: PaperInputs) -> None:
     assert judge("fig5a", inputs, three([0.3, 0.25, 0.2, 0.13, 0.072]))[1].holds is False
 
 
-def test_a_curve_settles_if_it_is_level_before_as_many_decades_again(inputs: PaperInputs) -> None:
-    def settling(*slopes: float) -> Statement:
+def test_a_curve_settles_if_it_is_level_before_as_many_decades_again(inputs):
+    def settling(*slopes):
         area = 0.3 * 3.0 ** -np.append(0.0, np.cumsum(slopes))
         *_, settles = judge("fig5a", inputs, three(area))
         return settles
@@ -102,8 +95,8 @@ def test_a_curve_settles_if_it_is_level_before_as_many_decades_again(inputs: Pap
     assert settling(0.3, 0.3, 0.4).holds is False
 
 
-def test_motion(inputs: PaperInputs) -> None:
-    def in_motion(rest: list[float], moving: list[float]) -> list[bool | None]:
+def test_motion(inputs):
+    def in_motion(rest, moving):
         solved, still = ({DENSE: dict.fromkeys(DENSE_PAIRS, prediction(a))} for a in (moving, rest))
         return verdicts(judge("fig5b", inputs, solved, still))[2:]
 
@@ -113,8 +106,8 @@ def test_motion(inputs: PaperInputs) -> None:
     assert in_motion(SETTLING, [0.1, 0.08, 0.07, 0.068, 0.067]) == [False]
 
 
-def test_speed_and_area(inputs: PaperInputs) -> None:
-    def over_speed(*areas: list[float]) -> list[bool | None]:
+def test_speed_and_area(inputs):
+    def over_speed(*areas):
         lines = {"static": prediction([0.01, 0.01, 0.01])}
         lines |= {f"{i} mm/s": prediction(area) for i, area in enumerate(areas)}
         return verdicts(judge("fig6a", inputs, {FILLED_TREAD: lines}))
@@ -124,8 +117,8 @@ def test_speed_and_area(inputs: PaperInputs) -> None:
     assert over_speed([0.3, 0.1], [0.1, 0.05]) == [False]
 
 
-def test_stiffness(inputs: PaperInputs) -> None:
-    def stiff(modulus: list[float], area: list[float]) -> list[bool | None]:
+def test_stiffness(inputs):
+    def stiff(modulus, area):
         sbr = prediction([0.5, 0.3], modulus=[1e6, 2e6])
         lines = {FILLED_TREAD: prediction(area, modulus=modulus), SBR: sbr}
         panel = pair_name((FILLED_TREAD, SBR), FAST)
@@ -137,17 +130,17 @@ def test_stiffness(inputs: PaperInputs) -> None:
     assert stiff([0.5e6, 0.6e6], [0.6, 0.4]) == [True]  # the other one is stiffer
 
 
-def test_surfaces(inputs: PaperInputs) -> None:
+def test_surfaces(inputs):
     coarse = prediction([0.2, 0.1, 0.06, 0.05, 0.04])
     for last, holds in ((0.055, True), (0.0785, False), (0.2, False)):
         solved = {"300 mm/s": {COARSE: coarse, DENSE: prediction([0.4, 0.2, 0.12, 0.1, last])}}
         assert verdicts(judge("fig7b", inputs, solved)) == [holds]
 
 
-def test_worst_fit_departs_at_small_waves_only(inputs: PaperInputs) -> None:
+def test_worst_fit_departs_at_small_waves_only(inputs):
     good = prediction(SETTLING, [0.02, 0.03, 0.05, 0.08, 0.12])
 
-    def with_worst(*friction: float) -> list[bool | None]:
+    def with_worst(*friction):
         worst = prediction([0.3, 0.1, 0.05], friction, factor=9.0)
         lines = dict(zip(DENSE_PAIRS, (good, good, worst), strict=True))
         return verdicts(judge("fig8a", inputs, {DENSE: lines}))
@@ -161,8 +154,8 @@ PEAKED = [0.2, 0.3, 0.4, 0.5, 0.4]
 """A loss factor with its maximum before the smallest wave."""
 
 
-def test_maximum_of_friction_comes_sooner(inputs: PaperInputs) -> None:
-    def at_speeds(*frictions: list[float], loss: list[float] = PEAKED) -> list[Statement]:
+def test_maximum_of_friction_comes_sooner(inputs):
+    def at_speeds(*frictions, loss=PEAKED):
         lines = {
             f"{i} mm/s": prediction(SETTLING, each, loss_factor=loss)
             for i, each in enumerate(frictions)
@@ -185,14 +178,14 @@ def test_maximum_of_friction_comes_sooner(inputs: PaperInputs) -> None:
     assert "at 0 mm/s the wave of 6.67 mm has 40% of the friction of the first" in rises.why_not
 
 
-def test_compounds(inputs: PaperInputs) -> None:
-    def at(lead: list[float], loss: list[float]) -> dict[str, xr.Dataset]:
+def test_compounds(inputs):
+    def at(lead, loss):
         friction = np.full(5, 0.1)
         one = prediction(SETTLING, friction, loss_factor=np.full(5, 0.2))
         other = prediction(SETTLING, friction + lead, loss_factor=loss)
         return {FILLED_TREAD: one, SBR: other, R20: one, R60: other}
 
-    def pairs(*solved: dict[str, xr.Dataset]) -> list[Statement]:
+    def pairs(*solved):
         names = [pair_name(pair, v) for pair in inputs.pairs for v in (SPEED, FAST)]
         return judge("fig9a", inputs, dict(zip(names, solved, strict=True)))
 
@@ -212,8 +205,8 @@ def test_compounds(inputs: PaperInputs) -> None:
     assert "they meet between 0.74 and 0.25 mm and cross" in judgements[11].why_not
 
 
-def test_steeper_surface(inputs: PaperInputs) -> None:
-    def steep(coarse: xr.Dataset, dense: xr.Dataset) -> list[bool | None]:
+def test_steeper_surface(inputs):
+    def steep(coarse, dense):
         solved = {"300 mm/s": {COARSE: coarse, DENSE: dense}}
         return verdicts(judge("fig9b", inputs, solved))
 
@@ -223,7 +216,7 @@ def test_steeper_surface(inputs: PaperInputs) -> None:
     assert steep(prediction([0.2, 0.05], [0.04, 0.2]), less) == [False]  # less at the first wave
 
 
-def test_table_holds_every_statement() -> None:
+def test_table_holds_every_statement():
     kept = Statement("fig6a", "area | falls", "less than 1", "here", "0.5", True, "")
     broken = Statement("fig7b", "less", "more", "there", "2", False, "steeper")
     unknown = Statement("fig7b", "less", "more", "beyond", "1", None, "no wave gets there")
@@ -239,7 +232,7 @@ def test_table_holds_every_statement() -> None:
     assert page.count("**Less.**") == 1
 
 
-def test_every_row_of_the_table_names_a_judge_and_its_figures() -> None:
+def test_every_row_of_the_table_names_a_judge_and_its_figures():
     """The numbers of the criteria are those the judges use."""
     for row in CLAIMS:
         assert set(row["figures"].split()) <= set(TITLES)

@@ -1,7 +1,5 @@
 """The reproduction, from the inputs to figures, data and judged statements."""
 
-from __future__ import annotations
-
 import json
 import re
 from importlib.resources import files
@@ -9,13 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner, Result
+from typer.testing import CliRunner
 
 from gripscale.case_file import write_example
 from gripscale.charts.chart import Series
 from gripscale.cli import app
-from gripscale.core.errors import FileError, InputError
-from gripscale.experiment import Progress
+from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.reproduction.figures import TITLES, draw, tasks_of
 from gripscale.reproduction.inputs import (
@@ -28,17 +25,15 @@ from gripscale.reproduction.inputs import (
     ROAD_FILES,
     RUBBER_DATA,
     SPEED,
-    PaperInputs,
     read_inputs,
 )
 from gripscale.reproduction.judges import Evidence
 from gripscale.reproduction.run import judged, reproduce_paper
-from gripscale.reproduction.statement import Statement
-from studies.paper_page import MADE, write_page
+from studies.paper_page import MADE
 from tests.samples import ROOT
 
 
-def test_inputs_are_the_stated_ones(inputs: PaperInputs) -> None:
+def test_inputs_are_the_stated_ones(inputs):
     assert list(inputs.stacks) == [COARSE, DENSE]
     assert list(inputs.stacks[DENSE]) == ["3.5/2.4", "3/2.2", "6/3"]
     assert [inputs.worst_fit(road) for road in (COARSE, DENSE)] == ["6/4.16", "6/3"]
@@ -53,7 +48,7 @@ def test_inputs_are_the_stated_ones(inputs: PaperInputs) -> None:
     assert "by this letter only" in inputs.compounds[R60].source
 
 
-def test_resin_tread_has_its_loss_maximum_among_the_waves(inputs: PaperInputs) -> None:
+def test_resin_tread_has_its_loss_maximum_among_the_waves(inputs):
     rubber = inputs.compounds[R60].rubber
     assert rubber.reference_temperature == pytest.approx(273.15)
     omega = np.geomspace(1e-2, 1e12, 2000)
@@ -64,7 +59,6 @@ def test_resin_tread_has_its_loss_maximum_among_the_waves(inputs: PaperInputs) -
     # Fig. 2 has the measured rows at 0 C: half are within twice the rms error of the series, not
     # shifted they are off by a factor of two and more
     fit = inputs.compounds[R60].fit
-    assert fit is not None
     *_, points = [m for m in draw("fig2", inputs, {}).panels[0].marks if isinstance(m, Series)]
     x, y = (np.asarray(values) for values in (points.x, points.y))
     here = np.isfinite(x)
@@ -72,7 +66,7 @@ def test_resin_tread_has_its_loss_maximum_among_the_waves(inputs: PaperInputs) -
     assert np.median(np.abs(off)) < 2.0 * fit.rms_storage
 
 
-def test_no_chain_is_solved_twice(inputs: PaperInputs) -> None:
+def test_no_chain_is_solved_twice(inputs):
     keys = [
         task.key
         for figure in TITLES
@@ -83,30 +77,7 @@ def test_no_chain_is_solved_twice(inputs: PaperInputs) -> None:
     assert len(set(keys)) == 31
 
 
-def test_page_keeps_what_is_written_by_hand(tmp_path: Path, inputs: PaperInputs) -> None:
-    page = tmp_path / "paper.md"
-    page.write_text(f"# By hand\n\n{MADE}\n\nold numbers\n", encoding="utf-8")
-    said = "the area falls"
-    write_page(
-        page,
-        [
-            Statement("fig5a", said, "less than 1", "here", "0.5", True, ""),
-            Statement("fig5a", said, "less than 1", "there", "1.5", False, "steeper"),
-        ],
-        inputs,
-    )
-    text = page.read_text(encoding="utf-8")
-    assert text.startswith(f"# By hand\n\n{MADE}\n\n1 of 2 statements hold:\n\n")
-    assert "old numbers" not in text
-    assert f"| Figure 5a | {said} | 1 | 1 |  |" in text
-    for figure in TITLES:
-        assert f"](figures/paper_{figure}.png)" in text
-    page.write_text("# By hand\n", encoding="utf-8")
-    with pytest.raises(FileError, match="below which it is written"):
-        write_page(page, [], inputs)
-
-
-def test_docs_have_every_figure_and_statement(inputs: PaperInputs) -> None:
+def test_docs_have_every_figure_and_statement(inputs):
     """The numbers of the page are those of the machine that made it; the statements are here."""
     page = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
     made = page[page.index(MADE) :]
@@ -119,10 +90,8 @@ def test_docs_have_every_figure_and_statement(inputs: PaperInputs) -> None:
 
 
 @pytest.mark.verification
-def test_figure_with_chains_is_made_once_and_read_again(
-    tmp_path: Path, inputs: PaperInputs
-) -> None:
-    told: list[Progress] = []
+def test_figure_with_chains_is_made_once_and_read_again(tmp_path, inputs):
+    told = []
     statements = reproduce_paper(inputs, tmp_path, ["fig7b", "fig9b"], on_task=told.append)
     assert len(told) == 2
     assert [s.figure for s in statements] == ["fig7b", "fig9b"]
@@ -141,7 +110,7 @@ def test_figure_with_chains_is_made_once_and_read_again(
     assert [t.stored for t in told] == [True, True]
 
 
-def test_inputs_from_the_command_line(tmp_path: Path) -> None:
+def test_inputs_from_the_command_line(tmp_path):
     done = shell("fig4", "fig2", "fig3b", "--output", str(tmp_path))
     assert done.exit_code == 0, done.output
     assert "7 of 10 statements hold." in done.output
@@ -156,7 +125,7 @@ def test_inputs_from_the_command_line(tmp_path: Path) -> None:
     assert {p.suffix for p in tmp_path.glob("fig4.*")} == {".nc", ".pdf", ".png"}
 
 
-def test_own_surfaces_rubbers_and_factors(tmp_path: Path) -> None:
+def test_own_surfaces_rubbers_and_factors(tmp_path):
     case, *_ = write_example(tmp_path / "own", "road")
     keys = {"crop": ["120 mm", "1780 mm"], "smallest_wavelength": "0.2 mm"}
     inputs = read_inputs(
@@ -178,7 +147,7 @@ def test_own_surfaces_rubbers_and_factors(tmp_path: Path) -> None:
     assert read_inputs((str(case), ROAD_FILES[1]), surface_keys=keys).rubber == FILLED_TREAD
 
 
-def test_a_case_states_rubber_and_temperature(tmp_path: Path) -> None:
+def test_a_case_states_rubber_and_temperature(tmp_path):
     case, *_ = write_example(tmp_path / "own", "sweeps")
     text = case.read_text(encoding="utf-8")
     assert "[conditions]" not in text
@@ -202,21 +171,19 @@ def test_a_case_states_rubber_and_temperature(tmp_path: Path) -> None:
         (["--temperature", "20"], "temperature"),
     ],
 )
-def test_wrong_own_inputs_are_one_sentence(
-    arguments: list[str], message: str, tmp_path: Path
-) -> None:
+def test_wrong_own_inputs_are_one_sentence(arguments, message, tmp_path):
     done = shell("fig2", *arguments, "--output", str(tmp_path))
     assert done.exit_code == 2
     (line,) = done.stderr.splitlines()
     assert message in line
 
 
-def test_unknown_figure_is_one_sentence(tmp_path: Path, inputs: PaperInputs) -> None:
+def test_unknown_figure_is_one_sentence(tmp_path, inputs):
     with pytest.raises(InputError, match=r"figure must be one of fig2, .*; got 'fig1'"):
         reproduce_paper(inputs, tmp_path, ["fig1"])
 
 
-def test_the_package_has_the_data_with_their_origin() -> None:
+def test_the_package_has_the_data_with_their_origin():
     """A wheel holds what is a file of the package; all of it with SOURCE and licence."""
     roads, rubbers = files("gripscale.case_file") / "data" / "road", files("gripscale.reproduction")
     for folder in (rubbers / "data" / "rubber", rubbers / "data" / "friction"):
@@ -228,6 +195,6 @@ def test_the_package_has_the_data_with_their_origin() -> None:
         assert Path(path).stat().st_size > 2000
 
 
-def shell(*arguments: str) -> Result:
+def shell(*arguments):
     """Run the command in a terminal of 100 columns, whatever the tests run in."""
     return CliRunner().invoke(app, ["reproduce", *arguments], env={"COLUMNS": "100"})

@@ -20,7 +20,7 @@ def beyond(omega, truth, low, high):
     return max(*below, *above) - 1.0
 
 
-def check(name: str, cut: str, seed: int) -> None:
+def check(name, cut, seed):
     """Hold the fit of one truth, cut and measured, to its promises.
 
     - The five points of each end are met within the noise: the error of the fit (rms, E' and E''

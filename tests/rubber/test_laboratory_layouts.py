@@ -1,9 +1,5 @@
 """Moduli in files as laboratories have them: read right at first try, or refused by name."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -16,19 +12,19 @@ STORAGE, LOSS = 5e6 * HERTZ**0.1, 8e5 * HERTZ**0.12
 PSI = 6894.757293168
 
 
-def rows(*columns: np.ndarray, separator: str = ",", before: str = "") -> str:
+def rows(*columns, separator=",", before=""):
     lines = zip(*columns, strict=True)
     return "\n".join(before + separator.join(f"{value:.8g}" for value in line) for line in lines)
 
 
-def two(size: float, frequency: np.ndarray = HERTZ) -> str:
+def two(size, frequency=HERTZ):
     return rows(frequency, STORAGE / size, LOSS / size)
 
 
 OMEGA = 2.0 * np.pi * HERTZ
 SQUARE = STORAGE**2 + LOSS**2
 WORDS = rows(HERTZ, STORAGE, LOSS, separator=";", before="sweep;")
-CURVES: dict[str, tuple[str, dict[str, object]]] = {
+CURVES = {
     "bar": ("Frequency (Hz),E' (bar),E'' (bar)\n" + two(1e5), {}),
     "kgf/cm2": ("Frequency (Hz),E' (kgf/cm2),E'' (kgf/cm2)\n" + two(98066.5), {}),
     "ksi": ("Frequency (Hz),E' (ksi),E'' (ksi)\n" + two(1e3 * PSI), {}),
@@ -95,6 +91,7 @@ CURVES: dict[str, tuple[str, dict[str, object]]] = {
         "Частота (Hz),Модуль накопления E (MPa),Модуль потерь E (MPa)\n" + two(1e6),
         {"modulus": "E"},
     ),
+    "other primes": ("f / Hz;E′ / MPa;E″ / MPa\n" + two(1e6).replace(",", ";"), {}),
     "primes in words": ("Freq (Hz),E prime (MPa),E double prime (MPa)\n" + two(1e6), {}),
     "primes as letters": ("Freq (Hz),Ep (MPa),Epp (MPa)\n" + two(1e6), {"modulus": "E"}),
     "units behind numbers": (
@@ -119,7 +116,7 @@ CURVES: dict[str, tuple[str, dict[str, object]]] = {
 
 
 @pytest.mark.parametrize("kind", CURVES)
-def test_a_master_curve_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
+def test_a_master_curve_is_read_at_first_try(tmp_path, kind):
     text, options = CURVES[kind]
     path = tmp_path / "dma.csv"
     path.write_bytes(text.encode("gb18030" if kind == "Chinese" else "utf-8"))
@@ -130,22 +127,35 @@ def test_a_master_curve_is_read_at_first_try(tmp_path: Path, kind: str) -> None:
     assert master.notes == ()
 
 
-def test_a_unit_that_is_not_known_is_never_proposed_over(tmp_path: Path) -> None:
-    path = tmp_path / "dma.csv"
-    path.write_text("Frequency (Hz),E' (furlong),E'' (furlong)\n" + two(1e6))
-    with pytest.raises(InputError, match=r"modulus_unit .* the unknown unit 'furlong'") as refused:
-        gs.read_master_curve(path)
-    assert refused.value.missing == ""
+REFUSED = {
+    "furlongs": ("Frequency (Hz),E' (furlong),E'' (furlong)\n" + two(1e6),
+                 r"modulus_unit .* the unknown unit 'furlong'"),
+    "a temperature in an unknown unit": (
+        "f (Hz),E' (Pa),E'' (Pa),T (°R)\n" + rows(HERTZ, STORAGE, LOSS, 528 + 0 * HERTZ),
+        r"temperature_unit .* the unknown unit '°R'"),
+    "creep": ("Time (s),Creep compliance (1/Pa)\n" + rows(HERTZ, 1 / STORAGE),
+              "creep is not read"),
+    "relaxation": ("t [s],E(t) [MPa]\n" + rows(HERTZ, STORAGE / 1e6), "a relaxation modulus"),
+    "a loss factor alone": ("Frequency (Hz),tan delta\n" + rows(HERTZ, LOSS / STORAGE),
+                            "the loss factor alone"),
+    **{title: (f"f (Hz),{title},{title.replace(chr(39), 2 * chr(39))}\n" + two(1e6),
+               r"modulus_unit must be given .* the unknown unit")
+       for title in ("E' x10^6 (Pa)", "E' (10^6 Pa)", "E'/10^6 Pa", "E' ×1e6 (Pa)")},
+}  # fmt: skip
+"""Units and quantities that are not known; a factor of a title is never left out."""
 
 
-@pytest.mark.parametrize("title", ["E' x10^6 (Pa)", "E' (10^6 Pa)", "E'/10^6 Pa", "E' ×1e6 (Pa)"])
-def test_a_factor_of_a_title_is_never_left_out(tmp_path: Path, title: str) -> None:
+@pytest.mark.parametrize("kind", REFUSED)
+def test_what_is_not_known_is_never_guessed(tmp_path, kind):
+    text, words = REFUSED[kind]
     path = tmp_path / "dma.csv"
-    path.write_text(f"f (Hz),{title},{title.replace(chr(39), 2 * chr(39))}\n" + two(1e6))
-    with pytest.raises(InputError, match=r"modulus_unit must be given .* the unknown unit"):
+    path.write_text(text)
+    with pytest.raises(GripscaleError, match=words) as refused:
         gs.read_master_curve(path)
-    master = gs.read_master_curve(path, modulus_unit="MPa")
-    np.testing.assert_allclose(master.storage, STORAGE, rtol=1e-6)
+    assert kind != "furlongs" or refused.value.missing == ""
+    if "10^6" in kind:
+        found = gs.read_master_curve(path, modulus_unit="MPa").storage
+        np.testing.assert_allclose(found, STORAGE, rtol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -158,14 +168,14 @@ def test_a_factor_of_a_title_is_never_left_out(tmp_path: Path, title: str) -> No
         ("t0 = 3", None),
     ],
 )
-def test_the_reference_that_a_line_states(tmp_path: Path, line: str, kelvin: float) -> None:
+def test_the_reference_that_a_line_states(tmp_path, line, kelvin):
     path = tmp_path / "dma.csv"
     path.write_text(f"{line}\nf (Hz),E' (Pa),E'' (Pa)\n" + two(1.0), encoding="utf-8")
     reference = gs.read_master_curve(path).reference_temperature
     assert reference == (kelvin and pytest.approx(kelvin))
 
 
-def test_a_line_about_the_room_is_not_that_of_a_column(tmp_path: Path) -> None:
+def test_a_line_about_the_room_is_not_that_of_a_column(tmp_path):
     path = tmp_path / "sweeps.csv"
     both = [rows(0.0 * HERTZ + celsius, HERTZ, STORAGE, LOSS) for celsius in (0.0, 40.0)]
     for line in ("Laboratory, temperature: 23 °C", "Reference temperature: 20 °C"):
@@ -174,16 +184,7 @@ def test_a_line_about_the_room_is_not_that_of_a_column(tmp_path: Path) -> None:
         np.testing.assert_allclose(gs.read_sweeps(path).temperatures, [273.15, 313.15])
 
 
-def test_a_temperature_in_an_unknown_unit_is_not_passed_over(tmp_path: Path) -> None:
-    path = tmp_path / "dma.csv"
-    path.write_text(
-        "f (Hz),E' (Pa),E'' (Pa),T (°R)\n" + rows(HERTZ, STORAGE, LOSS, 528 + 0 * HERTZ)
-    )
-    with pytest.raises(InputError, match=r"temperature_unit .* the unknown unit '°R'"):
-        gs.read_master_curve(path)
-
-
-def test_german_letters_are_no_chinese(tmp_path: Path) -> None:
+def test_german_letters_are_no_chinese(tmp_path):
     path = tmp_path / "dma.csv"
     text = "Prüfkörper für Öl, Maß °C\nFrequenz [Hz],Speichermodul [MPa],Verlustmodul [MPa]\n"
     path.write_bytes((text + two(1e6)).encode("cp1252"))
@@ -191,7 +192,7 @@ def test_german_letters_are_no_chinese(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("column", "value"), [(0, 0.0), (2, 0.0), (2, -2e5)])
-def test_one_bad_row_is_left_out_and_said(tmp_path: Path, column: int, value: float) -> None:
+def test_one_bad_row_is_left_out_and_said(tmp_path, column, value):
     data = np.c_[HERTZ, STORAGE, LOSS]
     data[3, column] = value
     path = tmp_path / "dma.csv"
@@ -205,7 +206,7 @@ def test_one_bad_row_is_left_out_and_said(tmp_path: Path, column: int, value: fl
         gs.read_master_curve(path)
 
 
-def test_a_frequency_in_the_title(tmp_path: Path) -> None:
+def test_a_frequency_in_the_title(tmp_path):
     celsius = np.arange(-30.0, 61.0, 5.0)
     moduli = 1e2 * np.exp(-celsius / 40.0)
     body = rows(celsius, moduli, 0.1 * moduli, 1.3 * moduli, 0.2 * moduli, separator=";")
@@ -217,7 +218,7 @@ def test_a_frequency_in_the_title(tmp_path: Path) -> None:
     np.testing.assert_allclose(sweeps.storage[sweeps.frequency == 10.0], 1.3e6 * moduli, rtol=1e-6)
 
 
-def test_times_and_temperatures_are_told_apart_by_their_units(tmp_path: Path) -> None:
+def test_times_and_temperatures_are_told_apart_by_their_units(tmp_path):
     path = tmp_path / "sweep.txt"
     tables = "".join(
         f"Intervalle:\t{celsius}\nDonnées:\tTemps\tPulsation\tModule de Stockage\tModule de Perte\t"
@@ -232,9 +233,7 @@ def test_times_and_temperatures_are_told_apart_by_their_units(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize(("unit", "kelvin"), [("K", 298.0), ("C", 571.15), (None, None)])
-def test_a_temperature_too_hot_for_its_unit(
-    tmp_path: Path, unit: str | None, kelvin: float | None
-) -> None:
+def test_a_temperature_too_hot_for_its_unit(tmp_path, unit, kelvin):
     path = tmp_path / "sweep.tts"
     path.write_text("T=298;Mw=1;\n" + rows(OMEGA, STORAGE / 3, LOSS / 3, separator=" "))
     if kelvin is None:
@@ -246,7 +245,7 @@ def test_a_temperature_too_hot_for_its_unit(
         assert sweeps.temperatures == pytest.approx([kelvin])
 
 
-def test_a_column_of_one_temperature_is_that_of_the_curve(tmp_path: Path) -> None:
+def test_a_column_of_one_temperature_is_that_of_the_curve(tmp_path):
     path = tmp_path / "dma.csv"
     path.write_text(
         "f (Hz),E' (Pa),E'' (Pa),T (°C)\n" + rows(HERTZ, STORAGE, LOSS, 20.9 + 0.0 * HERTZ)
@@ -254,23 +253,8 @@ def test_a_column_of_one_temperature_is_that_of_the_curve(tmp_path: Path) -> Non
     assert gs.read_master_curve(path).reference_temperature == pytest.approx(294.05)
 
 
-@pytest.mark.parametrize(
-    ("text", "says"),
-    [
-        ("Time (s),Creep compliance (1/Pa)\n" + rows(HERTZ, 1 / STORAGE), "creep is not read"),
-        ("t [s],E(t) [MPa]\n" + rows(HERTZ, STORAGE / 1e6), "a relaxation modulus"),
-        ("Frequency (Hz),tan delta\n" + rows(HERTZ, LOSS / STORAGE), "the loss factor alone"),
-    ],
-)
-def test_other_quantities_are_named(tmp_path: Path, text: str, says: str) -> None:
-    path = tmp_path / "dma.csv"
-    path.write_text(text)
-    with pytest.raises(GripscaleError, match=says):
-        gs.read_master_curve(path)
-
-
 @pytest.mark.parametrize(("title", "size"), [("E_i (MPa)", 1.0), ("G_i (MPa)", 3.0)])
-def test_a_prony_series_in_a_table(tmp_path: Path, title: str, size: float) -> None:
+def test_a_prony_series_in_a_table(tmp_path, title, size):
     path = tmp_path / "relax.csv"
     path.write_text(f"tau (s),{title}\n0.001,5\n1,3\n100,1.5\ninf,2\n")
     assert holds_prony_table(path)

@@ -1,7 +1,5 @@
 """The fit of a rubber for a case: where its waves excite it the series has the measured moduli."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np
@@ -29,19 +27,19 @@ TREADS = {
 
 
 @cache
-def measured(name: str) -> MeasuredRubber:
+def measured(name):
     path, kelvin, _, _ = TREADS[name]
     master = read_master_curve(path, reference_temperature=kelvin)
     rubber, fit = fit_prony_report(master)
     return MeasuredRubber(rubber, "", master, fit)
 
 
-def for_speed(name: str, speed: float) -> MeasuredRubber:
+def for_speed(name, speed):
     omega = 2.0 * np.pi * TREADS[name][2] * speed / WAVELENGTH
     return measured(name).fitted_for(omega, SLOPE)
 
 
-def mean_misfit(rubber, rows, band: tuple[float, float]) -> np.ndarray:
+def mean_misfit(rubber, rows, band):
     """Return the mean relative errors of E', E'' and the loss factor in a band [-]."""
     inside = (rows.omega >= band[0]) & (rows.omega <= band[1])
     modulus = rubber.complex_modulus(rows.omega)

@@ -12,20 +12,20 @@ from gripscale.rubber import MasterCurve, Rubber, fit_prony, fit_prony_report, r
 from tests.samples import MEASURED_DMA as TREAD
 
 
-def broad_rubber() -> Rubber:
+def broad_rubber():
     """A rubber whose spectrum rises by a factor of two a decade over nine decades."""
     times = np.logspace(-8, 0, 9)
     return Rubber(2e6, 1e6 * 2.0 ** np.arange(8, -1, -1), times, bulk_modulus=2e9)
 
 
-def sample(rubber: Rubber, low: float, high: float, rows: int, noise: float = 0.0) -> MasterCurve:
+def sample(rubber, low, high, rows, noise=0.0):
     omega = np.geomspace(low, high, rows)
     modulus = rubber.complex_modulus(omega)
     scatter = np.exp(noise * np.random.default_rng(7).standard_normal((2, rows)))
     return MasterCurve(omega / 2 / np.pi, modulus.real * scatter[0], modulus.imag * scatter[1])
 
 
-def misfit(fitted: Rubber, truth: Rubber, low: float, high: float) -> float:
+def misfit(fitted, truth, low, high):
     """Largest error of E* over |E*| on a fine grid."""
     omega = np.geomspace(low, high, 400)
     exact = truth.complex_modulus(omega)
@@ -41,21 +41,6 @@ def test_a_series_on_its_own_times_is_recovered():
     assert fitted.relaxation_times == pytest.approx(truth.relaxation_times, rel=1e-9)
     assert fitted.moduli == pytest.approx(truth.moduli, rel=1e-8)
     assert fitted.equilibrium_modulus == pytest.approx(2e6, rel=1e-8)
-
-
-def test_smoothing_and_choice_of_terms_cost_no_accuracy():
-    """Times that do not coincide with the series': 1 % in |E*| is the ripple of 1.5 per decade.
-
-    In the last half decade the true spectrum breaks off where the fit goes on: scatter that is
-    always believed, 2 %.
-    """
-    truth = broad_rubber()
-    fitted, report = fit_prony_report(sample(truth, 1.0, 1e8, 81))
-    assert misfit(fitted, truth, 1.0, 3e7) < 0.01
-    assert misfit(fitted, truth, 3e7, 1e8) < 0.02
-    assert report.outlier_frequency.size == 0
-    assert report.consistent
-    assert report.rms_loss < 0.01
 
 
 @given(st.lists(st.floats(1e5, 3e6), min_size=9, max_size=9), st.floats(5e5, 5e6))
@@ -200,20 +185,8 @@ def test_few_rows_still_give_a_rubber():
     assert misfit(fitted, truth, 10.0, 1e3) < 0.1
 
 
-@pytest.mark.parametrize("per_decade", [1.0, 1.25])
-def test_ripple_of_log_spaced_elements(per_decade):
-    """What sets the least density: E'' of equal elements ripples by 2 sech(pi^2/d)."""
-    spacing = np.log(10) / per_decade
-    times = np.exp(spacing * np.arange(-40, 41))
-    loss = (
-        Rubber(1.0, np.ones(81), times).complex_modulus(np.exp(np.linspace(0, spacing, 200))).imag
-    )
-    ripple = np.ptp(loss) / (2 * loss.mean())
-    assert ripple == pytest.approx(2 / np.cosh(np.pi**2 / spacing), rel=1e-3)
-
-
 @pytest.mark.filterwarnings("always::gripscale.RubberWarning")
-def test_a_fit_in_python_warns_of_what_the_terminal_prints() -> None:
+def test_a_fit_in_python_warns_of_what_the_terminal_prints():
     soft = MasterCurve([0.1, 1.0, 10.0, 100.0], [2.0, 2.5, 3.0, 3.5], [0.2, 0.3, 0.3, 0.4])
     with pytest.warns(RubberWarning) as caught:
         fit_prony(soft)

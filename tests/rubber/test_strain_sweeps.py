@@ -1,7 +1,6 @@
 """Strain sweeps as laboratories deliver them: which rows are one sweep, and what they mean."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,7 +30,7 @@ def rows(celsius, hertz, critical):
     ]
 
 
-def write(folder: Path, lines, name="sweeps.csv") -> Path:
+def write(folder, lines, name="sweeps.csv"):
     file = folder / name
     file.write_text("\n".join(lines), encoding="utf-8")
     return file

@@ -1,7 +1,5 @@
 """Storage and loss modulus exchanged: noticed in every rubber we have, never where they are not."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -13,21 +11,21 @@ from tests.rubber.test_sweeps_reader import POLYMER
 from tests.rubber.truths import TREAD, TRUTHS, fractional_zener
 
 
-def turned(curve: MasterCurve) -> MasterCurve:
+def turned(curve):
     return MasterCurve(curve.frequency, curve.loss, curve.storage)
 
 
-def polymer() -> MasterCurve:
+def polymer():
     return gs.rubber.superpose(gs.read_sweeps(POLYMER), reference_temperature=293.15)
 
 
-def springpots() -> MasterCurve:
+def springpots():
     omega = np.geomspace(1e-2, 1e10, 97)
     modulus = springpot_modulus(omega)
     return MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag)
 
 
-def part(curve: MasterCurve, rows: slice) -> MasterCurve:
+def part(curve, rows):
     return MasterCurve(curve.frequency[rows], curve.storage[rows], curve.loss[rows])
 
 
@@ -35,7 +33,7 @@ MEASURED = {"tread": lambda: read_master_curve(TREAD), "polymer": polymer, "SBR"
 
 
 @pytest.mark.parametrize("name", MEASURED)
-def test_exchanged_moduli_are_refused_and_others_are_not(name: str) -> None:
+def test_exchanged_moduli_are_refused_and_others_are_not(name):
     curve = MEASURED[name]()
     assert not SwappedModuli(curve).likely
     with pytest.raises(InputError, match=r"storage and loss modulus look exchanged.*\(columns\)"):
@@ -44,7 +42,7 @@ def test_exchanged_moduli_are_refused_and_others_are_not(name: str) -> None:
 
 @pytest.mark.parametrize("where", ["whole", "no glass", "no rubber", "flank"])
 @pytest.mark.parametrize("name", TRUTHS)
-def test_no_rubber_of_ours_is_taken_for_an_exchanged_one(name: str, where: str) -> None:
+def test_no_rubber_of_ours_is_taken_for_an_exchanged_one(name, where):
     """With errors of ten per cent; what a wrong alarm begins with is more than twice away."""
     truth = TRUTHS[name]
     for seed in range(3):
@@ -54,7 +52,7 @@ def test_no_rubber_of_ours_is_taken_for_an_exchanged_one(name: str, where: str) 
 
 
 @pytest.mark.parametrize("exponent", [0.3, 0.6, 0.8])
-def test_transitions_with_a_large_loss_factor(exponent: float) -> None:
+def test_transitions_with_a_large_loss_factor(exponent):
     omega = np.geomspace(1e0, 1e8, 65)
     modulus = fractional_zener(omega, 1e6, 2e9, 1e-6, exponent)
     curve = MasterCurve(omega, modulus.real, modulus.imag)
@@ -64,7 +62,7 @@ def test_transitions_with_a_large_loss_factor(exponent: float) -> None:
     assert SwappedModuli(turned(curve)).certain
 
 
-def test_parts_of_the_tread_curve_and_single_sweeps() -> None:
+def test_parts_of_the_tread_curve_and_single_sweeps():
     tread = read_master_curve(TREAD)
     for rows in (slice(0, 30), slice(30, 60), slice(60, 105), slice(10, 20)):
         assert not SwappedModuli(part(tread, rows)).likely
@@ -75,14 +73,14 @@ def test_parts_of_the_tread_curve_and_single_sweeps() -> None:
         assert SwappedModuli(turned(one)).likely
 
 
-def test_a_melt_is_no_exchanged_rubber() -> None:
+def test_a_melt_is_no_exchanged_rubber():
     """One Maxwell element that flows: E' rises with the square of the frequency, E'' with it."""
     omega = np.geomspace(1e-3, 1e1, 33)
     modulus = 1e6 * 1j * omega / (1.0 + 1j * omega)
     assert not SwappedModuli(MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag)).likely
 
 
-def test_what_looks_exchanged_is_said() -> None:
+def test_what_looks_exchanged_is_said():
     """Where the loss factor passes one, each curve is nearly the other: said, not refused."""
     omega = np.geomspace(1e2, 1e6, 41)
     modulus = fractional_zener(omega, 1e6, 2e9, 1e-5, 0.6)

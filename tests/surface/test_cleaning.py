@@ -176,9 +176,3 @@ def test_bad_arguments_are_refused(arguments, says):
     rough = profile_of(np.tile([0.0, 1e-5], 15), STEP)
     with pytest.raises(InputError, match=says):
         clean(rough, **arguments)
-
-
-def test_unknown_step_of_a_report_is_refused():
-    _, report = clean(flat())
-    with pytest.raises(InputError, match="one of dropouts, spikes, trend"):
-        report["crop"]

@@ -1,7 +1,5 @@
 """Rules for the smallest wavelength that counts: what they find, say and refuse."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
@@ -15,7 +13,7 @@ SLOPES = slope_by_wavelength(ROUGH)
 
 
 @pytest.mark.parametrize("of", ["surface", "profile"])
-def test_slope_down_to_the_cut_off_is_the_one_asked_for(of: str) -> None:
+def test_slope_down_to_the_cut_off_is_the_one_asked_for(of):
     wanted = 0.6 * SLOPES.down_to(SLOPES.resolution_limit, of)
     found = find_cut_off(ROUGH, RmsSlope(wanted, of))
     # of a line the sum runs over whole waves of a window, of which one adds up to 1 %
@@ -27,13 +25,13 @@ def test_slope_down_to_the_cut_off_is_the_one_asked_for(of: str) -> None:
     assert f"rms slope {wanted:g} of the {of}" in str(found)
 
 
-def test_instrument_is_four_steps_or_what_it_measures_reliably() -> None:
+def test_instrument_is_four_steps_or_what_it_measures_reliably():
     assert find_cut_off(ROUGH, "instrument").wavelength == pytest.approx(4e-4)
     one = gs.Profile(ROUGH[0].x, ROUGH[0].z, reliable=1e-3)
     assert find_cut_off(one, "instrument").wavelength == 1e-3
 
 
-def test_a_stated_length_is_told_where_it_lies() -> None:
+def test_a_stated_length_is_told_where_it_lies():
     inside, beyond = find_cut_off(SLOPES, 1e-3), find_cut_off(SLOPES, 2e-4)
     assert (inside.wavelength, inside.beyond_measurement) == (1e-3, False)
     assert beyond.beyond_measurement
@@ -41,13 +39,13 @@ def test_a_stated_length_is_told_where_it_lies() -> None:
     assert beyond.surface_slope > find_cut_off(SLOPES, "instrument").surface_slope
 
 
-def test_slope_that_was_not_measured_is_refused_with_what_was() -> None:
+def test_slope_that_was_not_measured_is_refused_with_what_was():
     reached = SLOPES.down_to(SLOPES.resolution_limit)
     with pytest.raises(gs.InputError, match=rf"at most {reached:.3g} at 0.4 mm.*; got 7"):
         find_cut_off(SLOPES, RmsSlope(7.0))
 
 
-def test_slope_beyond_the_measurement_is_extrapolated_only_where_asked_for() -> None:
+def test_slope_beyond_the_measurement_is_extrapolated_only_where_asked_for():
     wanted = 1.2 * SLOPES.down_to(SLOPES.resolution_limit)
     found = find_cut_off(SLOPES, RmsSlope(wanted, extrapolate=True))
     assert found.beyond_measurement
@@ -58,7 +56,7 @@ def test_slope_beyond_the_measurement_is_extrapolated_only_where_asked_for() -> 
         find_cut_off(SLOPES, RmsSlope(100.0, extrapolate=True))
 
 
-def test_too_short_a_profile_tells_no_slope_of_a_surface() -> None:
+def test_too_short_a_profile_tells_no_slope_of_a_surface():
     flat = gs.Profile(ROUGH[0].x[:64], 0.0 * ROUGH[0].z[:64])
     assert math.isnan(find_cut_off(flat, 1e-3).surface_slope)
     with pytest.raises(gs.InputError, match="too short to tell the slope of the surface"):
@@ -79,7 +77,7 @@ def test_too_short_a_profile_tells_no_slope_of_a_surface() -> None:
         (RmsSlope(1.3), RmsSlope(1.3)),
     ],
 )
-def test_rules_are_read_as_a_case_states_them(stated: object, rule: object) -> None:
+def test_rules_are_read_as_a_case_states_them(stated, rule):
     found = cut_off_rule(stated)
     assert found == (pytest.approx(rule) if isinstance(rule, float) else rule)
 
@@ -98,13 +96,13 @@ def test_rules_are_read_as_a_case_states_them(stated: object, rule: object) -> N
         (True, "expected a length"),
     ],
 )
-def test_other_rules_are_refused_in_a_sentence(stated: object, words: str) -> None:
+def test_other_rules_are_refused_in_a_sentence(stated, words):
     with pytest.raises(ValueError, match=words):
         cut_off_rule(stated)
 
 
-def test_only_these_rules_are_known() -> None:
+def test_only_these_rules_are_known():
     with pytest.raises(gs.InputError, match="rule must be one of instrument"):
-        find_cut_off(SLOPES, "dust")  # type: ignore[arg-type]
+        find_cut_off(SLOPES, "dust")
     with pytest.raises(gs.InputError, match="rule must be"):
         find_cut_off(SLOPES, -1.0)

@@ -1,9 +1,6 @@
 """Lines and maps are described without the flanks that rubber cannot follow, as a case has them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -21,12 +18,11 @@ MAP = gs.HeightMap(X[:60], X[:50], np.where(ROUGH > 0.0, 1e-3, 0.0) + ROUGH)
 
 
 @pytest.mark.parametrize("heights", [LINE, MAP], ids=["line", "map"])
-def test_numbers_by_hand_are_those_of_a_case(heights: gs.Profile | gs.HeightMap) -> None:
+def test_numbers_by_hand_are_those_of_a_case(heights):
     """Of heights with edges; filled twice they are the same object, whose numbers are the same."""
     case = Measured.of(heights if isinstance(heights, gs.HeightMap) else [heights])
     once = followed(heights)
     assert followed(once) is once
-    of: Any
     for of in (gs.height_difference, profile_spectrum, slope_by_wavelength):
         by_hand = canonical_json(of(heights))
         assert canonical_json(of(once)) == by_hand != canonical_json(of(heights, steepest=np.inf))
@@ -37,7 +33,7 @@ def test_numbers_by_hand_are_those_of_a_case(heights: gs.Profile | gs.HeightMap)
 
 
 @pytest.mark.parametrize("heights", [LINE, MAP], ids=["line", "map"])
-def test_gaps_stay_and_make_nothing_steep(heights: gs.Profile | gs.HeightMap) -> None:
+def test_gaps_stay_and_make_nothing_steep(heights):
     """A wide gap beside an edge and many small ones; what is filled twice is the same object."""
     gaps = np.random.default_rng(4).random(heights.z.shape) < 0.05
     gaps[20:35] = True
@@ -48,7 +44,7 @@ def test_gaps_stay_and_make_nothing_steep(heights: gs.Profile | gs.HeightMap) ->
     assert np.nanmax(np.abs(np.diff(once.z, axis=0))) <= 4e-4 * (1.0 + 1e-9)
 
 
-def test_the_texture_of_standards_keeps_all_flanks() -> None:
+def test_the_texture_of_standards_keeps_all_flanks():
     """The edges of the line rise by 20; its rms slope by ISO 21920-2 has them."""
     raw = np.diff(LINE.z - np.polyval(np.polyfit(X, LINE.z, 1), X)) / 1e-4
     assert gs.surface.texture(LINE).rms_slope == pytest.approx(np.sqrt(np.mean(raw**2)), rel=1e-9)

@@ -7,13 +7,12 @@ from hypothesis.extra.numpy import arrays
 from gripscale.core.errors import InputError
 from gripscale.surface import (
     HeightDifference,
-    clean,
     height_difference,
-    read_profile,
     self_affine_profile,
 )
+from gripscale.surface.height_difference import find_plateau, log_weights
 
-from .surface_cases import ROAD, ROAD_ONLY, profile_of
+from .surface_cases import profile_of
 
 HEIGHTS = arrays(
     float, st.integers(64, 90), elements=st.floats(-1.0, 1.0) | st.just(float("nan"))
@@ -66,22 +65,6 @@ def test_lags_are_whole_steps_to_a_quarter_of_the_length():
     assert decade.sum() == pytest.approx(20, abs=1)
 
 
-def test_white_noise_is_flat_at_twice_its_variance():
-    z = np.random.default_rng(2).standard_normal(100_000)
-    curve = height_difference(profile_of(z), steepest=np.inf)
-    # Relative standard error of C_z is at most sqrt(3/N) = 0.0055; four of them.
-    assert np.abs(curve.value / 2.0 - 1.0).max() < 0.022
-
-
-def test_pooling_weighs_profiles_by_their_pairs():
-    z = np.random.default_rng(3).standard_normal(3000).cumsum()
-    whole, part = profile_of(z[:2000]), profile_of(z[2000:])
-    pooled = height_difference([whole, part], max_lag=0.01)
-    one, two = (height_difference(p, max_lag=0.01) for p in (whole, part))
-    expected = (one.value * one.pairs + two.value * two.pairs) / (one.pairs + two.pairs)
-    assert np.allclose(pooled.value, expected, rtol=1e-12)
-
-
 def test_band_covers_the_truth_as_often_as_it_says():
     # C_z at lags far below a block (1/16 of 200 cut-offs): nominally 95 % of bands hold it.
     # 60 profiles x 3 lags, correlated within a profile: 95 % - 4 standard errors of 60 tries.
@@ -115,63 +98,44 @@ def test_band_narrows_with_length():
     assert np.median(ratio) == pytest.approx(4.0, rel=0.6)
 
 
-@pytest.mark.parametrize(("station", "low", "high"), [(0, 9.0e-6, 10.5e-6), (1, 10.0e-6, 11.7e-6)])
-def test_measured_road_plateau(station, low, high):
-    profile, _ = clean(read_profile(ROAD[station]), crop=ROAD_ONLY)
-    curve = height_difference(profile)
-    plateau = (curve.lag > 0.015) & (curve.lag < 0.1)
-    # SOURCE.txt: 9.6 to 11 mm^2, reached near 10-15 mm.
-    assert low < np.median(curve.value[plateau]) < high
+ONE, OTHER = profile_of(np.arange(50.0)), profile_of(np.arange(50.0), 2e-4)
+LONELY = profile_of(np.where(np.arange(50) % 25, np.nan, 1.0))
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("call", "says"),
     [
-        ({"max_lag": 1e-5}, "max_lag must be at least one step"),
-        ({"max_lag": 1.0}, "max_lag must be .* within the profile"),
-        ({"max_lag": -1.0}, "max_lag must be greater than zero"),
+        (lambda: height_difference(ONE, max_lag=1e-5), "max_lag must be at least one step"),
+        (lambda: height_difference(ONE, max_lag=1.0), "max_lag must be .* within the profile"),
+        (lambda: height_difference(ONE, max_lag=-1.0), "max_lag must be greater than zero"),
+        (lambda: height_difference([ONE, OTHER]), r"same step .* at index 1"),
+        (lambda: height_difference([]), "Profile or a list"),
+        (lambda: height_difference(3), "Profile or a list"),
+        (lambda: height_difference(LONELY), "at least 16 pairs"),
+        (lambda: HeightDifference([1.0, 2.0], [1.0]), "same length"),
+        (lambda: HeightDifference([1.0, 1.0], [1.0, 1.0]), "must increase; got 1 m at index 1"),
+        (lambda: HeightDifference([0.0, 1.0], [1.0, 1.0]), "lag must be greater than zero"),
+        (lambda: HeightDifference([1.0, 2.0], [1.0, -1.0]), "value must not be negative"),
+        (lambda: HeightDifference([], []), "at least 1"),
+        (lambda: HeightDifference([1.0, 2.0], [1, 2], upper=[1.0]), "upper must have 2 entries"),
+        *(
+            (
+                lambda share=share: height_difference(ONE, top_height_fraction=share),
+                "top_height_fraction must be",
+            )
+            for share in (0.0, -0.5, 1.1, np.nan)
+        ),
     ],
 )
-def test_bad_arguments_are_refused(arguments, says):
+def test_bad_input_is_refused(call, says):
     with pytest.raises(InputError, match=says):
-        height_difference(profile_of(np.arange(50.0)), **arguments)
-
-
-def test_bad_profiles_are_refused():
-    one, other = profile_of(np.arange(50.0)), profile_of(np.arange(50.0), 2e-4)
-    with pytest.raises(InputError, match=r"same step .* at index 1"):
-        height_difference([one, other])
-    with pytest.raises(InputError, match="Profile or a list"):
-        height_difference([])
-    with pytest.raises(InputError, match="Profile or a list"):
-        height_difference(3)
-    lonely = np.full(50, np.nan)
-    lonely[::25] = 1.0
-    with pytest.raises(InputError, match="at least 16 pairs"):
-        height_difference(profile_of(lonely))
-
-
-@pytest.mark.parametrize(
-    ("lag", "value", "says"),
-    [
-        ([1.0, 2.0], [1.0], "same length"),
-        ([1.0, 1.0], [1.0, 1.0], "lag must increase; got 1 m at index 1"),
-        ([0.0, 1.0], [1.0, 1.0], "lag must be greater than zero"),
-        ([1.0, 2.0], [1.0, -1.0], "value must not be negative"),
-        ([], [], "at least 1"),
-    ],
-)
-def test_a_bad_curve_is_refused(lag, value, says):
-    with pytest.raises(InputError, match=says):
-        HeightDifference(lag, value)
+        call()
 
 
 def test_a_curve_without_band_has_none():
     curve = HeightDifference([1.0, 2.0], [1.0, 2.0])
     assert curve.pairs.tolist() == [0, 0]
     assert np.isnan(curve.lower).all()
-    with pytest.raises(InputError, match="upper must have 2 entries"):
-        HeightDifference([1.0, 2.0], [1.0, 2.0], upper=[1.0])
 
 
 def test_the_top_height_fraction_alone_counts():
@@ -187,7 +151,40 @@ def test_the_top_height_fraction_alone_counts():
     np.testing.assert_array_equal(whole.value, height_difference(profile).value)
 
 
-@pytest.mark.parametrize("share", [0.0, -0.5, 1.1, np.nan])
-def test_bad_top_height_fraction_is_refused(share):
-    with pytest.raises(InputError, match="top_height_fraction must be"):
-        height_difference(profile_of(np.arange(64.0)), top_height_fraction=share)
+LAG = np.geomspace(1e-4, 1.0, 81)
+
+
+def test_the_level_is_the_median_of_what_has_settled():
+    value = np.minimum(LAG / 1e-2, 1.0) ** 1.5
+    value[-8:] = np.linspace(1.1, 1.3, 8)  # a drift over less than half a decade
+    plateau = find_plateau(HeightDifference(LAG, value))
+    # Less than half of the plateau drifts: its median is not moved at all.
+    assert plateau.level == pytest.approx(1.0, rel=1e-12)
+
+
+def test_it_begins_where_the_mean_of_the_rest_is_nearly_reached():
+    value = np.minimum(LAG / 1e-2, 1.0) ** 1.5
+    plateau = find_plateau(HeightDifference(LAG, value))
+    # 90 % of 1 is reached at 0.9^(1/1.5) of the cut-off: between the last two lags before it.
+    assert 0.88e-2 < plateau.lag < 1.001e-2
+
+
+def test_the_curve_of_a_sine_settles_at_its_mean_over_phases():
+    lag = np.geomspace(1e-4, 1.0, 400)
+    value = 4.0 * (1.0 - np.cos(2.0 * np.pi * lag / 1e-2))
+    plateau = find_plateau(HeightDifference(lag, value))
+    # Cosines are positive as often as negative, but in log lag the first hump, from a quarter to
+    # three quarters of a wave, is the widest: half a decade of two and a half, hence 20 %.
+    assert plateau.level == pytest.approx(4.0, rel=0.2)
+    assert plateau.lag == pytest.approx(0.25e-2, rel=0.1)
+
+
+@pytest.mark.parametrize("exponent", [0.6, 1.0, 2.0])
+def test_a_curve_that_rises_to_its_end_has_none(exponent):
+    assert find_plateau(HeightDifference(LAG, LAG**exponent)) is None
+
+
+def test_decades_count_alike():
+    weight = log_weights(np.array([1.0, 10.0, 100.0, 1000.0]))
+    assert weight == pytest.approx([0.5, 1.0, 1.0, 0.5])
+    assert log_weights(np.array([3.0])) == pytest.approx([1.0])

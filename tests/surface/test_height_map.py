@@ -26,15 +26,6 @@ def test_a_map_knows_its_steps_and_gaps():
     ]
 
 
-def test_a_map_does_not_change():
-    z = Z.copy()
-    surface = HeightMap(X, Y, z)
-    z[0, 0] = 7.0
-    assert surface.z[0, 0] != 7.0
-    with pytest.raises(ValueError, match="read-only"):
-        surface.z[0, 0] = 1.0
-
-
 def test_lines_of_a_map():
     z = Z.copy()
     z[:, 4] = np.nan

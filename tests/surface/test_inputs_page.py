@@ -1,7 +1,5 @@
 """The example of the page on inputs runs and prints what stands below it; each case is one."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import gripscale as gs
 from gripscale.core.errors import InputError
@@ -115,23 +113,6 @@ def test_a_crest_one_step_wide_is_no_spike(axis):
     z = rough()
     np.moveaxis(z, axis, 0)[12] += 30.0 * ACROSS
     assert mark_spikes(map_of(z))[1].made_missing == 0
-
-
-@settings(max_examples=30, deadline=None)
-@given(seed=st.integers(0, 2**31), order=st.integers(0, 8), share=st.floats(0.0, 0.6))
-def test_a_polynomial_added_is_one_taken_out(seed, order, share):
-    random = np.random.default_rng(seed)
-    z = rough(seed=seed)
-    z[random.random(z.shape) < share] = np.nan
-    x, y = (np.linspace(-1.0, 1.0, n) for n in z.shape)
-    factors = np.where(np.add.outer(range(order + 1), range(order + 1)) <= order, 1e-3, 0.0)
-    factors *= random.standard_normal(factors.shape)
-    form = np.polynomial.polynomial.polygrid2d(x, y, factors)
-    plain, _ = subtract_form(map_of(z), order)
-    bent, _ = subtract_form(map_of(z + form), order)
-    # rounding of 1e-3 m in equations whose condition is the square of a few hundred
-    np.testing.assert_allclose(bent.z, plain.z, atol=1e-12)
-    np.testing.assert_array_equal(np.isnan(bent.z), np.isnan(z))
 
 
 def test_the_form_is_that_of_all_terms_at_once():

@@ -1,7 +1,5 @@
 """One period of a line: flanks no steeper than rubber follows, without ringing beside a step."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

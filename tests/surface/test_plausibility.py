@@ -5,8 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import gripscale as gs
+from gripscale.core import Severity
 from gripscale.core.errors import InputError
 from gripscale.surface import (
+    HeightMap,
     Measured,
     Profile,
     SineStack,
@@ -18,6 +21,9 @@ from gripscale.surface import (
     read_profile,
     self_affine_profile,
 )
+from gripscale.surface.plausibility import noise_finding, road_between, sensor_noise, support_plates
+from studies.shipped import road
+from tests.samples import ROOT
 
 from .surface_cases import ROAD, ROAD_ONLY, profile_of
 
@@ -163,3 +169,150 @@ def test_notes_name_the_profile_and_what_the_reader_changed():
     turned = replace(Profile(ROUGH.x[::-1], ROUGH.z[::-1]), name="lane")
     first, *_ = prepared({"scales": 7}, turned).findings
     assert str(first).startswith("lane: distances fell from row to row")
+
+
+# Plates and supports are found where they are, and nowhere else.
+
+
+def with_heights(where, values):
+    z = ROUGH.z.copy()
+    z[where] = values
+    return Profile(ROUGH.x, z)
+
+
+@pytest.mark.parametrize("path", ROAD)
+def test_the_plates_of_the_shipped_road_are_found_and_the_crop_is_that_of_its_case(path):
+    road = read_profile(path)
+    # The heights above 10 mm: those of the steel plates, 41 to 54 mm.
+    high = road.x[road.z > 10e-3]
+    first, last = support_plates(road)
+    assert first.first == pytest.approx(high[0], abs=1e-3)
+    assert first.last == pytest.approx(high[high < 0.5].max(), abs=1e-3)
+    assert last.first == pytest.approx(high[high > 0.5].min(), abs=8e-3)  # missing heights before
+    crop = road_between(road)
+    assert crop is not None
+    assert crop == pytest.approx(ROAD_ONLY, abs=51e-3)
+    assert support_plates(clean(road, crop=crop)[0]) == ()
+
+
+def test_a_plate_at_the_level_of_the_road_is_smooth():
+    noise = np.random.default_rng(0).normal(scale=2e-6, size=400)
+    (plate,) = support_plates(with_heights(slice(0, 400), noise))
+    # pieces of a fiftieth of the profile, 8 mm
+    assert (plate.first, plate.last) == pytest.approx((0.0, 40e-3), abs=8.1e-3)
+
+
+def test_missing_heights_at_the_ends_of_a_plate_belong_to_it():
+    z = np.full(400, 30e-3)
+    z[40:] = np.nan
+    (plate,) = support_plates(with_heights(slice(3601, 4001), z))
+    assert (plate.first, plate.last) == pytest.approx((360e-3, 400e-3), abs=0.2e-3)
+
+
+def test_what_is_shorter_than_a_plate_or_comes_often_is_none():
+    assert support_plates(with_heights(slice(1000, 1009), 20e-3)) == ()
+    grooved = np.where(ROUGH.x % 40e-3 < 6e-3, -4e-3, 0.0) + 0.1 * ROUGH.z
+    assert support_plates(Profile(ROUGH.x, grooved)) == ()
+
+
+def test_the_longest_part_is_the_road_on_whole_grains():
+    # 0.4 m has grains of 1 mm, and a guard of a fortieth, 10 mm
+    z = ROUGH.z.copy()
+    z[:300] += 20e-3
+    z[2500:3000] += 15e-3
+    assert road_between(Profile(ROUGH.x, z)) == pytest.approx((0.040, 0.240), abs=1e-9)
+    assert road_between(ROUGH) is None
+
+
+def test_a_hill_without_steps_is_no_plate():
+    hill = 10e-3 * np.exp(-0.5 * ((ROUGH.x - 0.2) / 8e-3) ** 2)
+    assert support_plates(Profile(ROUGH.x, hill + 0.1 * ROUGH.z)) == ()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_round_exposed_stones_of_a_short_profile_are_none(seed):
+    """Half circles of 2 to 6 mm in fine mortar, 15 to 30 mm apart, over 0.1 m; all have steps."""
+    random, x = np.random.default_rng(seed), 1e-4 * np.arange(1000)
+    z, middle = random.normal(0.0, 5e-5, x.size), random.uniform(0.0, 0.01)
+    while middle < x[-1]:
+        radius = random.uniform(2e-3, 6e-3)
+        z = np.maximum(z, np.sqrt(np.maximum(radius**2 - (x - middle) ** 2, 0.0)))
+        middle += 2.0 * radius + random.uniform(15e-3, 30e-3)
+    assert support_plates(Profile(x, z)) == ()
+
+
+# White noise of the sensor: estimated, and stated where it changes the contact.
+
+STEP, POINTS = 1e-4, 2**14
+SURFACES = ROOT / "examples" / "data" / "surfaces"
+
+
+def rough(shape, seed=0):
+    """Return heights of rms 0.2 mm, H = 0.8 along x, from 12.8 mm down to two steps."""
+    q = np.fft.rfftfreq(shape[-1], STEP)
+    size = np.where(q > 1.0 / 12.8e-3, np.maximum(q, 1.0) ** -1.3, 0.0)
+    waves = np.fft.rfft(np.random.default_rng(seed).standard_normal(shape)) * size
+    z = np.fft.irfft(waves, shape[-1])
+    return 2e-4 * z / z.std()
+
+
+def with_noise(line, rms, seed=1):
+    return replace(line, z=line.z + rms * np.random.default_rng(seed).standard_normal(len(line)))
+
+
+@pytest.mark.parametrize("rms", [5e-5, 2e-4])
+def test_the_noise_of_a_rough_line_is_found(rms):
+    """1600 heights in the smoothest stretches tell a variance to 6 %; the choice takes 10 %."""
+    line = Profile(STEP * np.arange(POINTS), rough((POINTS,)))
+    assert sensor_noise([with_noise(line, rms)])[0] == pytest.approx(rms, rel=0.2)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_roughness_is_no_noise(seed):
+    line = Profile(STEP * np.arange(POINTS), rough((POINTS,), seed))
+    assert noise_finding([line], 2.0 * STEP) is None
+    with_jumps = line.z + 1e-3 * (np.arange(POINTS) % 700 < 300)
+    assert noise_finding([replace(line, z=with_jumps)], 2.0 * STEP) is None
+
+
+def test_measured_roads_and_surfaces_as_they_are_have_none():
+    assert noise_finding([road(0), road(1)], 1e-4) is None
+    assert noise_finding([gs.read_profile(SURFACES / "mitutoyo_2_mock.xlsx")], 1e-5) is None
+
+
+def test_dropouts_add_none():
+    """A tenth of the heights is missing, and the noise of the rest is the same."""
+    line = with_noise(Profile(STEP * np.arange(POINTS), rough((POINTS,))), 1e-4)
+    gaps = np.random.default_rng(5).random(POINTS // 16) < 0.1
+    z = np.where(np.repeat(gaps, 16), np.nan, line.z)
+    assert sensor_noise([replace(line, z=z)])[0] == pytest.approx(1e-4, rel=0.2)
+
+
+def test_noise_of_a_map():
+    x, y = STEP * np.arange(1024), STEP * np.arange(64)
+    z = rough((64, 1024)).T
+    noise = 1e-4 * np.random.default_rng(2).standard_normal(z.shape)
+    assert sensor_noise(HeightMap(x, y, z + noise).lines())[0] == pytest.approx(1e-4, rel=0.2)
+    assert noise_finding(HeightMap(x, y, z).lines(), 2.0 * STEP, STEP) is None
+
+
+def test_short_lines_tell_nothing():
+    line = Profile(STEP * np.arange(200), 1e-4 * np.random.default_rng(0).standard_normal(200))
+    assert sensor_noise([line])[0] == 0.0
+
+
+@pytest.mark.parametrize(("rms", "stated", "cut_off"), [(1e-5, "8.5", "0.16"), (2e-5, "19", "0.3")])
+def test_a_case_doubts_noisy_heights(rms, stated, cut_off):
+    """Noise on the shipped road: named with its number, its effect and a cut-off without it."""
+    lines = [with_noise(road(station), rms, station) for station in (0, 1)]
+    load = {"pressure": 3e5, "speed": 0.3, "smallest_wavelength": 1e-4}
+    rubber = gs.Rubber(3e6, [2e7], [1e-3], bulk_modulus=2e9)
+    noisy, clean = (
+        gs.Case(profiles, rubber, cleaning={}, **load) for profiles in (lines, [road(0), road(1)])
+    )
+    (doubt,) = (f for f in noisy.surface.doubts if "noise" in str(f))
+    assert not any("noise" in str(f) for f in clean.surface.findings)
+    assert doubt.severity == Severity.DOUBT
+    assert sensor_noise(noisy.surface.measured.cleaned)[0] == pytest.approx(rms, rel=0.15)
+    assert f"white noise of {stated} µm" in str(doubt)
+    assert f"With a cut-off of {cut_off}" in str(doubt)

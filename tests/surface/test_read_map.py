@@ -38,6 +38,9 @@ def test_an_instrument_map():
         assert (one.name, one.source) == (other.name, other.source)
         np.testing.assert_array_equal(one.x, other.x)
         np.testing.assert_array_equal(one.z, other.z)
+    assert gs.read_profile(AL3D).source.endswith("line 148 along x")
+    line = gs.read_profile(LINE)
+    assert (len(line), line.step) == (6664, pytest.approx(1.5e-6, rel=1e-6))
     levelled = [clean(line, spikes=None)[0].z for line in surface.lines()]
     assert 0.2e-6 < np.std(levelled) < 0.29e-6  # 0.29 um with one plane for all (SOURCE.txt)
 
@@ -65,17 +68,6 @@ def test_points_left_out_or_without_a_number_are_missing(tmp_path):
     np.testing.assert_array_equal(np.isnan(surface.z), missing)
 
 
-def test_lines_left_out_of_a_map_are_missing_heights(tmp_path):
-    rows = points()
-    left_out = np.isin(rows[:, 0], np.unique(rows[:, 0])[[5, 6]])
-    surface = gs.read_map(written(tmp_path, rows[~left_out]), x_unit="mm", z_unit="um")
-    assert surface.z.shape == HEIGHTS.shape
-    assert np.isnan(surface.z[[5, 6]]).all()
-    np.testing.assert_array_equal(
-        np.delete(surface.z, [5, 6], 0) * 1e6 - np.delete(HEIGHTS, [5, 6], 0) < 1e-9, True
-    )
-
-
 def test_rounded_distances_are_made_even(tmp_path):
     """A step of 37.5 um printed to the micrometre."""
     path = written(tmp_path, points(dx=0.0375, dy=0.0375), fmt="%.3f")
@@ -83,13 +75,6 @@ def test_rounded_distances_are_made_even(tmp_path):
     # 19 and 16 steps, the last distance rounded by up to half a micrometre
     assert surface.step == pytest.approx((37.5e-6, 37.5e-6), abs=0.5e-6 / 16)
     assert np.ptp(np.diff(surface.x)) < 1e-15
-
-
-def test_columns_are_found_by_their_titles(tmp_path):
-    rows = points()
-    columns = np.c_[np.arange(len(rows)), rows[:, 2], rows[:, 1], rows[:, 0]]
-    path = written(tmp_path, columns, "map.csv", header="no,z um,y mm,x mm", delimiter=",")
-    np.testing.assert_allclose(gs.read_map(path).z, 1e-6 * HEIGHTS, rtol=1e-15)
 
 
 def test_a_table_is_an_image_whose_rows_run_along_y(tmp_path):
@@ -103,16 +88,6 @@ def test_a_table_is_an_image_whose_rows_run_along_y(tmp_path):
     assert surface.missing == 1
     assert surface.z[7, 2] == pytest.approx(1e-6 * HEIGHTS[7, 2])
     assert gs.read_map(path, step=1e-4, z_unit="um").step == pytest.approx((1e-4, 1e-4))
-
-
-def test_a_table_with_a_header_is_the_same_by_either_reader(tmp_path):
-    """Width and height of an export by Gwyddion are those of the whole map."""
-    header = "Channel: Topo\nWidth: 2.0 mm\nHeight: 1.7 mm\nValue units: m"
-    path = written(tmp_path, 1e-6 * HEIGHTS.T, "map.txt", header=header)
-    stated = gs.read_map(path, reader="instrument")
-    given = gs.read_map(path, step=1e-4, z_unit="m")
-    assert stated.step == pytest.approx(given.step)
-    np.testing.assert_allclose(stated.z, given.z, rtol=1e-12)
 
 
 def test_arrays_need_steps_and_a_unit(tmp_path):
@@ -187,23 +162,43 @@ def test_what_is_no_map_is_refused(tmp_path, name, rows, given, error, words):
         gs.read_map(written(tmp_path, rows, name), **(units | given))
 
 
-def test_files_of_other_kinds_are_refused(tmp_path):
-    with pytest.raises(FileError, match=r"expected a map; got a line, which gripscale\.read_prof"):
-        gs.read_map(LINE)
-    with pytest.raises(InputError, match=r"step must be left out; .*al3d states the size"):
-        gs.read_map(AL3D, step=1e-6)
-    with pytest.raises(InputError, match=r"x_unit is 'mm', but .* says 'm'"):
-        gs.read_map(AL3D, x_unit="mm")
-    with pytest.raises(FileError, match="no such file"):
-        gs.read_map(tmp_path / "nowhere.xyz")
-    with pytest.raises(FileError, match="a directory"):
-        gs.read_map(tmp_path)
-    with pytest.raises(InputError, match="path must be the path of a file; got 3"):
-        gs.read_map(3)
-    narrow = tmp_path / "narrow.npy"
-    np.save(narrow, HEIGHTS[:, :1])
-    with pytest.raises(FileError, match=r"narrow\.npy: a map must have at least 16 points a way"):
-        gs.read_map(narrow, step=1e-4, z_unit="um")
+ODD = {
+    "junk.sdf": bytes(range(256)) * 10,
+    "cut.al3d": AL3D.read_bytes()[:3000],
+    **dict.fromkeys(("empty.al3d", "empty.xlsx", "empty.npy"), b""),
+}
+
+
+@pytest.mark.parametrize(
+    ("read", "path", "given", "words"),
+    [
+        (gs.read_map, LINE, {}, r"expected a map; got a line, which gripscale\.read_prof"),
+        (gs.read_map, AL3D, {"step": 1e-6}, r"step must be left out; .*al3d states the size"),
+        (gs.read_map, AL3D, {"x_unit": "mm"}, r"x_unit is 'mm', but .* says 'm'"),
+        (gs.read_map, "nowhere.xyz", {}, "no such file"),
+        (gs.read_map, "", {}, "a directory"),
+        (gs.read_map, 3, {}, "path must be the path of a file; got 3"),
+        (gs.read_map, "narrow.npy", {"step": 1e-4, "z_unit": "um"},
+         r"narrow\.npy: a map must have at least 16 points a way"),
+        (gs.read_profile, LINE, {"direction": "y"}, "single line"),
+        (gs.read_profile, LINE, {"direction": "z"}, "direction must be one of x, y"),
+        (gs.read_profile, AL3D, {"line": 296}, "from 0 to 295"),
+        (gs.read_profile, AL3D, {"x_unit": "mm"}, "x_unit is 'mm'"),
+        (gs.read_profile, "junk.sdf", {}, r"junk\.sdf: expected a map with the number NumPoints"),
+        (gs.read_profile, "cut.al3d", {}, r"al3d: .* got 3000 bytes in none of these formats, or"),
+        *((gs.read_profile, name, {}, "empty file") for name in [*ODD][2:]),
+        *((gs.read_profile, f"no{name}", {}, "no such file") for name in ODD),
+        (gs.read_profile, "", {}, "got a directory"),
+        (gs.read_profile, "road\0.dat", {}, "cannot be read"),
+        (gs.read_profile, 12, {}, "path must be"),
+    ],
+)  # fmt: skip
+def test_files_of_other_kinds_are_refused(tmp_path, read, path, given, words):
+    for name, content in ODD.items():
+        (tmp_path / name).write_bytes(content)
+    np.save(tmp_path / "narrow.npy", HEIGHTS[:, :1])
+    with pytest.raises((FileError, InputError), match=words):
+        read(tmp_path / path if isinstance(path, str) else path, **given)
 
 
 def test_without_the_extra_the_message_names_it(monkeypatch):

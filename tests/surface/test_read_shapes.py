@@ -3,18 +3,12 @@
 Files are printed with six digits or single precision: read right to 1e-6 of the largest number.
 """
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import openpyxl
 import pytest
 
 import gripscale as gs
-from gripscale.core.arrays import Array
 from gripscale.core.errors import FileError, InputError
-from gripscale.io.cells import Line
 from gripscale.surface.header import Header, read_header
 
 X, Y = 0.2 * np.arange(20), 0.3 * np.arange(17)
@@ -24,7 +18,7 @@ DIGITS = 5e-6
 MM = {"x_unit": "mm", "z_unit": "mm"}
 
 
-def triangles(x: Array, y: Array, z: Array) -> Array:
+def triangles(x, y, z):
     """Two triangles for each square of a grid, facing up, shape (triangles, 3, 3)."""
     points = np.stack(np.broadcast_arrays(x, y, z), axis=-1)
     a, b, c, d = points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]
@@ -32,7 +26,7 @@ def triangles(x: Array, y: Array, z: Array) -> Array:
     return np.concatenate(pairs)
 
 
-def write_stl(path: Path, corners: Array, *, as_text: bool = False) -> Path:
+def write_stl(path, corners, *, as_text=False):
     if as_text:
         facets = [
             "facet normal 0 0 1\n outer loop\n"
@@ -50,7 +44,7 @@ def write_stl(path: Path, corners: Array, *, as_text: bool = False) -> Path:
 
 
 @pytest.mark.parametrize("as_text", [True, False])
-def test_triangles_between_points_of_a_grid(tmp_path: Path, as_text: bool) -> None:
+def test_triangles_between_points_of_a_grid(tmp_path, as_text):
     corners = np.random.default_rng(0).permutation(triangles(X[:, None], Y, Z))
     path = write_stl(tmp_path / "map.stl", corners, as_text=as_text)
     surface = gs.read_map(path, x_unit="mm")
@@ -62,7 +56,7 @@ def test_triangles_between_points_of_a_grid(tmp_path: Path, as_text: bool) -> No
         gs.read_map(path)
 
 
-def test_triangles_of_any_shape_are_interpolated_within_each(tmp_path: Path) -> None:
+def test_triangles_of_any_shape_are_interpolated_within_each(tmp_path):
     """A plane stays a plane; a hole is missing."""
     inner = np.zeros(Z.shape)
     inner[1:-1, 1:-1] = 0.05 * np.random.default_rng(1).uniform(-1.0, 1.0, Z[1:-1, 1:-1].shape)
@@ -80,14 +74,14 @@ def test_triangles_of_any_shape_are_interpolated_within_each(tmp_path: Path) -> 
     assert there[distance > 1.1e-3].all()
 
 
-def overhang() -> Array:
+def overhang():
     """One point beyond the next: a little fold."""
     x = np.repeat(X[:, None], Y.size, axis=1)
     x[9, 8] += 0.3
     return triangles(x, Y, Z)
 
 
-def wall() -> Array:
+def wall():
     """Two levels side by side, and what stands upright between them."""
     low, high = X[:10, None], X[9:, None]
     upright = triangles(np.repeat(X[9:10, None], 2, axis=0), Y, np.array([[0.0], [1.0]]))
@@ -105,14 +99,14 @@ def wall() -> Array:
     ],
     ids=["closed body", "second floor", "overhang", "wall"],
 )
-def test_triangles_above_each_other_are_no_surface(tmp_path: Path, corners: Array) -> None:
+def test_triangles_above_each_other_are_no_surface(tmp_path, corners):
     path = write_stl(tmp_path / "map.stl", corners)
     with pytest.raises(FileError, match=r"map\.stl: expected a surface with one height at each po"):
         gs.read_map(path, x_unit="mm")
 
 
 @pytest.mark.parametrize("content", [b"solid\nendsolid\n", b"x" * 90, b"vertex 1 2 nan " * 3])
-def test_a_file_without_triangles_is_refused(tmp_path: Path, content: bytes) -> None:
+def test_a_file_without_triangles_is_refused(tmp_path, content):
     path = tmp_path / "map.stl"
     path.write_bytes(content)
     with pytest.raises(FileError, match=r"map\.stl: expected triangles of three vertices"):
@@ -122,14 +116,14 @@ def test_a_file_without_triangles_is_refused(tmp_path: Path, content: bytes) -> 
 ESRI = "ncols 20\nnrows 17\nxllcorner 350000.5\nyllcorner 5600000\ncellsize 0,2\nNODATA_value -99\n"
 
 
-def esri(head: str = ESRI, code: str = "-99") -> str:
+def esri(head=ESRI, code="-99"):
     """Rows from north to south, the point (4, 3) missing."""
     rows = [[f"{height:.6g}" for height in row] for row in Z.T]
     rows[3][4] = code
     return head + "\n".join(" ".join(row) for row in rows[::-1])
 
 
-def test_a_grid_of_esri(tmp_path: Path) -> None:
+def test_a_grid_of_esri(tmp_path):
     path = tmp_path / "road.asc"
     path.write_text(esri())
     surface = gs.read_map(path, **MM)
@@ -150,7 +144,7 @@ def test_a_grid_of_esri(tmp_path: Path) -> None:
         ("cellsize 0,2", "cellsize 0", "expected cellsize finite and above zero; got 0"),
     ],
 )
-def test_a_faulty_grid_is_refused(tmp_path: Path, old: str, new: str, words: str) -> None:
+def test_a_faulty_grid_is_refused(tmp_path, old, new, words):
     path = tmp_path / "road.asc"
     path.write_text(esri(ESRI.replace(old, new)))
     with pytest.raises(FileError, match=words):
@@ -160,7 +154,7 @@ def test_a_faulty_grid_is_refused(tmp_path: Path, old: str, new: str, words: str
 
 
 @pytest.mark.parametrize("suffix", [".xyz", ".asc"])
-def test_points_far_from_the_origin_with_colours(tmp_path: Path, suffix: str) -> None:
+def test_points_far_from_the_origin_with_colours(tmp_path, suffix):
     """Coordinates of a survey, a tenth of the points left out; a profile is a line of the map."""
     rows = [
         f"{350000 + x:.3f} {5600000 + y:.3f} {Z[i, j]:.6g} 120 130 140"
@@ -179,7 +173,7 @@ def test_points_far_from_the_origin_with_colours(tmp_path: Path, suffix: str) ->
     np.testing.assert_array_equal(gs.read_profile(path, **MM, line=2).z, surface.z[:, 2])
 
 
-def test_scattered_points_are_refused(tmp_path: Path) -> None:
+def test_scattered_points_are_refused(tmp_path):
     path = tmp_path / "points.xyz"
     np.savetxt(path, np.random.default_rng(0).uniform(0.0, 9.0, (500, 3)), fmt="%.4f")
     for read in (gs.read_map, gs.read_profile):
@@ -187,7 +181,7 @@ def test_scattered_points_are_refused(tmp_path: Path) -> None:
             read(path, **MM)
 
 
-def test_a_map_in_a_workbook(tmp_path: Path) -> None:
+def test_a_map_in_a_workbook(tmp_path):
     book = openpyxl.Workbook()
     for row in Z.T:
         book.active.append([float(height) for height in row])
@@ -196,7 +190,7 @@ def test_a_map_in_a_workbook(tmp_path: Path) -> None:
     np.testing.assert_allclose(surface.z, 1e-3 * Z, rtol=1e-14)
 
 
-def lines(*texts: str) -> list[Line]:
+def lines(*texts):
     return list(enumerate(texts, start=1))
 
 
@@ -215,7 +209,7 @@ def lines(*texts: str) -> list[Line]:
         (["x [mm];z [mm]", "0.0;mm", "unit"], Header()),
     ],
 )
-def test_what_a_header_states(texts: list[str], header: Header) -> None:
+def test_what_a_header_states(texts, header):
     read = read_header(lines(*texts))
     assert (read.x_unit, read.z_unit) == (header.x_unit, header.z_unit)
     assert read.step == (None if header.step is None else pytest.approx(header.step))
@@ -225,7 +219,7 @@ COLUMN = "\n".join(f"{height:.6g}" for height in Z.T.ravel())
 HEAD = "Profilometer\n# Spacing: 0.2 mm\n# Height unit: mm\n"
 
 
-def test_one_column_below_its_spacing(tmp_path: Path) -> None:
+def test_one_column_below_its_spacing(tmp_path):
     path = tmp_path / "line.txt"
     path.write_text(HEAD + COLUMN)
     profile = gs.read_profile(path)
@@ -238,33 +232,9 @@ def test_one_column_below_its_spacing(tmp_path: Path) -> None:
         gs.read_profile(path, z_unit="um")
 
 
-def test_a_table_below_its_spacings(tmp_path: Path) -> None:
+def test_a_table_below_its_spacings(tmp_path):
     path = tmp_path / "map.txt"
     np.savetxt(path, Z.T, header="dx: 0.2 mm\ndy: 0.3 mm\nheight unit: mm")
     surface = gs.read_map(path)
     assert surface.step == pytest.approx((0.2e-3, 0.3e-3))
     np.testing.assert_allclose(surface.z, 1e-3 * Z, rtol=DIGITS)
-
-
-@pytest.mark.parametrize("titles", ["Zeit [s];Weg;Höhe", "time [s];Distance;Height", "Weg;Höhe"])
-def test_units_of_a_header_are_those_of_columns_without_one(tmp_path: Path, titles: str) -> None:
-    time = "0.01;" * (titles.count(";") - 1)
-    rows = [f"{time}{0.2 * i:g};{h:.6g}" for i, h in enumerate(Z.T.ravel())]
-    path = tmp_path / "road.csv"
-    path.write_text("\n".join(["Einheiten: mm", titles, *rows]), encoding="cp1252")
-    profile = gs.read_profile(path)
-    assert profile.step == pytest.approx(0.2e-3)
-    np.testing.assert_allclose(profile.z, 1e-3 * Z.T.ravel(), rtol=DIGITS)
-
-
-def test_a_word_among_heights_names_what_marks_a_missing_one(tmp_path: Path) -> None:
-    path = tmp_path / "road.csv"
-    rows = [f"{0.2 * i:g};{h:.6g}" for i, h in enumerate(Z.T.ravel())]
-    rows[7] = "1.4;out"
-    path.write_text("\n".join(["x [mm];z [mm]", *rows]))
-    words = r"road\.csv, line 9: expected a number in column z; got 'out'; an empty cell, NaN, n/a"
-    with pytest.raises(FileError, match=words):
-        gs.read_profile(path)
-    rows[7] = "1.4;#NV"
-    path.write_text("\n".join(["x [mm];z [mm]", *rows]))
-    assert np.flatnonzero(np.isnan(gs.read_profile(path).z)).tolist() == [7]

@@ -29,13 +29,6 @@ def test_a_sine_is_met_to_the_error_of_a_chord():
     assert 0.5 * bound < worst <= bound
 
 
-def test_equal_steps_give_the_same_heights():
-    even = 1e-4 * np.arange(50)
-    profile = resample(even, sine(even), 1e-4, name="road", source="by hand")
-    assert profile.z == pytest.approx(sine(even), abs=1e-18)
-    assert (profile.name, profile.source) == ("road", "by hand")
-
-
 def test_falling_distances_give_the_same_profile():
     up, down = resample(X, sine(X), 1e-4), resample(X[::-1], sine(X)[::-1], 1e-4)
     assert np.array_equal(up.z, down.z)

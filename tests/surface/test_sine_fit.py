@@ -8,11 +8,13 @@ from gripscale.core.errors import InputError
 from gripscale.surface import (
     HeightDifference,
     SelfAffineFit,
+    SineStack,
     clean,
     fit_sines,
     height_difference,
     read_profile,
     self_affine_profile,
+    sine_ambiguity,
 )
 from gripscale.surface.sine_fit import as_fitted, first_consistent_lag
 from tests.samples import sine_profile
@@ -226,6 +228,10 @@ BAD = [
     ({"smallest_wavelength": 1e9}, "no sine waves fit"),
     ({"smallest_wavelength": 1e-9, "s_wavelength": 1.1, "first_wavelength": 1.0}, "at most 24"),
     ({"scales": 4, "largest_lag": 4.2e-5}, "at least 4 lags"),
+    ({"cut_off": 0.0}, "cut_off must be greater than zero"),
+    ({"cut_off": 1e-3, "smallest_wavelength": 1e-3}, "give smallest_wavelength"),
+    ({"cut_off": 1e-3, "scales": 3, "s_wavelength": 3.0}, "two of scales, cut_off and s_w"),
+    ({"cut_off": 1e-2, "first_wavelength": 5e-3}, "cut_off must be below first_wavelength"),
     ({"scales": 4, "smallest_lag": 1.0}, "at least 4 lags .* got 0"),
     (
         {"scales": 4, "s_wavelength": 2.0, "s_amplitude": 3.0, "single_factor": True},
@@ -291,15 +297,111 @@ def test_a_cut_off_with_a_given_factor_takes_the_waves_that_fit():
     assert alone.wavelength[-1] == pytest.approx(1e-3 * np.sqrt(alone.s_wavelength), rel=1e-9)
 
 
+# What a height difference correlation leaves open of its sine waves.
+
+
+def with_band(curve, decades):
+    value, factor = curve.value, 10.0**decades
+    return HeightDifference(curve.lag, value, lower=value / factor, upper=value * factor)
+
+
+def test_an_exact_curve_leaves_one_stack():
+    stack = geometric_stack(FIRST, 2.5e-3, 3.5, 2.4, 5)
+    curve = with_band(exact_curve(stack, 4e-5, FIRST / 4, lags=40), 1e-4)
+    found = sine_ambiguity(curve, fit_sines(curve, scales=5))
+    assert len(found.stacks) == 1
+    assert found.waves == (5, 5)
+    assert found.stacks[0].residual < 1e-5
+    assert found.s_wavelength == pytest.approx((3.5, 3.5), rel=1e-3)
+    assert found.rms_slope == pytest.approx((stack.rms_slope, stack.rms_slope), rel=1e-3)
+    assert found.band == pytest.approx(1e-4)
+
+
+def test_a_wider_band_leaves_more():
+    stack = geometric_stack(FIRST, 2.5e-3, 3.5, 2.4, 5)
+    curve = exact_curve(stack, 4e-5, FIRST / 4, lags=40)
+    fit = fit_sines(curve, scales=5)
+    few, many = (sine_ambiguity(with_band(curve, band), fit) for band in (0.01, 0.2))
+    assert len(few.stacks) < len(many.stacks) <= many.tried
+
+
+def test_a_random_profile_does_not_say_how_many_waves():
+    curve = height_difference(self_affine_profile(0.8, 2e-3, 0.6e-3, 0.4, 50e-6, 3))
+    fit = fit_sines(curve, scales=5, cut_off=0.4e-3)
+    found = sine_ambiguity(curve, fit)
+    assert 0.02 < found.band < 0.3
+    assert found.waves.low <= 4
+    assert found.waves.high >= 7
+    assert found.s_wavelength.low < fit.s_wavelength < found.s_wavelength.high
+    # whatever their number, they must agree on what the curve does say: slopes to the cut-off
+    assert found.rms_slope.high < 1.5 * found.rms_slope.low
+
+
+@pytest.mark.parametrize(
+    ("stack", "says"), [(geometric_stack(FIRST, 1e-3, 3.0, 2.0, 4), "got 4, not fitted")]
+)
+def test_a_stack_that_was_not_fitted_is_refused(stack, says):
+    with pytest.raises(InputError, match=says):
+        sine_ambiguity(exact_curve(stack, 4e-5, 6e-3), stack)
+
+
+def test_one_wave_is_refused():
+    curve = exact_curve(geometric_stack(FIRST, 1e-3, 3.0, 2.0, 1), 1e-4, 6e-3)
+    with pytest.raises(InputError, match="got 1, fitted"):
+        sine_ambiguity(curve, fit_sines(curve, scales=1))
+
+
+def test_a_curve_without_a_band_is_taken_as_known():
+    curve = exact_curve(geometric_stack(FIRST, 1e-3, 3.0, 2.0, 4), 1e-4, 6e-3)
+    assert not np.isfinite(curve.upper).any()
+    assert sine_ambiguity(curve, fit_sines(curve, scales=4)).band == 0.0
+
+
+def test_factors_follow_from_geometric_waves():
+    stack = geometric_stack(0.03, 1e-3, 3.5, 2.4, 5)
+    assert stack.s_wavelength == pytest.approx(3.5, rel=1e-12)
+    assert stack.s_amplitude == pytest.approx(2.4, rel=1e-12)
+    assert stack.residual is None
+    assert len(stack) == 5
+
+
+def test_waves_that_are_not_geometric_have_no_factors():
+    stack = SineStack(wavelength=[1e-2, 5e-3, 1e-3], amplitude=[1e-3, 5e-4, 2.5e-4])
+    assert stack.s_wavelength is None
+    assert stack.s_amplitude == pytest.approx(2.0)
+
+
+def test_one_wave_has_no_factors_and_its_closed_form():
+    stack = SineStack(wavelength=[1e-2], amplitude=[2e-3])
+    assert stack.s_wavelength is None
+    assert stack.slope == pytest.approx([0.4 * np.pi])
+    # A^2 (1 - cos kl): zero at a whole wave, A^2 at a quarter, 2 A^2 at half.
+    assert stack.height_difference([1e-2, 2.5e-3, 5e-3]) == pytest.approx(
+        [0, 4e-6, 8e-6], abs=1e-20
+    )
+    # k^2 A^2 l^2 / 2 at small lags, where 1 - cos would have lost its digits.
+    assert stack.height_difference([1e-10]) == pytest.approx(
+        (0.4 * np.pi * 1e-10) ** 2 / 2, rel=1e-9
+    )
+
+
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        ({"cut_off": 0.0}, "cut_off must be greater than zero"),
-        ({"cut_off": 1e-3, "smallest_wavelength": 1e-3}, "give smallest_wavelength"),
-        ({"cut_off": 1e-3, "scales": 3, "s_wavelength": 3.0}, "two of scales, cut_off and s_w"),
-        ({"cut_off": 1e-2, "first_wavelength": 5e-3}, "cut_off must be below first_wavelength"),
+        ({"wavelength": [1e-2, 1e-3], "amplitude": [1e-3]}, "same length"),
+        ({"wavelength": [], "amplitude": []}, "at least 1"),
+        ({"wavelength": [1e-3, 1e-2], "amplitude": [1e-3, 1e-3]}, "must decrease .* at index 1"),
+        ({"wavelength": [1e-2, 1e-2], "amplitude": [1e-3, 1e-3]}, "must decrease"),
+        ({"wavelength": [1e-2], "amplitude": [0.0]}, "amplitude must be greater than zero"),
+        ({"wavelength": [np.nan], "amplitude": [1e-3]}, "wavelength must be a list of finite"),
+        ({"wavelength": [1e-2, 5e-3], "amplitude": [1, 1], "s_wavelength": 3.0}, "s_wavelength"),
+        ({"wavelength": [1e-2], "amplitude": [1e-3], "residual": -1.0}, "residual must not be neg"),
+        (
+            {"wavelength": [1e-2], "amplitude": [1e-3], "cut_off": 0.02},
+            "exceed the last wave, 0.01 m",
+        ),
     ],
 )
-def test_a_bad_cut_off_is_refused(arguments, says):
+def test_bad_waves_are_refused(arguments, says):
     with pytest.raises(InputError, match=says):
-        fit_sines(exact_curve(STACK, 4e-5, FIRST / 4), **arguments)
+        SineStack(**arguments)

@@ -5,8 +5,6 @@ line of length L holds (Q - q) L/(2 pi) independent waves; its power scatters by
 of that, and by 1.4 times as much in windows tapered by Hann's (Welch 1967).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -21,16 +19,16 @@ SINE_SLOPE = math.sqrt(2.0) * math.pi * AMPLITUDE / LENGTH
 HURST, XI, HEIGHT = 0.7, 40e-3, 2.5e-3
 
 
-def sine(points: int = 8000) -> gs.Profile:
+def sine(points=8000):
     x = STEP * np.arange(points)
     return gs.Profile(x, AMPLITUDE * np.sin(2.0 * np.pi * x / LENGTH))
 
 
-def rough(hurst: float = HURST, step: float = 6.25e-5, seeds: int = 4) -> list[gs.Profile]:
+def rough(hurst=HURST, step=6.25e-5, seeds=4):
     return [self_affine_profile(hurst, XI, HEIGHT, 0.8, step, seed) for seed in range(seeds)]
 
 
-def added(first: float, last: float) -> float:
+def added(first, last):
     """Return the mean square slope of the waves from `first` to `last` [m] of these lines.
 
     Their covariance is 1 - (l/xi)^2H at small l, whose transform is C_1 ~ q^(-1 - 2H).
@@ -41,7 +39,7 @@ def added(first: float, last: float) -> float:
     return float(level * (more**power - q**power) / power)
 
 
-def isotropic(points: int, step: float, seed: int) -> tuple[gs.HeightMap, float]:
+def isotropic(points, step, seed):
     """Return a periodic map, H = 0.3, of waves from 8 steps up, and its rms gradient."""
     q = 2.0 * np.pi * np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(points, step)], indexing="ij"))
     kept = (q > 0.0) & (q < 2.0 * np.pi / (8.0 * step))
@@ -54,7 +52,7 @@ def isotropic(points: int, step: float, seed: int) -> tuple[gs.HeightMap, float]
     return gs.HeightMap(x, x, scale * z), float(scale * gradient)
 
 
-def test_a_sine_has_its_slope_from_its_wavelength_on() -> None:
+def test_a_sine_has_its_slope_from_its_wavelength_on():
     slopes = slope_by_wavelength(sine())
     # Hann's window leaks into the next two of the 50 waves of a window: (1 + 1/(3 50^2)) in square
     exact = pytest.approx(SINE_SLOPE, rel=1e-4)
@@ -67,7 +65,7 @@ def test_a_sine_has_its_slope_from_its_wavelength_on() -> None:
 
 
 @pytest.mark.parametrize("along", [True, False])
-def test_grooves_on_a_map_are_not_taken_for_isotropic(along: bool) -> None:
+def test_grooves_on_a_map_are_not_taken_for_isotropic(along):
     x = STEP * np.arange(400)
     wave = AMPLITUDE * np.sin(2.0 * np.pi * x / LENGTH)
     z = np.broadcast_to(wave[:, None] if along else wave, (400, 400))
@@ -79,7 +77,7 @@ def test_grooves_on_a_map_are_not_taken_for_isotropic(along: bool) -> None:
     assert lines == pytest.approx(SINE_SLOPE if along else 0.0, rel=2e-3, abs=1e-12)
 
 
-def test_waves_longer_than_a_window_count_along_the_lines_of_a_map() -> None:
+def test_waves_longer_than_a_window_count_along_the_lines_of_a_map():
     x = STEP * np.arange(400)
     wave = AMPLITUDE * np.sin(2.0 * np.pi * x * 3.0 / (400 * STEP))
     slopes = slope_by_wavelength(gs.HeightMap(x, x, np.broadcast_to(wave[:, None], (400, 400))))
@@ -88,7 +86,7 @@ def test_waves_longer_than_a_window_count_along_the_lines_of_a_map() -> None:
     assert slopes.down_to(LENGTH, "profile") == pytest.approx(exact, rel=0.05)
 
 
-def test_lines_of_a_self_affine_surface() -> None:
+def test_lines_of_a_self_affine_surface():
     slopes = slope_by_wavelength(rough())
     for first, last in ((2e-3, 1e-3), (1e-3, 0.5e-3)):
         square = [slopes.down_to(length, "profile") ** 2 for length in (last, first)]
@@ -96,7 +94,7 @@ def test_lines_of_a_self_affine_surface() -> None:
         assert square[0] - square[1] == pytest.approx(added(first, last), rel=0.07)
 
 
-def test_surface_of_lines_is_that_of_the_spectrum_the_theories_take() -> None:
+def test_surface_of_lines_is_that_of_the_spectrum_the_theories_take():
     slopes = slope_by_wavelength(rough())
     areal = areal_spectrum(slopes.line)
     assert slopes.down_to(1e-3) == areal.rms_gradient(1e-3)
@@ -108,7 +106,7 @@ def test_surface_of_lines_is_that_of_the_spectrum_the_theories_take() -> None:
     assert ratio == pytest.approx(math.sqrt(2.0 * seen), rel=0.02)
 
 
-def test_a_map_and_its_lines_tell_the_same_gradient() -> None:
+def test_a_map_and_its_lines_tell_the_same_gradient():
     surface, gradient = isotropic(512, 5e-5, seed=3)
     whole, lines = slope_by_wavelength(surface), slope_by_wavelength(surface.lines())
     # within the 3/8 of the map that Hann's window weighs, waves of half the slope scatter by 1 %
@@ -120,7 +118,7 @@ def test_a_map_and_its_lines_tell_the_same_gradient() -> None:
     assert lines.down_to(lines.resolution_limit) == pytest.approx(gradient, rel=0.06)
 
 
-def test_power_law_continues_what_was_not_measured() -> None:
+def test_power_law_continues_what_was_not_measured():
     measured = rough()
     known = slope_by_wavelength(measured)
     coarse = slope_by_wavelength([gs.Profile(p.x, p.z, reliable=2e-3) for p in measured])
@@ -133,7 +131,7 @@ def test_power_law_continues_what_was_not_measured() -> None:
         assert law.added(law.ratio(wanted)) == pytest.approx(wanted)
 
 
-def test_noise_is_not_continued() -> None:
+def test_noise_is_not_continued():
     noise = np.random.default_rng(1).standard_normal(8000)
     slopes = slope_by_wavelength(gs.Profile(STEP * np.arange(8000), 1e-5 * noise))
     with pytest.raises(gs.InputError, match="must fall as that of a self-affine surface"):
@@ -141,7 +139,7 @@ def test_noise_is_not_continued() -> None:
     assert math.isnan(slopes.down_to(STEP, "profile"))
 
 
-def test_wavelengths_run_from_the_longest_to_the_shortest_carried() -> None:
+def test_wavelengths_run_from_the_longest_to_the_shortest_carried():
     slopes = slope_by_wavelength(rough(seeds=1))
     lengths = slopes.wavelength
     assert lengths[0] == pytest.approx(0.2, rel=0.01)

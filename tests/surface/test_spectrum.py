@@ -1,13 +1,14 @@
 """Power spectra against Parseval, closed forms, a ring of waves and a surface made to measure."""
 
-from __future__ import annotations
-
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
-from scipy import integrate, signal, special
+from scipy import signal, special
+from scipy.special import gamma, j1
 
+import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.surface import (
     ArealSpectrum,
@@ -22,17 +23,17 @@ STEP = 1e-4
 HURST = 0.8
 
 
-def wavy(points: int = 4000, waves: int = 40, amplitude: float = 2e-4) -> Profile:
+def wavy(points=4000, waves=40, amplitude=2e-4):
     """Return a cosine that fits the line a whole number of times."""
     x = STEP * np.arange(points)
     return Profile(x, amplitude * np.cos(2 * np.pi * waves * np.arange(points) / points))
 
 
-def rough(points: int = 4096, seed: int = 1) -> Profile:
+def rough(points=4096, seed=1):
     return Profile(STEP * np.arange(points), np.random.default_rng(seed).normal(0, 1e-4, points))
 
 
-def isotropic_map(size: int, step: float, seed: int) -> tuple[np.ndarray, ArealSpectrum]:
+def isotropic_map(size, step, seed):
     """Return one period of a surface with random phases, and the spectrum it was made of.
 
     Flat up to 8 waves a side, C ~ q^(-2 - 2H) above, nothing beyond a quarter of the sampling.
@@ -42,7 +43,7 @@ def isotropic_map(size: int, step: float, seed: int) -> tuple[np.ndarray, ArealS
     q = unit * np.hypot(number[:, None], number)
     knee, last = 8 * unit, unit * size / 4
 
-    def density(at: np.ndarray) -> np.ndarray:
+    def density(at):
         flat = 1e-16 * np.maximum(at / knee, 1.0) ** (-2 - 2 * HURST)
         return np.where((at > 0.5 * unit) & (at <= last), flat, 0.0)
 
@@ -71,21 +72,6 @@ def test_the_sum_is_the_variance(points):
     assert found.rms_height**2 == pytest.approx(profile.z.var(), rel=1e-12, abs=0)
     assert found.averaged(5).rms_height == pytest.approx(found.rms_height, rel=1e-12, abs=0)
     assert len(found.averaged(5).wavenumber) < 20
-
-
-def test_windows_with_a_taper_keep_the_variance_of_noise():
-    """White noise: its rms height is known to 1/sqrt(2 x 4096) = 1.1 % (one sigma); times three."""
-    found = profile_spectrum(rough(), window=0.02)
-    assert found.rms_height == pytest.approx(1e-4, rel=0.033, abs=0)
-    assert 2 * np.pi / found.wavenumber[0] == pytest.approx(0.02)
-
-
-def test_a_slope_of_the_line_is_not_spread_over_small_waves():
-    """A straight line has no waves; its jump from end to end would have them all."""
-    x = STEP * np.arange(4096)
-    tilted = Profile(x, 0.1 * x)
-    assert profile_spectrum(tilted).rms_height < 1e-12
-    assert profile_spectrum(tilted, taper="none").rms_height > 0.01
 
 
 @pytest.mark.parametrize(("points", "taper"), [(50, "hann"), (51, "hann"), (50, "none")])
@@ -117,17 +103,6 @@ def test_missing_heights_are_interpolated_and_counted():
     assert found.rms_height == pytest.approx(2e-4 / np.sqrt(2), rel=1e-3, abs=0)
 
 
-def test_a_map_of_one_wave_has_its_variance_in_one_ring():
-    """A ring of n waves: density is the mean over its plane waves, so 2 pi q C dq is the variance
-    to the difference between 2 pi n and the number of plane waves in the ring, 1/n or so."""
-    n = 256
-    z = 1e-4 * np.cos(2 * np.pi * (30 * np.arange(n)[:, None] + 40 * np.arange(n)) / n)
-    found = map_spectrum(z, x_step=STEP, y_step=STEP, taper="none", per_decade=1000)
-    ring = 2 * np.pi / (n * STEP)
-    assert found.wavenumber[np.argmax(found.density)] == pytest.approx(50 * ring, rel=0.01, abs=0)
-    assert found.rms_height**2 == pytest.approx(0.5e-8, rel=0.1, abs=0)
-
-
 def test_the_spectrum_of_a_map_is_that_it_was_made_of():
     """Amplitudes are exact, only phases random: what is left is the curvature of C within a ring,
     and the rings cut by the spectrum's end. A window sees the waves that fall under it."""
@@ -147,7 +122,7 @@ def test_the_spectrum_of_a_map_is_that_it_was_made_of():
     assert measured.rms_gradient() == pytest.approx(rms, rel=0.05, abs=0)
 
 
-def _wavenumbers(size: int) -> tuple[np.ndarray, np.ndarray]:
+def _wavenumbers(size):
     k = 2 * np.pi * np.fft.fftfreq(size, STEP)
     k[size // 2] = 0.0
     return k[:, None], k
@@ -178,23 +153,14 @@ def test_both_ways_to_the_surface_agree_on_a_power_law(hurst):
     )
 
 
-def test_the_closed_form_is_the_integral_it_comes_from():
-    """C_1(k) = 4 int C q dq/sqrt(q^2 - k^2) with q = k cosh(t), of C = c q^(-2 - 2H)."""
-    lines = _power_law()
-    k = lines.wavenumber[7]
-    seen, _ = integrate.quad(lambda t: np.cosh(t) ** (-1 - 2 * HURST), 0, 30)
-    areal = _of_power_law(lines, HURST).density[7]
-    assert 4 * areal * k * seen == pytest.approx(lines.density[7], rel=1e-7, abs=0)
-
-
-def _of_power_law(lines: ProfileSpectrum, hurst: float) -> ArealSpectrum:
+def _of_power_law(lines, hurst):
     """Return C = C_1 / (2 sqrt(pi) q Gamma(H + 1/2) / Gamma(H + 1)) where self-affine."""
     ratio = special.gamma(hurst + 0.5) / special.gamma(hurst + 1.0)
     q = lines.wavenumber
     return ArealSpectrum(q, lines.density / (2.0 * np.sqrt(np.pi) * q * ratio))
 
 
-def _power_law() -> ProfileSpectrum:
+def _power_law():
     q = np.geomspace(1e2, 1e5, 31)
     return ProfileSpectrum(q, 1e-12 * q ** (-1 - 2 * HURST))
 
@@ -214,13 +180,6 @@ def test_lines_of_an_isotropic_map_lead_back_to_its_spectrum():
     inner = (found.wavenumber > 1e3) & (found.wavenumber < 1e4)
     assert inner.sum() >= 8
     assert found.density[inner] == pytest.approx(truth.at(found.wavenumber[inner]), rel=0.05, abs=0)
-
-
-def test_the_areal_gradient_is_sqrt_two_times_the_slope_of_lines():
-    spectrum = areal_spectrum(_power_law())
-    for smallest in (None, 1e-3):
-        ratio = spectrum.rms_gradient(smallest) / spectrum.profile_rms_slope(smallest)
-        assert ratio == pytest.approx(np.sqrt(2))
 
 
 def test_moments_of_a_power_law():
@@ -258,3 +217,105 @@ def test_moments_of_a_power_law():
 def test_bad_input(make, message):
     with pytest.raises(InputError, match=message):
         make()
+
+
+# A surface known by its spectrum: closed forms of its correlation and lines, and its lines.
+
+FIRST, LAST = 1e3, 1e5
+
+
+def band(density=1e-14):
+    """Return a constant spectrum between two wavenumbers."""
+    q = np.geomspace(FIRST, LAST, 400)
+    return gs.Spectrum(q, np.full(q.size, density), name="band")
+
+
+def self_affine(hurst=0.8):
+    q = np.geomspace(FIRST, LAST, 200)
+    return gs.Spectrum(q, 1e-14 * (q / FIRST) ** (-2.0 - 2.0 * hurst), name="self-affine")
+
+
+def test_correlation_of_a_band_is_the_closed_form():
+    """int q (1 - J_0(q l)) dq = q^2/2 - q J_1(q l)/l; the plateau is twice the variance.
+
+    200 points a decade do not resolve J_0 at large q l, where a white band is the worst case.
+    """
+    lag = np.geomspace(1e-6, 1e-1, 60)
+    found = band().height_difference(lag)
+    ends = [0.5 * q**2 - q * j1(q * lag) / lag for q in (FIRST, LAST)]
+    np.testing.assert_allclose(found.value, 4e-14 * np.pi * (ends[1] - ends[0]), rtol=5e-3)
+    assert found.value[-1] == pytest.approx(2.0 * band().rms_height ** 2, rel=5e-3)
+
+
+def test_correlation_at_small_lags_is_the_slope_of_lines():
+    found = self_affine().height_difference([1e-8])
+    assert np.sqrt(found.value[0]) / 1e-8 == pytest.approx(
+        self_affine().profile_rms_slope(), rel=2e-3
+    )
+
+
+def test_spectrum_of_lines_of_a_power_law():
+    """C_1 = 2 sqrt(pi) q C Gamma(H + 1/2)/Gamma(H + 1) far from the ends."""
+    hurst, q = 0.8, np.geomspace(1.1e3, 4e3, 10)
+    surface = self_affine(hurst)
+    closed = 2.0 * np.sqrt(np.pi) * q * surface.at(q) * gamma(hurst + 0.5) / gamma(hurst + 1.0)
+    np.testing.assert_allclose(surface.of_lines(q), closed, rtol=0.01)
+    assert surface.of_lines([FIRST, 1.1 * LAST])[1] == 0.0
+
+
+def test_lines_have_the_stated_height_and_slope():
+    surface = self_affine()
+    lines, correlation = surface.lines(footprint=0.1)
+    assert [line.name for line in lines] == [f"self-affine {n}" for n in (1, 2, 3, 4)]
+    for line in lines:
+        assert line.z.std() == pytest.approx(surface.rms_height, rel=0.03)
+        assert np.gradient(line.z, line.step).std() == pytest.approx(
+            surface.profile_rms_slope(), rel=0.05
+        )
+        assert line.resolution_limit == pytest.approx(2.0 * np.pi / LAST)
+    again, _ = surface.lines(footprint=0.1)
+    np.testing.assert_array_equal(again[2].z, lines[2].z)
+    assert not np.array_equal(lines[0].z, lines[1].z)
+    measured = gs.height_difference(lines, steepest=np.inf)
+    at = np.geomspace(1e-5, 1e-3, 5)
+    logs = [(np.log(c.lag), np.log(c.value)) for c in (measured, correlation)]
+    found, known = (np.exp(np.interp(np.log(at), *curve)) for curve in logs)
+    np.testing.assert_allclose(found, known, rtol=0.05)
+
+
+def test_heights_of_lines_are_gaussian():
+    lines, _ = band().lines(footprint=0.1)
+    z = np.concatenate([line.z for line in lines])
+    assert np.mean(z**4) / np.mean(z**2) ** 2 == pytest.approx(3.0, abs=0.1)
+    assert np.mean(z**3) / np.mean(z**2) ** 1.5 == pytest.approx(0.0, abs=0.05)
+
+
+def test_a_cut_off_leaves_shorter_waves_out_of_lines():
+    fine, _ = self_affine().lines(0.1)
+    coarse, _ = self_affine().lines(0.1, smallest_wavelength=1e-3)
+    assert coarse[0].step == pytest.approx(1e-3 / 8)
+    assert fine[0].step == pytest.approx(2.0 * np.pi / LAST / 8)
+
+
+def test_long_waves_are_left_out_where_they_hold_most_of_the_heights():
+    surface = self_affine()
+    whole, short = (surface.lines(footprint)[0][0] for footprint in (0.1, 5e-4))
+    assert whole.z.std() == pytest.approx(surface.rms_height, rel=0.03)
+    assert short.z.std() < 0.7 * surface.rms_height
+    cut = surface.without_long_waves(1e-3)
+    assert cut.rms_height < 0.7 * surface.rms_height
+    assert cut.rms_gradient() > 0.8 * surface.rms_gradient()
+
+
+def test_what_is_refused():
+    with pytest.raises(InputError, match="phases must be one of real, worn, random; got 'fixed'"):
+        replace(band(), phases="fixed")
+    with pytest.raises(InputError, match="smallest_wavelength must be at least"):
+        gs.Spectrum([1.0, 1e9], [1e-14, 1e-30]).lines(footprint=1.0)
+
+
+def test_the_finding_says_what_a_spectrum_does_not():
+    finding = band().finding
+    assert "does not tell its phases" in finding.sentence
+    assert np.isnan(finding.area)
+    assert replace(band(), phases="random").finding.area == pytest.approx(2.9 - 1.0)

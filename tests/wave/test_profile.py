@@ -156,6 +156,8 @@ def test_columns_follow_the_smallest_wave():
     assert (one.details["columns"], one.details["rows"]) == (128, 20)
 
 
+NOISY = gs.Profile(1e-5 * np.arange(2000), 1e-6 * np.random.default_rng(0).normal(size=2000))
+RIPPLE = gs.Profile(1e-5 * np.arange(400), 1e-5 * np.sin(0.2 * np.pi * np.arange(400)))
 REFUSED = [
     ({"profile": np.zeros(20)}, "profile must be a gripscale.Profile; got ndarray"),
     ({"smallest_wavelength": 0.05}, "smallest_wavelength must be at most the period 0.0384 m"),
@@ -163,6 +165,11 @@ REFUSED = [
     ({"columns": 16}, "columns must be at least 30 to follow the smallest wave of the heights"),
     ({"columns": 5000}, "columns must be a whole number from 4 to 4096; got 5000"),
     ({"pressure": 0.0}, "pressure must be greater than zero"),
+    ({"profile": NOISY}, r"at least 2\.93e-05 m, 6 of 4096 columns; got waves down to 2e-05 m"),
+    (
+        {"profile": RIPPLE, "smallest_wavelength": 1e-3},
+        "profile must have waves left without its tilt",
+    ),
 ]
 
 
@@ -173,31 +180,18 @@ def test_bad_input_is_named(change, sentence):
         gs.solve_profile(RUBBER, **(good | change))
 
 
-def test_a_wave_beyond_the_finest_mesh_is_refused():
-    noisy = gs.Profile(1e-5 * np.arange(2000), 1e-6 * np.random.default_rng(0).normal(size=2000))
-    sentence = r"must be at least 2\.93e-05 m, 6 of 4096 columns; got waves down to 2e-05 m"
+@pytest.mark.parametrize(
+    ("wavelength", "heights", "sentence"),
+    [
+        (1e-3, np.zeros(7), "heights must be at least 8; got 7"),
+        (1e-3, np.full(9, 0.5), "heights must differ; got 9 times 0.5 m"),
+        (1e-3, np.full(9, np.nan), "heights must be a list of finite numbers"),
+        (0.0, np.arange(9.0), "wavelength must be greater than zero"),
+    ],
+)
+def test_heights_that_are_no_profile_are_refused(wavelength, heights, sentence):
     with pytest.raises(gs.InputError, match=sentence):
-        gs.solve_profile(RUBBER, noisy, pressure=3e5, speed=0.3, periodic=True)
-
-
-def test_a_profile_without_a_wave_left_is_refused():
-    x = 1e-5 * np.arange(400)
-    ripple = gs.Profile(x, 1e-5 * np.sin(2.0 * np.pi * x / 1e-4))
-    load = {"pressure": 3e5, "speed": 0.0, "periodic": True}
-    with pytest.raises(gs.InputError, match="profile must have waves left without its tilt"):
-        gs.solve_profile(RUBBER, ripple, smallest_wavelength=1e-3, **load)
-
-
-def test_heights_that_are_no_profile_are_refused():
-    for heights, sentence in (
-        (np.zeros(7), "heights must be at least 8; got 7"),
-        (np.full(9, 0.5), "heights must differ; got 9 times 0.5 m"),
-        (np.full(9, np.nan), "heights must be a list of finite numbers"),
-    ):
-        with pytest.raises(gs.InputError, match=sentence):
-            SampledProfile(1e-3, heights)
-    with pytest.raises(gs.InputError, match="wavelength must be greater than zero"):
-        SampledProfile(0.0, np.arange(9.0))
+        SampledProfile(wavelength, heights)
 
 
 def test_the_half_plane_model_refuses_sampled_heights():

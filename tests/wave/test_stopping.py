@@ -1,7 +1,5 @@
 """A solve ends when it is told to, at any size: by Ctrl-C, the end of its job, a time limit."""
 
-from __future__ import annotations
-
 import _thread
 import math
 import os
@@ -23,7 +21,7 @@ LATE = 1.0
 work, on a machine with other work."""
 
 
-def long_solve(columns: int) -> gs.ScaleResult:
+def long_solve(columns):
     """Solve on a mesh that takes seconds: 2048 columns some five of processor time."""
     return gs.solve_scale(RUBBER, **LOAD, columns=columns, rows=128)
 
