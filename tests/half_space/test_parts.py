@@ -1,6 +1,7 @@
 """Parts of the direct contact on their own: linear system, grids, area, estimated errors."""
 
 import dataclasses
+import math
 
 import numpy as np
 import pytest
@@ -206,3 +207,11 @@ def test_a_contact_ends_where_the_opening_of_lossy_rubber_begins(loss_angle):
     gap = np.maximum(10.3 - x, 0.0) ** lower + np.maximum(x - 20.6, 0.0) ** upper
     found = grid_contact_fraction(gap == 0.0, gap, loss_angle)
     assert found == pytest.approx((20.6 - 10.3) / 32)
+
+
+def test_borders_of_a_map_count_by_the_law_of_yastrebov():
+    """Of a square of four points a side, with 16 pairs at its border, over the end of the map."""
+    active = np.zeros((16, 16), dtype=bool)
+    active[np.ix_([15, 0, 1, 2], [3, 4, 5, 6])] = True
+    wanted = (16 - (math.pi - 1.0 + math.log(2.0)) / 24.0 * 16) / 256
+    assert grid_contact_fraction(active, np.zeros((16, 16))) == pytest.approx(wanted, rel=1e-12)
