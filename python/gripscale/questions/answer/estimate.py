@@ -106,73 +106,65 @@ def answer_of_samples(
     `conditions` add their errors. Where the area term was fitted to measured friction, `contacts`,
     one for each answer, say what of the errors is left (`calibrated`).
 
-    `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
-    ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
-    direct contact that converged or where the profiles are too short to tell how well they
-    represent the surface (`_sampling_error`); over `factor` the `_factor` on each with its
-    `_factor_uncertainty`, NaN if not included. Where an area term was asked for,
-    `answer_interface_friction` is its stress on the area of the answer, `answer_friction` the sum
-    with `answer_hysteresis_friction`, which factors and errors stay those of.
+    The names are those of `variables`. Numbers are NaN without a direct contact that converged,
+    intervals also where the profiles are too short to represent the surface, factors that are not
+    included.
     """
-    direct = samples.sel(model=DIRECT, drop=True) if DIRECT in samples["model"].values else None
     status = samples["prediction_status"].isel(model=0, sample=0, drop=True)
     unknown = xr.full_like(status, math.nan, dtype=float)
-    factors: dict[str, tuple[str, FactorNumbers]] = {}
-    if direct is not None:
-        strain = solved_finite_strain or _of_large_strain(direct)
-        factors[FACTOR_OF_STRAIN] = LARGE_STRAIN_LABEL, strain
-        heights = direct.get("upper_height")
-        if heights is not None and bool(heights.notnull().any()):  # lines of a surface, no map
-            factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
-        factors |= _of_conditions(direct, conditions, unknown)
-        for factor in supplied:
-            free = 1.0 - reduce.mean(direct, "contact_fraction") if factor.of_small_contact else 1.0
-            factors[factor.name] = factor.label, _numbers_of(factor, unknown, free)
-    labels, solved = [label for label, _ in factors.values()], [n for _, n in factors.values()]
-
-    def over_factors(values: Sequence[xr.DataArray]) -> xr.DataArray:
-        return xr.concat(values, "factor") if values else unknown.expand_dims(factor=0)
-
-    values = {name: over_factors([numbers[name][0] for numbers in solved]) for name in ESTIMATED}
+    if DIRECT not in samples["model"].values:
+        return estimate_of_waves(
+            xr.Dataset(dict.fromkeys((*ESTIMATED, "adhesive_friction"), unknown))
+        )
+    direct = samples.sel(model=DIRECT, drop=True)
+    strain = solved_finite_strain or _of_large_strain(direct)
+    factors = {FACTOR_OF_STRAIN: (LARGE_STRAIN_LABEL, strain)}
+    heights = direct.get("upper_height")
+    if heights is not None and bool(heights.notnull().any()):  # lines of a surface, no map
+        factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
+    factors |= _of_conditions(direct, conditions, unknown)
+    area = reduce.mean(direct, "contact_fraction")
+    for factor in supplied:
+        free = 1.0 - area if factor.of_small_contact else 1.0
+        factors[factor.name] = factor.label, _numbers_of(factor, unknown, free)
+    labels, solved = zip(*factors.values(), strict=True)
+    values = {
+        name: xr.concat([numbers[name][0] for numbers in solved], "factor") for name in ESTIMATED
+    }
     # a factor that is not known of both quantities is not included
     included = values["contact_fraction"].notnull() & values["friction"].notnull()
     data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
     data = data.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
-    if direct is not None:
-        shares = (share for share in (*variables.BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
-        data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
-        if "isotropic_surface" in factors:
-            data[variables.REACH] = unknown.copy(data=_line_of(direct).reach)
-    term = unknown if direct is None else direct.get("adhesive_friction", unknown)
+    shares = (share for share in (*variables.BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
+    data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
+    if "isotropic_surface" in factors:
+        data[variables.REACH] = unknown.copy(data=_line_of(direct).reach)
     errors_of_total: dict[str, intervals.LogError] = {}  # of the area term, where there is one
     remaining, fit = xr.ones_like(unknown), xr.zeros_like(unknown)
-    if direct is not None and contacts:
-        area = reduce.mean(direct, "contact_fraction")
+    if contacts:
         remaining, fit = errors_left(contacts, area * values["contact_fraction"].prod("factor"))
     for name in ESTIMATED:
-        mean, road, grid = unknown, intervals.LogError(unknown, unknown), unknown
-        if direct is not None:
-            mean, road = reduce.mean(direct, name), reduce.road_error(direct, name)
-            # even within the estimated error, and the same for all profiles
-            grid = reduce.estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
+        mean, road = reduce.mean(direct, name), reduce.road_error(direct, name)
+        # even within the estimated error, and the same for all profiles
+        grid = reduce.estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
         errors = [_certain(grid)] if sampled and sampled.of_road else [road, _certain(grid)]
         of_inputs = [] if sampled is None else [*sampled.errors[name]]
         value, each = values[name].where(included), [numbers[name][1] for numbers in solved]
-        sigma = over_factors([error.sigma for error in each]).where(included)
+        sigma = xr.concat([error.sigma for error in each], "factor").where(included)
         errors += [
             intervals.LogError(sigma.isel(factor=at).fillna(0.0), error.freedom)
             for at, error in enumerate(each)
         ]
         error = intervals.combined([*errors, *of_inputs])
         data = data.assign(with_interval(name, mean * value.prod("factor"), error))
-        if bool(term.notnull().any()):
+        if bool(direct.get("adhesive_friction", unknown).notnull().any()):
             parts = [intervals.LogError(remaining**0.5 * e.sigma, e.freedom) for e in errors]
             errors_of_total[name] = intervals.combined([*parts, *of_inputs])
         data[f"answer_{name}_sampling_error"] = road.sigma
         data[f"answer_{name}_grid_error"] = grid
         data[f"answer_{name}_factor"] = value
         data[f"answer_{name}_factor_uncertainty"] = sigma
-    if direct is not None and "adhesive_friction" in direct:
+    if "adhesive_friction" in direct:
         if errors_of_total:
             term = reduce.mean(direct, "adhesive_friction")
             term = term * data["answer_contact_fraction_factor"].prod("factor")
@@ -191,11 +183,10 @@ def with_large_strain(
     supplied: Sequence[Factor] = (),
     conditions: Conditions | None = None,
 ) -> xr.Dataset:
-    """Return an answer with what it becomes by the solved factor of finite strain.
+    """Return an answer with what it becomes by the solved factor of finite strain, if it is solved.
 
     The error of the factor is the scatter of the samples of both models and, evenly, as much again
-    as it changes, for what the samples leave out. Unchanged where windows were not solved with both
-    models, or a supplied factor has its name.
+    as it changes, for what the samples leave out.
     """
     solved = {DIRECT, *FINITE_STRAIN} <= set(samples["model"].values.tolist())
     if not solved or any(factor.name == FACTOR_OF_STRAIN for factor in supplied):
@@ -209,14 +200,12 @@ def with_large_strain(
         changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
         factor[name] = value, intervals.combined([error, _certain(changed / math.sqrt(3.0))])
     large = answer_of_samples(samples, supplied, solved_finite_strain=factor, conditions=conditions)
-    names = {
-        name: name.replace(variables.LARGE_STRAIN, "answer_")
-        for name in variables.LARGE_STRAIN_NUMBERS
-    }
-    numbers = {name: large[answered] for name, answered in names.items() if answered in large}
-    for name, number in numbers.items():
-        number.attrs = variable_attributes(variables.LARGE_STRAIN_NUMBERS[name])
-    return answer.assign(numbers)
+    for name, text in variables.LARGE_STRAIN_NUMBERS.items():
+        answered = name.replace(variables.LARGE_STRAIN, "answer_")
+        if answered in large:
+            answer = answer.assign({name: large[answered]})
+            answer[name].attrs = variable_attributes(text)
+    return answer
 
 
 def large_strain_answer(data: xr.Dataset) -> xr.Dataset | None:
@@ -278,9 +267,8 @@ def _certain(sigma: xr.DataArray) -> intervals.LogError:
 
 def _of_large_strain(direct: xr.Dataset) -> FactorNumbers:
     """Return finite over small strain by the law at the contact area and modulus of the lines."""
-    lines, pressed = (
-        reduce.mean(direct, name) for name in ("contact_fraction", "pressure_over_modulus")
-    )
+    lines = reduce.mean(direct, "contact_fraction")
+    pressed = reduce.mean(direct, "pressure_over_modulus")
     numbers = {}
     for name in ESTIMATED:
         ratio, sigma = finite_over_small(name, pressed.values, lines.values)
@@ -297,11 +285,10 @@ def _line_of(direct: xr.Dataset) -> line_to_map.LineUnderLoad:
 def _of_surface(direct: xr.Dataset) -> FactorNumbers:
     """Return the step from lines to their surface at the contact area of the lines."""
     lines = reduce.mean(direct, "contact_fraction")
-    line = _line_of(direct)
     freedom = xr.full_like(lines, line_to_map.FREEDOM)
     numbers = {}
     for name, law in line_to_map.SURFACE_OVER_LINES.items():
-        surface = law(line, lines.values)
+        surface = law(_line_of(direct), lines.values)
         sigma = lines.copy(data=surface.uncertainty)
         numbers[name] = lines.copy(data=surface.ratio), intervals.LogError(sigma, freedom)
     return numbers
@@ -337,13 +324,10 @@ def _numbers_of(factor: Factor, unknown: xr.DataArray, share: Any = 1.0) -> Fact
     return numbers
 
 
-# The answer of sine waves stated by hand: their chain, which no measured surface judges.
-
-
 def estimate_of_waves(
     numbers: xr.Dataset, errors: Mapping[str, intervals.LogError] = MappingProxyType({})
 ) -> xr.Dataset:
-    """Return friction and contact fraction of a chain as `answer_of_samples` does, with no factors.
+    """Return the answer of sine waves by their chain, with no factors, as `answer_of_samples` does.
 
     `numbers` are its `sample_numbers` under one load or several. Without `errors` of what they
     depend on there is no interval.
@@ -351,15 +335,13 @@ def estimate_of_waves(
     unknown = xr.full_like(numbers["friction"], math.nan)
     errors = dict.fromkeys(ESTIMATED, intervals.LogError(unknown, unknown)) | dict(errors)
     best = xr.Dataset({"factor_label": ("factor", np.empty(0, dtype=object))})
+    best = best.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
     for name in ESTIMATED:
         best = best.assign(with_interval(name, numbers[name], errors[name]))
         best[f"answer_{name}_sampling_error"] = best[f"answer_{name}_grid_error"] = unknown
         for part in ("factor", "factor_uncertainty"):
             best[f"answer_{name}_{part}"] = unknown.expand_dims(factor=0)
-    best = with_interface(best, numbers["adhesive_friction"], errors)
-    return variables.described(
-        best.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
-    )
+    return variables.described(with_interface(best, numbers["adhesive_friction"], errors))
 
 
 def answer_of_waves(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -59,22 +60,20 @@ def compare_command(
     axes = None if vary is None else axis.parse_axes([vary], comparison.COMPARED_OVER)
     work = terminal.CaseCommand(case)
     work.open_results(output, "comparison", f"Comparison of models for {work.file.path}")
-    console, target, read = work.console, work.target, work.case
     solving = work.solving(workers) | {"client": cluster}
-    bench = {name: value for name, value in solving.items() if name != "folder"}
-    stages: list[SolvedLadder] = []
+    names = [] if models is None else [name.strip() for name in models.split(",")]
+    pending = axes is None and len(ladder.chosen(names)) > 1
 
     def print_stage(solved: SolvedLadder) -> None:
         """Print the answer, once, while other models are solved."""
-        if axes is None and staged and has_answer(solved.data) and not stages:
-            stages.append(solved)
-            lead, *_ = answer_lines(solved.data)
-            terminal.print_parts(console, ["", lead, "Solving the other models ..."])
+        nonlocal pending
+        if pending and has_answer(solved.data):
+            pending = False
+            lead = next(answer_lines(solved.data))
+            terminal.print_parts(work.console, ["", lead, "Solving the other models ..."])
 
-    names = [] if models is None else [name.strip() for name in models.split(",")]
-    staged = len(ladder.chosen(names)) > 1
     result = question.compare(
-        read,
+        work.case,
         vary=axes,
         seeds=seeds,
         tolerance=tolerance,
@@ -86,13 +85,10 @@ def compare_command(
     )
     if axes is None:
         assert result.ladder is not None
-        residuals = comparison.at_measured(result.ladder, target / PREDICTIONS, **bench)
+        del solving["folder"]
+        residuals = comparison.at_measured(result.ladder, work.target / PREDICTIONS, **solving)
         if residuals is not None:
-            netcdf.save(residuals, target / "at_measured.nc")
+            netcdf.save(residuals, work.target / "at_measured.nc")
             result.at_measured = residuals
-    work.finish(
-        result,
-        "tables and figures",
-        drawings="",
-        page=lambda page: write_report(target, page),
-    )
+    page = partial(write_report, work.target)
+    work.finish(result, "tables and figures", drawings="", page=page)

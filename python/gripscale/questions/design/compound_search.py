@@ -2,16 +2,9 @@
 
     maximise sum_k W_k ln mu_k(r)    within the polytope of admissible r (`compound_limits`)
 
-The objective is smooth in r, its gradient g comes from one adjoint solution a contact
-(`goal_friction`), and all limits are linear. So the linear programme
-
-    gap = max g . (s - r)  over all admissible s
-
-says how much more any admissible change could gain in ln mu, to first order. Steps to the best
-corner of the polytope find the optimum where the limits decide (M. Frank & P. Wolfe, Nav. Res.
-Logist. Q. 3 (1956) 95), sequential quadratic programming elsewhere (scipy's SLSQP; D. Kraft,
-DFVLR-FB 88-28 (1988)). The design is the change nearest to today's compound, with the least sum of
-ln(r_i)^2, among those that give away 0.1 % of the friction of the optimum.
+Steps to the best corner of the polytope find the optimum where the limits decide (M. Frank & P.
+Wolfe, Nav. Res. Logist. Q. 3 (1956) 95), sequential quadratic programming elsewhere (scipy's SLSQP;
+D. Kraft, DFVLR-FB 88-28 (1988)).
 """
 
 from __future__ import annotations
@@ -25,12 +18,8 @@ import numpy as np
 
 from gripscale.case import Case
 from gripscale.core import Array, InputError, worker_count
-from gripscale.questions.design.compound_limits import (
-    AdmissibleChanges,
-    CompoundLimits,
-    PointLimit,
-    rolling_band,
-)
+from gripscale.questions.design import compound_limits
+from gripscale.questions.design.compound_limits import AdmissibleChanges, CompoundLimits, PointLimit
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction
 from gripscale.questions.vary.inputs import surface_of
 from gripscale.rubber import Rubber
@@ -59,10 +48,8 @@ class DesignProblem:
 
     friction: GoalFriction
     limits: CompoundLimits
-    # What stands for rolling resistance (`rolling`); each upper end is today's.
-    rolling: tuple[PointLimit, ...]
-    # The roads of the goals by their names.
-    roads: Mapping[str, Surface] = field(default_factory=dict)
+    rolling: tuple[PointLimit, ...]  # `rolling_band`
+    roads: Mapping[str, Surface] = field(default_factory=dict)  # of the goals, by their names
 
     @property
     def rubber(self) -> Rubber:
@@ -96,14 +83,16 @@ class DesignProblem:
     def worth_of_limits(self, level: float, slope: Array) -> dict[str, float]:
         """Return what a tenth more room gives in ln mu [-], by what is limited, to first order.
 
-        `slope` is the gradient at the optimum of the level. A range of moduli gets a tenth wider at
-        both ends, a factor or the level a tenth larger.
+        `slope` is the gradient at the optimum of the level. A range of moduli gets wider at both
+        ends.
         """
         limits, narrow = self.limits, self.admissible(level)
         larger = replace(limits, largest_factor=WIDER * limits.largest_factor)
         steeper = replace(limits, factor_per_decade=WIDER * limits.factor_per_decade)
-        wider = {LARGEST_FACTOR: replace(narrow, limits=larger)}
-        wider[PER_DECADE] = replace(narrow, limits=steeper)
+        wider = {
+            LARGEST_FACTOR: replace(narrow, limits=larger),
+            PER_DECADE: replace(narrow, limits=steeper),
+        }
         for i, point in enumerate(narrow.points):
             room = replace(point, low=point.low / WIDER, high=point.high * WIDER)
             ranges = (*narrow.points[:i], room, *narrow.points[i + 1 :])
@@ -126,7 +115,10 @@ def _most(admissible: AdmissibleChanges, slope: Array) -> float:
 
 @dataclass(frozen=True)
 class CompoundOptimum:
-    """The best admissible change at one level."""
+    """The best admissible change at one level.
+
+    The gap is max g . (s - r) over all admissible s, with g the gradient of ln mu at r.
+    """
 
     ratio: Array  # moduli over today's [-], E_inf first
     log_friction: float  # weighted mean of ln mu on the grid of the search [-]
@@ -159,10 +151,10 @@ def best_change(
 def nearest_design(
     friction: GoalFriction, admissible: AdmissibleChanges, optimum: CompoundOptimum
 ) -> CompoundOptimum:
-    """Return the change nearest to today's with almost the friction of the optimum.
+    """Return the change with the least sum of ln(r_i)^2 and almost the friction of the optimum.
 
     Friction falls faster than to first order away from the optimum: the step is halved until it
-    does not give away more than it may. The gap is what is given away, and that of the optimum.
+    does not give away more than `GIVEN_AWAY`, which counts in its gap.
     """
     from scipy.optimize import minimize
 
@@ -250,5 +242,6 @@ def design_problem(
     wanted = list(goals) or [default_goal(case)]
     named = {goal.road: (surfaces or {}).get(goal.road, goal.road) for goal in wanted}
     roads = {name: surface_of(road, case) for name, road in named.items()}
+    band = compound_limits.rolling_band(rubber)
     friction = GoalFriction.of(rubber, wanted, roads, worker_count(workers), case.load.thickness)
-    return DesignProblem(friction, limits or CompoundLimits(), rolling_band(rubber), roads)
+    return DesignProblem(friction, limits or CompoundLimits(), band, roads)
