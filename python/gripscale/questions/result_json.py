@@ -49,10 +49,7 @@ def summary_table(data: xr.Dataset) -> Table:
     """Return the answers of a result as one flat table: a row for each, all its numbers in it.
 
     A row is a place on the dimensions of the status of a result: a prediction, a model of a
-    comparison, a point of a study. What holds for several rows stands in each of them.
-
-    Rubber at rest has no friction. An answer is made of the direct contact: it stands in its row,
-    not in that of each model.
+    comparison, a point of a study. An answer stands in the row of the direct contact.
     """
     rows = data[next(name for name in ROWS if name in data)]  # each of its values is a row
     numbered = {dim: np.arange(n) for dim, n in rows.sizes.items() if dim not in data.coords}
@@ -75,8 +72,7 @@ def summary_table(data: xr.Dataset) -> Table:
     for name, value in texts.items():
         varied = {name, name.removeprefix("nominal_")} & columns.keys()
         if not varied and value not in (None, "", "null"):
-            everywhere = np.full(rows.size, value, object)
-            columns[name] = Column(name, everywhere, unit=_UNITS.get(name, ""))
+            columns[name] = Column(name, [value] * rows.size, unit=_UNITS.get(name, ""))
     order = {name: at for at, name in reversed([*enumerate([*map(str, rows.dims), *FIRST])])}
     return Table("summary", sorted(columns.values(), key=lambda c: order.get(c.name, len(order))))
 
@@ -94,7 +90,6 @@ def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = 
             if f"answer_{name}" in data:
                 number = answer_number(data, name)
                 answer[name], answer[f"{name}_interval"] = number.value, number[1:]
-    findings = [asdict(each) | {"topic": each.topic.name.lower()} for each in result.findings]
     content = {
         "format": FORMAT,
         "gripscale": version_of("gripscale"),
@@ -102,7 +97,7 @@ def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = 
         "case": case,
         "command": data.attrs.get("command", ""),
         "answer": answer,
-        "findings": findings,
+        "findings": [asdict(f) | {"topic": f.topic.name.lower()} for f in result.findings],
         "failure": result.failure,
         "table": _table(result.table()),
         "summary": _table(summary_table(data)),

@@ -344,10 +344,9 @@ def surface_keys(
 
 def columns_of(text: str) -> dict[str, str | int] | list[str | int]:
     """Return columns typed as 1,3,4 or as frequency=1,storage=3,loss_factor=4."""
-    parts = text.split(",")
-    if not all("=" in part for part in parts):
-        return [column_of(part) for part in parts]
-    pairs = [part.split("=", 1) for part in parts]
+    pairs = [part.split("=", 1) for part in text.split(",")]
+    if any(len(pair) == 1 for pair in pairs):
+        return [column_of(part) for part in text.split(",")]
     return {quantity.strip(): column_of(column) for quantity, column in pairs}
 
 
@@ -389,7 +388,7 @@ class CaseCommand:
         print_wrapped(self.console, opening)
 
     def solving(self, workers: int | None) -> dict[str, Any]:
-        """Return where a question keeps what it solves, on how many cores, and what tells of it."""
+        """Return the solver arguments: folder, workers and progress callback."""
         show_step(self.console, "solving ...")
         progress = progress_printer(self.console)
         return {"folder": self.target, "workers": workers, "on_task": progress}

@@ -43,8 +43,6 @@ from gripscale.report.failures import explained, failures_in
 
 # Names of the saved answer in a results folder, and of what is beside it.
 ANSWER_FILE, CHAIN_FILE, CURVE_FILE = "answer.nc", "chain.nc", "cut_off.nc"
-
-
 # Names until the next version, with a warning.
 _OLD_NAMES = {
     "adhesive_friction": "interface_friction",
@@ -72,9 +70,8 @@ class NumbersWithIntervals(Result):
     @property
     def hysteresis_friction(self) -> float:
         """Its part by the hysteresis [-]."""
-        return variables.answer_number(
-            self.data, variables.of_hysteresis(self.data, "friction")
-        ).value
+        name = variables.of_hysteresis(self.data, "friction")
+        return variables.answer_number(self.data, name).value
 
     @property
     def interface_friction(self) -> float:
@@ -133,8 +130,8 @@ class Answer(NumbersWithIntervals):
         if not self.reliable:
             return NO_WIDTHS
         names = {"friction": "friction", "area": "contact_fraction"}
-        widths = {key: float(self.data[f"answer_{name}_half_width"]) for key, name in names.items()}
-        return {key: width for key, width in widths.items() if math.isfinite(width)}
+        widths = {key: self.data[f"answer_{name}_half_width"] for key, name in names.items()}
+        return {key: float(width) for key, width in widths.items() if math.isfinite(width)}
 
     @property
     def basis(self) -> Sequence[str]:
@@ -168,8 +165,8 @@ class Answer(NumbersWithIntervals):
             yield "cut_off", cut_off_sheet(self.curve)
 
     def page_content(self) -> Page:
-        record = InputRecord(self.inputs)
-        return answer_page(self.data, record, self.findings, self.curve, self.chain)
+        inputs = InputRecord(self.inputs)
+        return answer_page(self.data, inputs, self.findings, self.curve, self.chain)
 
 
 def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
@@ -189,23 +186,22 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     folder : path, optional
         Keeps each prediction as soon as it is there: what was interrupted resumes.
     """
-    bench = bench_of(folder)
+    bench, load = bench_of(folder), case.load
     samples = direct_contact.solve_direct_contact(case, bench)
     if samples is None:
         chain = solved_chain(case, bench)
-        result = answer_with_inputs(
-            case, answer_of_waves(sample_numbers(chain, case.task()), case, case.load)
-        )
+        data = answer_of_waves(sample_numbers(chain, case.task()), case, load)
+        result = answer_with_inputs(case, data)
         result.chain = chain
         return result
-    curve = direct_contact.continued_curve(case, case.load, folder)
-    data = direct_contact.direct_contact_totals(samples, case, case.load, curve)
+    curve = direct_contact.continued_curve(case, load, folder)
+    data = direct_contact.direct_contact_totals(samples, case, load, curve)
     if case.softening_doubts:
         filled = case.replace(filled=True)
         of_filled = direct_contact.solve_direct_contact(filled, bench)
         assert of_filled is not None  # of the same surface
-        continued = direct_contact.continued_curve(filled, case.load, folder)
-        totals = direct_contact.direct_contact_totals(of_filled, filled, case.load, continued)
+        continued = direct_contact.continued_curve(filled, load, folder)
+        totals = direct_contact.direct_contact_totals(of_filled, filled, load, continued)
         data = variables.with_filled(data, totals)
     data.attrs[FINDINGS] = to_json(direct_contact.other_findings(samples, data, case))
     result = answer_with_inputs(case, data)
