@@ -108,12 +108,10 @@ def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = 
 
 def _table(table: Table) -> dict[str, Any]:
     """Return a table as rows of numbers by the names of its columns, with their units."""
+    units = {column.name: si_unit(column.unit, column.size) for column in table.columns}
     names = [column.name for column in table.columns]
     rows = zip(*(column.values for column in table.columns), strict=True)
-    return {
-        "units": {column.name: si_unit(column.unit, column.size) for column in table.columns},
-        "rows": [dict(zip(names, row, strict=True)) for row in rows],
-    }
+    return {"units": units, "rows": [dict(zip(names, row, strict=True)) for row in rows]}
 
 
 def _plain(value: Any) -> Any:

@@ -112,12 +112,11 @@ def title(variable: xr.DataArray) -> str:
 
 def course(data: xr.Dataset, name: str) -> str:
     """Return in words the least and the most of a number, and where; empty without a value."""
-    values = at_places(data, name)
+    values, every = at_places(data, name), list(places(data))
     values = np.where(values > 0.0, values, np.nan)  # none at rest
     if not np.isfinite(values).any():
         return ""
     ends = [at_places(data, str(end.name)) for end in interval_ends_of(data, name)]
-    every = list(places(data))
 
     def number(i: int) -> str:
         both = [significant(float(end[i])) for end in ends if math.isfinite(end[i])]
@@ -249,7 +248,7 @@ def panel(
         )
         if not np.isfinite(y).any():
             continue
-        bars = dict(zip(("low", "high"), () if numbers else both, strict=False))
+        bars: dict[str, Any] = dict(zip(("low", "high"), () if numbers else both, strict=False))
         if both and numbers and len(every) <= MOST_BANDS and np.isfinite(both[0]).any():
             label = "" if others else INTERVAL
             marks.append(ShadedBand(places_x, both[0], both[1], only, label, 0.15))

@@ -200,7 +200,7 @@ def _line_panels(trace: xr.Dataset) -> list[chart.Panel]:
         for name, colour in (("load", GREY), ("friction", GREEN))
         if np.isfinite(values := trace[f"running_{name}"].values).any()
     ]
-    heights = [shade, surface, outline("rubber", BLUE, "rubber", 0.9), contact]
+    heights: list[chart.Mark] = [shade, surface, outline("rubber", BLUE, "rubber", 0.9), contact]
     unnamed, height = replace(along, label=""), chart.PlotAxis(f"height $z$ [{trace.unit}]")
     force = chart.PlotAxis("pressure $p$ [MPa]", low=0.0)
     share = chart.PlotAxis("running share [-]", low=0.0)

@@ -13,8 +13,9 @@ and factors.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -30,7 +31,6 @@ from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
-from gripscale.half_space.line_to_map import finite_over_small
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import LINE_UNDER_LOAD, Load
@@ -117,28 +117,34 @@ def answer_of_samples(
             xr.Dataset(dict.fromkeys((*ESTIMATED, "adhesive_friction"), unknown))
         )
     direct = samples.sel(model=DIRECT, drop=True)
-    strain = solved_finite_strain or _of_large_strain(direct)
+    area, pressed = (reduce.mean(direct, n) for n in ("contact_fraction", "pressure_over_modulus"))
+    strain = solved_finite_strain or _numbers(
+        area, lambda name: line_to_map.finite_over_small(name, pressed.values, area.values)
+    )
     factors = {FACTOR_OF_STRAIN: (LARGE_STRAIN_LABEL, strain)}
+    data = xr.Dataset({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
     heights = direct.get("upper_height")
     if heights is not None and bool(heights.notnull().any()):  # lines of a surface, no map
-        factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
+        means = (reduce.mean(direct, name.removeprefix("total_")) for name in LINE_UNDER_LOAD)
+        line = line_to_map.LineUnderLoad(*(mean.values for mean in means))
+        laws = line_to_map.SURFACE_OVER_LINES
+        surface = _numbers(area, lambda name: laws[name](line, area.values), line_to_map.FREEDOM)
+        factors["isotropic_surface"] = LINES_TO_SURFACE, surface
+        data[variables.REACH] = unknown.copy(data=line.reach)
     factors |= _of_conditions(direct, conditions, unknown)
-    area = reduce.mean(direct, "contact_fraction")
     for factor in supplied:
         free = 1.0 - area if factor.of_small_contact else 1.0
-        factors[factor.name] = factor.label, _numbers_of(factor, unknown, free)
+        law = partial(_supplied, factor, free)
+        factors[factor.name] = factor.label, _numbers(unknown, law, factor.freedom)
     labels, solved = zip(*factors.values(), strict=True)
     values = {
         name: xr.concat([numbers[name][0] for numbers in solved], "factor") for name in ESTIMATED
     }
     # a factor that is not known of both quantities is not included
     included = values["contact_fraction"].notnull() & values["friction"].notnull()
-    data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
-    data = data.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
+    data["factor_label"] = ("factor", np.array(labels, dtype=object))
     shares = (share for share in (*variables.BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
     data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
-    if "isotropic_surface" in factors:
-        data[variables.REACH] = unknown.copy(data=_line_of(direct).reach)
     errors_of_total: dict[str, intervals.LogError] = {}  # of the area term, where there is one
     remaining, fit = xr.ones_like(unknown), xr.zeros_like(unknown)
     if contacts:
@@ -265,33 +271,21 @@ def _certain(sigma: xr.DataArray) -> intervals.LogError:
     return intervals.LogError(sigma, xr.full_like(sigma, math.inf))
 
 
-def _of_large_strain(direct: xr.Dataset) -> FactorNumbers:
-    """Return finite over small strain by the law at the contact area and modulus of the lines."""
-    lines = reduce.mean(direct, "contact_fraction")
-    pressed = reduce.mean(direct, "pressure_over_modulus")
-    numbers = {}
+def _numbers(
+    like: xr.DataArray, law: Callable[[str], tuple[Any, Any]], freedom: float = math.inf
+) -> FactorNumbers:
+    """Return a factor by its `law`: of each quantity the ratio and its standard error."""
+    ones, numbers = xr.ones_like(like), {}
     for name in ESTIMATED:
-        ratio, sigma = finite_over_small(name, pressed.values, lines.values)
-        numbers[name] = lines.copy(data=ratio), _certain(lines.copy(data=sigma))
+        ratio, sigma = law(name)
+        numbers[name] = ones * ratio, intervals.LogError(ones * sigma, ones * freedom)
     return numbers
 
 
-def _line_of(direct: xr.Dataset) -> line_to_map.LineUnderLoad:
-    """Return the mean of the lines of direct contacts under their load."""
-    names = (name.removeprefix("total_") for name in LINE_UNDER_LOAD)
-    return line_to_map.LineUnderLoad(*(reduce.mean(direct, name).values for name in names))
-
-
-def _of_surface(direct: xr.Dataset) -> FactorNumbers:
-    """Return the step from lines to their surface at the contact area of the lines."""
-    lines = reduce.mean(direct, "contact_fraction")
-    freedom = xr.full_like(lines, line_to_map.FREEDOM)
-    numbers = {}
-    for name, law in line_to_map.SURFACE_OVER_LINES.items():
-        surface = law(_line_of(direct), lines.values)
-        sigma = lines.copy(data=surface.uncertainty)
-        numbers[name] = lines.copy(data=surface.ratio), intervals.LogError(sigma, freedom)
-    return numbers
+def _supplied(factor: Factor, share: Any, name: str) -> tuple[Any, Any]:
+    """Return a factor and its error, their logarithms times a share."""
+    value, sigma = getattr(factor, name)
+    return value**share, sigma * share
 
 
 def _of_conditions(
@@ -301,8 +295,8 @@ def _of_conditions(
     factors: dict[str, tuple[str, FactorNumbers]] = {}
     if conditions is not None and conditions.softening is not None:
         values = LogNormalValue(1.0, LOG_AREA), LogNormalValue(1.0, LOG_FRICTION)
-        rule = Factor("strain_rule", "strain rule", *values)
-        factors[rule.name] = rule.label, _numbers_of(rule, unknown)
+        rule = dict(zip(ESTIMATED, values, strict=True))
+        factors["strain_rule"] = "strain rule", _numbers(unknown, rule.__getitem__)
     if "condition" not in direct.dims:
         return factors
     for at, label in enumerate(direct.condition.values):
@@ -312,16 +306,6 @@ def _of_conditions(
             numbers[name] = xr.ones_like(change), _certain(abs(change))
         factors[str(label)] = str(label), numbers
     return factors
-
-
-def _numbers_of(factor: Factor, unknown: xr.DataArray, share: Any = 1.0) -> FactorNumbers:
-    numbers = {}
-    for name in ESTIMATED:
-        number: LogNormalValue = getattr(factor, name)
-        sigma = xr.full_like(unknown, number.uncertainty) * share
-        error = intervals.LogError(sigma, xr.full_like(unknown, factor.freedom))
-        numbers[name] = xr.full_like(unknown, number.value) ** share, error
-    return numbers
 
 
 def estimate_of_waves(

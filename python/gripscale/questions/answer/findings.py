@@ -39,7 +39,18 @@ def answer_notices(data: xr.Dataset) -> Iterator[Finding]:
     """Yield what may change an answer, other than what `no_answer` says of it."""
     if not has_answer(data):
         return
-    yield from _against_measurement(data)
+    if MEASURED_FRICTION in data:
+        answer, measured = answer_number(data, "friction"), float(data[MEASURED_FRICTION])
+        difference = answer.value / measured - 1.0
+        text = (
+            f"The answer is {percent_text(abs(difference))} "
+            f"{'below' if difference < 0.0 else 'above'} the measured friction, "
+            f"{measured_words(data)}"
+        )
+        if answer.interval:
+            where = "inside" if answer.low <= measured <= answer.high else "outside"
+            text += f", which lies {where} its interval"
+        yield Finding(Severity.WARNING, f"{text}.", friction=difference, topic=Topic.MEASURED)
     shares = reliance.guesses(data)
     yield from (share for share in shares if share.effect <= reliance.MOST_ON_GUESSES)
     yield from from_json(data.attrs.get(FINDINGS, ""))
@@ -103,22 +114,6 @@ def measured_words(data: xr.Dataset) -> str:
     about = f" ± {significant(spread, 2)}" if math.isfinite(spread) else ""
     state = data[MEASURED_FRICTION].attrs["state"]
     return f"{significant(friction)}{about}{f' at {state}' if state else ''}"
-
-
-def _against_measurement(data: xr.Dataset) -> Iterator[Finding]:
-    """Yield how an answer differs from the friction measured at its load."""
-    if MEASURED_FRICTION not in data:
-        return
-    answer, measured = answer_number(data, "friction"), float(data[MEASURED_FRICTION])
-    difference = answer.value / measured - 1.0
-    text = (
-        f"The answer is {percent_text(abs(difference))} {'below' if difference < 0.0 else 'above'} "
-        f"the measured friction, {measured_words(data)}"
-    )
-    if answer.interval:
-        holds = answer.low <= measured <= answer.high
-        text += f", which lies {'inside' if holds else 'outside'} its interval"
-    yield Finding(Severity.WARNING, f"{text}.", friction=difference, topic=Topic.MEASURED)
 
 
 def changes(data: xr.Dataset, ratio: float) -> dict[str, float]:

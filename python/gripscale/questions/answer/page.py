@@ -31,8 +31,9 @@ from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.cut_off.question import CutOff
 from gripscale.questions.inputs.page import files_table, rubber_section, surface_section
 from gripscale.questions.inputs.record import InputRecord, signed_percent
+from gripscale.questions.view import load_in_words
 from gripscale.report import elements
-from gripscale.report.elements import Card, Element, Facts, Page, Section, percent_text
+from gripscale.report.elements import Card, Facts, Page, Section, percent_text
 from gripscale.report.equations import method_section
 from gripscale.surface import SineStack
 from gripscale.surface.direction import ERROR_OF_RIDGES
@@ -43,6 +44,12 @@ HYSTERESIS_ALONE = (
     "Hysteresis alone is a lower bound: far below the friction of a dry road, which interface = "
     '"dry" in [conditions] adds, and nearer to that of a lubricated one.'
 )
+_LOAD = {
+    "nominal_pressure": "Nominal pressure",
+    "nominal_speed": "Sliding speed",
+    "footprint": "Footprint",
+    "thickness": "Thickness of the rubber",
+}
 _WORDS = {"friction": "friction", "contact_fraction": "area"}
 _PICTURE = (
     "The direct contact of the measured surface. Friction is made where pressure acts on flanks "
@@ -109,10 +116,7 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield what an answer is for, how it was solved and corrected, and what its interval holds."""
     if not has_answer(data):
         return
-    pressure, speed = (
-        display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
-        for name in ("pressure", "speed")
-    )
+    pressure, speed = load_in_words(data)
     motion = f"and {speed}" if reliance.is_moving(data) else "at rest"
     end = in_mm(float(data.get(CONTINUED_TO, data.cutoff_wavelength)), 3)
     more = ""
@@ -247,6 +251,17 @@ def answer_page(
     curves = [] if curve is None else CutOff(curve).elements()
     chapters = [Section("cut-off", "Against the cut-off", curves)]
     chapters += [] if chain is None else [chain_section(chain, data)]
+    traces = named_traces(data, record.data)
+    charts = [chart for name, trace in traces for chart in trace_charts(trace, name)]
+    contact: list[elements.Element] = []
+    if charts:
+        contact = [elements.Text(_PICTURE), charts[0], *slopes_table(data), *charts[1:]]
+    files = [files_table(record)] if record.has("file_name") else []
+    load = [
+        (title, display_unit_of(data.attrs, name.removeprefix("nominal_")).text(float(data[name])))
+        for name, title in _LOAD.items()
+        if name in data
+    ]
     moving = chain if reliance.is_moving(data) else None
     method = [*(DirectContact if reliance.is_measured(data) else Chain).method]
     method += ["surface"] if LINES_TO_SURFACE in data.factor_label.values else []
@@ -257,8 +272,8 @@ def answer_page(
         [*no_answer_notices(data), *findings],
         answer_cards(data),
         [
-            Section("contact", "Rubber on the surface", contact_elements(data, record)),
-            Section("inputs", "Inputs and their origin", _origin(data, record)),
+            Section("contact", "Rubber on the surface", contact),
+            Section("inputs", "Inputs and their origin", [Facts("Load", load), *files]),
             Section("surface", "Surface", surface_section(record, waves)),
             Section("rubber", "Rubber", rubber_section(record, moving)),
             *chapters,
@@ -267,32 +282,6 @@ def answer_page(
         ],
         basis_lines(data),
     )
-
-
-def _origin(data: xr.Dataset, record: InputRecord) -> list[Element]:
-    """Return the load, and the measured files with their checksums."""
-    titles = {
-        "nominal_pressure": "Nominal pressure",
-        "nominal_speed": "Sliding speed",
-        "footprint": "Footprint",
-        "thickness": "Thickness of the rubber",
-    }
-    load = []
-    for name, title in titles.items():
-        if name in data:
-            unit = display_unit_of(data.attrs, name.removeprefix("nominal_"))
-            load.append((title, unit.text(float(data[name]))))
-    return [Facts("Load", load), *([files_table(record)] if record.has("file_name") else [])]
-
-
-def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
-    """Return the direct contact of the measured surface as pictures and by slope."""
-    traces = named_traces(direct, record.data)
-    charts = [chart for name, trace in traces for chart in trace_charts(trace, name)]
-    if not charts:
-        return []
-    first, *others = charts
-    return [elements.Text(_PICTURE), first, *slopes_table(direct), *others]
 
 
 def slopes_table(direct: xr.Dataset) -> Iterator[Table]:

@@ -16,7 +16,7 @@ where the case has an interface the sum with its friction. The factors and error
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import xarray as xr
@@ -74,13 +74,17 @@ def _number(start: str, words: str, role: str, symbol: str) -> dict[str, dict[st
     return about
 
 
-def _evidence(texts: Mapping[str, str]) -> dict[str, dict[str, str]]:
-    return {name: {"long_name": text, "role": "evidence"} for name, text in texts.items()}
-
-
 _HYSTERESIS = "friction coefficient of the hysteresis"
 _SYMBOL_OF_AREA = SYMBOLS["contact_fraction"]
 _AREA = f"{HEADINGS['contact_fraction']} {_SYMBOL_OF_AREA}"
+_EVIDENCE = {
+    **{f"answer_friction{end}": text.format(_HYSTERESIS) for end, text in _PARTS.items()},
+    **{f"answer_contact_fraction{end}": text.format(_AREA) for end, text in _PARTS.items()},
+    ERROR_LEFT: "share of the variance of the answer that a fit to measured friction leaves",
+    REACH: "how few summits of the lines carry, over the fewest that the step to a surface knows",
+    **{f"answer_{share}": model.BASIS[f"total_{share}"] for share in BASIS_SHARES},
+    **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
+}
 # All variables of an answer with their attributes.
 ANSWER_NUMBERS: dict[str, dict[str, str]] = {
     **_number("answer_friction", HEADINGS["friction"], "answer", SYMBOLS["friction"]),
@@ -91,18 +95,7 @@ ANSWER_NUMBERS: dict[str, dict[str, str]] = {
         "role": "part",
         "symbol": "area term",
     },
-    **_evidence(
-        {f"answer_friction{end}": text.format(_HYSTERESIS) for end, text in _PARTS.items()}
-        | {f"answer_contact_fraction{end}": text.format(_AREA) for end, text in _PARTS.items()}
-        | {
-            ERROR_LEFT: "share of the variance of the answer that a fit to measured friction "
-            "leaves",
-            REACH: "how few summits of the lines carry, over the fewest that the step to a surface "
-            "knows",
-        }
-        | {f"answer_{share}": model.BASIS[f"total_{share}"] for share in BASIS_SHARES}
-        | {f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()}
-    ),
+    **{name: {"long_name": text, "role": "evidence"} for name, text in _EVIDENCE.items()},
 }
 # The numbers with the solved factor of finite strain, and their meaning.
 LARGE_STRAIN_NUMBERS = {

@@ -173,9 +173,8 @@ def _quantities(comparison: xr.Dataset) -> list[str]:
 def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     rows = list(rows_of(comparison, name))
     numbers = [end for row in rows for end in row.numbers if end > 0.0] or [0.1, 1.0]
-    low, high = min(numbers), max(numbers)
-    widen = max(_LEAST_RANGE * low / high, 1.0) ** 0.5
-    low, high = low / widen, high * widen
+    widen = max(_LEAST_RANGE * min(numbers) / max(numbers), 1.0) ** 0.5
+    low, high = min(numbers) / widen, max(numbers) * widen
     room = (high / low) ** 0.13
     theories = int((comparison.group == "theory").sum())
     models = on_the_surface(comparison).sizes["model"]

@@ -83,9 +83,8 @@ def comparison_setups(
 
     Arguments and errors are those of `compare`.
     """
-    tasks = {"": case.task()}
+    tasks, axis = {"": case.task()}, None
     rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
-    axis: Axis | None = None
     if vary is not None:
         study = Study(case, vary, model=Chain.name)
         axis = study.axes[0]
@@ -198,17 +197,8 @@ def at_measured(
 
     The result is that of `gripscale.questions.residuals`, with the area term of the case's
     conditions; None where no friction was measured or no model predicts. Of several samples of a
-    model the means; beside the direct contact the `answer` of the case, which has its factors on
-    friction and area. Raises `InputError` or `FileError` as `Bench.solve`.
-
-    Parameters
-    ----------
-    ladder : SolvedLadder
-        Under one load, with what was measured.
-    store : path
-        Folder of the finished predictions.
-    workers, client, on_task
-        As for `gripscale.experiment.Bench`.
+    model the means; beside the direct contact the `answer` of the case. `store` is the folder of
+    the predictions; other arguments and errors are those of `gripscale.experiment.Bench`.
     """
     measured, setup = ladder.measured, ladder.setups[0]
     if measured is None:
@@ -333,9 +323,8 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     add("status_word", reduce.status_word(samples), "word of the status")
     add("seconds", samples.seconds.sum("sample"), "time its samples took", "s")
     loads = [setup.load for setup in setups]
-    pressures, speeds = by_load([x.pressure for x in loads]), by_load([x.speed for x in loads])
-    add("nominal_pressure", pressures, "nominal pressure", "Pa")
-    add("nominal_speed", speeds, "sliding speed", "m/s")
+    add("nominal_pressure", by_load([x.pressure for x in loads]), "nominal pressure", "Pa")
+    add("nominal_speed", by_load([x.speed for x in loads]), "sliding speed", "m/s")
     words = {
         "label": "the model in words",
         "group": "what it can be asked for with",
@@ -346,9 +335,9 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         column = np.array([getattr(member, name) for member in comparison.models], dtype=object)
         add(name, xr.DataArray(column, dims="model"), text)
     add("factor_label", best.factor_label, "factors of the answer")
-    measured = comparison.measured
+    measured, case = comparison.measured, comparison.case
     data |= {} if measured is None else measured_variables(measured)
-    coords = {} if axis is None else coordinates([axis], comparison.case.units)
+    coords = {} if axis is None else coordinates([axis], case.units)
     text = "lower end of the octave"
     coords["wavelength"] = labelled("wavelength", wavelength, "m", text, _SOURCE)
     subjects: list[Doubtful] = [setups[0].surface, *comparison.rubbers]
@@ -358,10 +347,8 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         {"model": [member.name for member in comparison.models], **coords},
         {
             "title": "Contact and friction by model",
-            **comparison.case.attributes,
-            **model.input_doubts(
-                subjects, loads, comparison.case.units, comparison.case.softening_doubts
-            ),
+            **case.attributes,
+            **model.input_doubts(subjects, loads, case.units, case.softening_doubts),
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,
             "tolerance": setups[0].tolerance,

@@ -77,8 +77,8 @@ def comparison_table(data: xr.Dataset) -> Table:
                 columns.append(column)
         for part in ("spread", "error"):
             share = data[f"{name}_{part}"].values / np.where(value == 0.0, np.nan, value)
-            column = f"{name}_{part}"
-            columns.append(Column(column, share, part, "%", 0.01, format=_two_digits, group=group))
+            key = f"{name}_{part}"
+            columns.append(Column(key, share, part, "%", 0.01, format=_two_digits, group=group))
         columns.append(Column(f"{name}_factor", data[f"{name}_factor"].values, "×", group=group))
     pairs = zip(data.converged_samples.values, data.samples.values, strict=True)
     samples = [str(n) if k == n else f"{k}/{n}" for k, n in pairs]
@@ -282,11 +282,10 @@ def compare(
 ) -> Comparison:
     """Put the models side by side over the inputs of a case.
 
-    The result is over `model`, and what is varied; without a measured profile it has only the chain
-    and its own waves at once. A sample that did not converge counts in no mean, and its model says
-    so. Raises `InputError` or `FileError` if an input cannot be used by a model, a result cannot be
-    written, the case refuses extrapolation and a wave excites the rubber beyond the measured band,
-    or other than one input of numbers is varied.
+    The result is over `model`, and what is varied. A sample that did not converge counts in no
+    mean, and its model says so. Raises `InputError` or `FileError` if an input cannot be used by a
+    model, a result cannot be written, the case refuses extrapolation that a wave needs, or other
+    than one input of numbers is varied.
 
         >>> gs.compare(case, models=["theory"]).to_dataset().model.values.tolist()
         ['persson']
@@ -308,8 +307,8 @@ def compare(
     factors : sequence of Factor
         Factors of the answer known from elsewhere; under one load only.
     accuracy : float
-        Half width of the 90 % interval wanted, relative: windows are solved at finite strain until
-        their factor is known to a third of it, or of what the rest of the estimate leaves open.
+        Half width of the 90 % interval wanted, relative; windows are solved until their factor is
+        known to a third of it, or of what the rest of the estimate leaves open.
     folder : path, optional
         Keeps each prediction as soon as it is there: what was interrupted resumes.
     workers, client, on_task

@@ -266,14 +266,6 @@ class AdmissibleChanges:
         """Whether any change is admissible."""
         return self.best(np.zeros(1 + self.rubber.moduli.size)) is not None
 
-    def require_some(self) -> None:
-        """Raise `InputError` if nothing is admissible."""
-        if not self.possible:
-            raise InputError(
-                "the limits must leave an admissible change; got limits on the moduli that "
-                "contradict one another within the largest factors"
-            )
-
     def best(self, gradient: Array) -> Array | None:
         """Return the admissible r with the largest gradient . r, None if nothing is admissible."""
         from scipy.optimize import linprog

@@ -69,9 +69,13 @@ class DesignProblem:
     def least_level(self) -> float:
         """Return the least rolling resistance over today's [-] that the limits admit.
 
-        The admissible levels are all above it: the interval that holds it is halved.
+        The interval that holds it is halved. Raises `InputError` if no change is admissible.
         """
-        self.admissible().require_some()
+        if not self.admissible().possible:
+            raise InputError(
+                "the limits must leave an admissible change; got limits on the moduli that "
+                "contradict one another within the largest factors"
+            )
         low, high = 0.0, 1.0
         while not self.admissible(high).possible:
             low, high = high, 2.0 * high
@@ -132,7 +136,6 @@ def best_change(
     """Return the admissible change with the largest friction, sought from `start`."""
     from scipy.optimize import minimize
 
-    admissible.require_some()
     optimum = _corner_steps(friction, admissible, start)
     if optimum.gap <= LEAST_GAP:
         return optimum

@@ -141,8 +141,6 @@ class CompoundDesign(Result):
         least = rolling_at_todays_friction(data)
         if math.isfinite(least):
             lines.append(f"  Or the same friction with rolling resistance {change(least - 1.0)}.")
-        elif float(data.gain[0]) >= 0.0 and data.sizes["point"] > 1:
-            lines.append(f"  Or friction {_trade(data.isel(point=0))}.")
         fruitless = json.loads(attrs.get(compound_design.FRUITLESS, "[]"))
         if fruitless and fruitless[-1] > data.rolling_level[-1]:
             last = change(float(data.rolling_ratio[-1]) - 1.0)
@@ -267,9 +265,8 @@ def design(
 
     The result is over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %),
     friction, moduli and master curve; over `compound` the other compounds; today's values without
-    either. Raises `InputError`, `FileError` or `ConvergenceError` if the case, a goal or a limit
-    cannot be used, a temperature needs a shift that the rubber does not have, or today's compound
-    has no friction.
+    either. Raises `InputError`, `FileError` or `ConvergenceError` if the case, a goal, a limit or a
+    temperature cannot be used, or today's compound has no friction.
 
         >>> print(gs.design(case, levels=[1.0]).lines[0])
         Answer: friction 0.036 now → 0.056 with the design at the same rolling resistance: +57.4 %.
@@ -283,10 +280,9 @@ def design(
     limits : CompoundLimits, optional
         How far the compound may be changed.
     levels : sequence of float, optional
-        Largest rolling resistances over today's [-]: tan(delta) and loss compliance at 10 and 50 Hz
-        and 40 to 70 C, the worst of them. By default today's, four down to the least that the
-        limits admit, and 1.15 and 1.3. A level below the least is left out, and one that gives no
-        more friction than a lower one.
+        Largest rolling resistances over today's [-]. By default today's, four down to the least
+        that the limits admit, and 1.15 and 1.3. A level below the least is left out, and one that
+        gives no more friction than a lower one.
     rubbers : mapping, optional
         Other compounds by name, to be compared with the curve.
     roads : mapping, optional
