@@ -1,7 +1,6 @@
 """A result for other programs: its answers as one flat table, and all of it as JSON.
 
-Every number is in SI units; the map `units` of the table has the units of its columns. A number
-that is missing or infinite is null, as JSON has no NaN.
+Every number is in SI units. A number that is missing or infinite is null, as JSON has no NaN.
 """
 
 from __future__ import annotations

@@ -3,8 +3,7 @@
     answer = gs.answer(case)
     answer.friction, answer.friction_interval
 
-The measured surface is pressed and slid as a whole; known factors lead to finite strain and from
-lines to a surface (`gripscale.questions.answer.estimate`). `gripscale run` prints this object.
+Known factors lead from direct contact to finite strain and from lines to a surface (`estimate`).
 """
 
 from __future__ import annotations
@@ -215,10 +214,7 @@ def bench_of(folder: str | Path | None) -> Bench:
 
 
 def solved_chain(case: Case, bench: Bench) -> xr.Dataset:
-    """Return the chain of waves of a case as its model predicts it, with the deformed blocks.
-
-    A wave that does not converge ends it: `prediction_status` says so.
-    """
+    """Return the chain of waves of a case, with the deformed blocks; a failed wave ends it."""
     (predicted,) = bench.solve({variables.OF_THE_PAPER: case.task()}).values()
     sources = {"surface_source": case.surface.source, "rubber_source": case.measured_rubber.source}
     return predicted.assign_attrs(case.attributes | sources)

@@ -2,12 +2,10 @@
 
     A/A_0 = (direct contact) x (finite strain/small strain) x (isotropic surface/its lines)
 
-and friction likewise. The first factor is a law measured on windows of other roads
-(`gripscale.half_space.line_to_map`). A comparison also solves it, as a ratio of two models on the
-same windows, and says what the answer becomes with it. The second is a law measured on synthetic
-surfaces (`gripscale.half_space.line_to_map`). The interval (`intervals`) is for the mean over the
-road with the roughness down to the cut-off, from the sampling of the road and the errors of grids
-and factors.
+and friction likewise. Both factors are laws (`gripscale.half_space.line_to_map`), of windows of
+other roads and of synthetic surfaces; a comparison also solves the first. The interval
+(`intervals`) is for the mean over the road with the roughness down to the cut-off, from the
+sampling of the road and the errors of grids and factors.
 """
 
 from __future__ import annotations

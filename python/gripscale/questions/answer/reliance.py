@@ -1,8 +1,7 @@
 """The law of reliance: whether a result has an answer, and whether it may be relied on.
 
-There is none to rely on where the inputs may be those of another case, where more than half of
-friction or contact comes from what was not measured, where the measured surface is too small, or
-where fewer summits carry than on the surfaces that the step from profiles to a surface knows.
+There is none where the inputs may be those of another case, where more than half of friction or
+contact was not measured, where the surface is too small, or where too few of its summits carry.
 """
 
 from __future__ import annotations

@@ -37,9 +37,8 @@ def sample_numbers(
 ) -> xr.Dataset:
     """Return totals, named without `total_`, their estimated errors, and curves by wavelength.
 
-    `curve_contact_fraction` and `curve_friction` over `curve` count all waves not shorter than
-    `curve_wavelength`. Friction at rest is zero. An area term of `conditions` that the model does
-    not know is that of its contact area at the temperature before the contact.
+    The curves count all waves not shorter than `curve_wavelength`. An area term of `conditions`
+    that the model does not know is that of its contact area at the temperature before the contact.
     """
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in SAMPLED_QUANTITIES}
     numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
@@ -114,10 +113,7 @@ def curve_at(
 
 
 def octaves(longest: float, shortest: float, end: float) -> Array:
-    """Return the lower ends of octaves [m], falling, that hold both waves, `end` among them.
-
-    Empty where there are no waves (NaN).
-    """
+    """Return the lower ends of octaves [m], falling, that hold both waves; empty for NaN."""
     if math.isnan(longest):
         return np.empty(0)
     first, last = np.floor(np.log2(np.array([longest, shortest]) / end) + _ROUNDING)
@@ -125,10 +121,7 @@ def octaves(longest: float, shortest: float, end: float) -> Array:
 
 
 def running(samples: xr.Dataset, name: str, wavelength: Array) -> xr.DataArray:
-    """Return the mean over the samples down to each wavelength [m].
-
-    NaN where a sample with a curve does not have it there.
-    """
+    """Return the mean down to each wavelength [m]; NaN where a sample's curve is not known."""
     dims = samples["prediction_status"].dims
     values = np.full((*samples["prediction_status"].shape, wavelength.size), np.nan)
     there = converged(samples)

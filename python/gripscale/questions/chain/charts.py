@@ -79,10 +79,7 @@ def _total_panel(views: Views, name: str) -> Panel:
 
 
 def _total_marks(view: PredictionView, name: str, colour: str, along: PlotAxis) -> Iterator[Mark]:
-    """Yield the running value and that of each wave, or the total of a model without waves.
-
-    Above them the answer with its interval, if there is one.
-    """
+    """Yield the values of each wave and down to it, or a total without waves; then the answer."""
     if not view.waves:
         if np.isfinite(total := view.total(name)):
             yield CrossLine(total, colour, f"{view.name}, total", "dotted", 1.4)
@@ -200,10 +197,7 @@ def _draw_pressure(axes: Axes, view: PredictionView, i: int) -> None:
 
 
 def _draw_mesh(axes: Axes, view: PredictionView, i: int, low: float, high: float) -> None:
-    """Draw the rigid wave and the block upon it between two heights [wavelengths].
-
-    Of the periodic mesh some columns and rows of nodes, over three wavelengths.
-    """
+    """Draw the rigid wave and some nodes of the block upon it between heights [wavelengths]."""
     abscissa = np.linspace(-0.5, 0.5, 200)
     steepness = view.column("amplitude")[i] / view.column("wavelength")[i]
     wave = steepness * np.cos(2.0 * math.pi * abscissa)

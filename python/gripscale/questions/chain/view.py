@@ -1,7 +1,7 @@
 """A model's Dataset as tables, figures and pages read it; what a model has not is left out.
 
-Everything over waves (dimension `scale`) is there only for a chain. Numbers of waves that did not
-converge are kept in the Dataset, and hidden by `usable`.
+Only a chain has waves (dimension `scale`). Numbers of those that did not converge are in the
+Dataset, and hidden by `usable`.
 """
 
 from __future__ import annotations

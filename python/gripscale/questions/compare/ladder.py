@@ -1,8 +1,6 @@
 """The ladder: from the chain to the profile as measured, one assumption given up on each model.
 
-A new model is a function that draws its samples, entered at its place by `_compared`. What two
-models on the same surfaces say of an assumption may become a factor of the answer
-(`gripscale.questions.answer.estimate`).
+A new model is a function that draws its samples, entered at its place by `_compared`.
 """
 
 from __future__ import annotations
@@ -267,10 +265,7 @@ def _on_windows(
 
 @lru_cache(maxsize=4)
 def _windows(lines: tuple[Profile, ...], length: float) -> list[Profile]:
-    """Return windows of the profiles.
-
-    The first, the middle, the quarters, ...: the first few are spread over the profiles as all are.
-    """
+    """Return windows of which the first few are spread over the profiles as all are."""
     spread = spread_windows(lines, length, MOST_WINDOWS)
     bits = max(len(spread) - 1, 1).bit_length()
     halving = [int(f"{number:0{bits}b}"[::-1], 2) for number in range(len(spread))]

@@ -10,7 +10,7 @@ D. Kraft, DFVLR-FB 88-28 (1988)).
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -134,8 +134,6 @@ def best_change(
     friction: GoalFriction, admissible: AdmissibleChanges, start: Array
 ) -> CompoundOptimum:
     """Return the admissible change with the largest friction, sought from `start`."""
-    from scipy.optimize import minimize
-
     optimum = _corner_steps(friction, admissible, start)
     if optimum.gap <= LEAST_GAP:
         return optimum
@@ -144,9 +142,7 @@ def best_change(
         value, slope = friction.log_friction(ratio)
         return -value, -slope
 
-    settings = _programme(admissible, *admissible.rows)
-    solved = minimize(negative, optimum.ratio, jac=True, **settings)
-    inside = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
+    inside = _descent(negative, optimum.ratio, admissible, *admissible.rows)
     further = _corner_steps(friction, admissible, inside)
     return max(optimum, further, key=lambda end: end.log_friction)
 
@@ -159,8 +155,6 @@ def nearest_design(
     Friction falls faster than to first order away from the optimum: the step is halved until it
     does not give away more than `GIVEN_AWAY`, which counts in its gap.
     """
-    from scipy.optimize import minimize
-
     matrix, most = admissible.rows
     matrix = np.vstack([matrix, -optimum.slope])
     most = np.append(most, GIVEN_AWAY - float(optimum.slope @ optimum.ratio))
@@ -169,9 +163,7 @@ def nearest_design(
         logarithm = np.log(ratio)
         return float(logarithm @ logarithm), 2.0 * logarithm / ratio
 
-    settings = _programme(admissible, matrix, most)
-    solved = minimize(distance, optimum.ratio, jac=True, **settings)
-    ratio = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
+    ratio = _descent(distance, optimum.ratio, admissible, matrix, most)
     if admissible.violation(ratio) > _ROUNDING:
         return optimum
     for _ in range(MOST_HALVINGS):
@@ -182,18 +174,24 @@ def nearest_design(
     return optimum
 
 
-def _programme(admissible: AdmissibleChanges, matrix: Array, most: Array) -> dict[str, Any]:
-    """Return the arguments of scipy's SLSQP for matrix . r <= most and the bounds."""
+Objective = Callable[[Array], tuple[float, Array]]
 
-    def margin(ratio: Array) -> Array:
-        return np.asarray(most - matrix @ ratio)
 
-    return {
-        "method": "SLSQP",
-        "bounds": [admissible.bounds] * matrix.shape[1],
-        "constraints": {"type": "ineq", "fun": margin, "jac": lambda _: -matrix},
-        "options": {"ftol": PRECISION, "maxiter": MOST_STEPS},
-    }
+def _descent(function: Objective, start: Array, limits: AdmissibleChanges, *rows: Array) -> Array:
+    """Return where SLSQP ends on a function with its gradient, where matrix . r <= most."""
+    from scipy.optimize import minimize
+
+    matrix, most = rows
+    solved = minimize(
+        function,
+        start,
+        jac=True,
+        method="SLSQP",
+        bounds=[limits.bounds] * matrix.shape[1],
+        constraints={"type": "ineq", "fun": lambda r: most - matrix @ r, "jac": lambda _: -matrix},
+        options={"ftol": PRECISION, "maxiter": MOST_STEPS},
+    )
+    return np.asarray(np.clip(solved.x, *limits.bounds), dtype=float)
 
 
 def _corner_steps(

@@ -261,8 +261,7 @@ def gain(
 ) -> Gain:
     """Return the gain of the compound of contacts `after` over that of contacts `before`.
 
-    Both are those of `SolvedCompound`; `rubber` is the standard error of G from the measurement of
-    the rubber (`series_error`).
+    `rubber` is the standard error of G from the measurement of the rubber (`series_error`).
     """
 
     def log_ratio(name: str) -> float:
