@@ -182,15 +182,14 @@ def _descent(function: Objective, start: Array, limits: AdmissibleChanges, *rows
     from scipy.optimize import minimize
 
     matrix, most = rows
-    solved = minimize(
-        function,
-        start,
-        jac=True,
-        method="SLSQP",
-        bounds=[limits.bounds] * matrix.shape[1],
-        constraints={"type": "ineq", "fun": lambda r: most - matrix @ r, "jac": lambda _: -matrix},
-        options={"ftol": PRECISION, "maxiter": MOST_STEPS},
-    )
+    settings: dict[str, Any] = {
+        "bounds": [limits.bounds] * matrix.shape[1],
+        "constraints": {
+            "type": "ineq", "fun": lambda r: most - matrix @ r, "jac": lambda _: -matrix
+        },
+        "options": {"ftol": PRECISION, "maxiter": MOST_STEPS},
+    }  # fmt: skip
+    solved = minimize(function, start, jac=True, method="SLSQP", **settings)
     return np.asarray(np.clip(solved.x, *limits.bounds), dtype=float)
 
 
