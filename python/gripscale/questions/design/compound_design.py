@@ -246,15 +246,3 @@ def other_compounds(
         parts.append(xr.Dataset(variables(numbers, "compound_")))
     names = np.array(list(rubbers), dtype=object)
     return xr.concat(parts, "compound").assign_coords(compound=("compound", names)), notes
-
-
-def rising_levels(levels: Sequence[float], problem: DesignProblem) -> list[float]:
-    """Return the levels that the limits admit, rising: each admits the optimum of the last."""
-    least = problem.least_level()
-    reachable = sorted({float(level) for level in levels if level > least})
-    if not reachable:
-        raise InputError(
-            f"levels must include one above {least:.3g}, the least rolling resistance over "
-            f"today's that the limits admit; got {', '.join(f'{level:g}' for level in levels)}"
-        )
-    return reachable

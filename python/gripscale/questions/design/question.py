@@ -298,6 +298,13 @@ def design(
     """
     problem = design_problem(case, goals, limits, workers, roads)
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
+    least = problem.least_level()
+    rising = sorted({float(level) for level in wanted if level > least})
+    if not rising:
+        raise InputError(
+            f"levels must include one above {least:.3g}, the least rolling resistance over "
+            f"today's that the limits admit; got {', '.join(f'{level:g}' for level in wanted)}"
+        )
     now = compound_design.todays_answers(case, problem, folder, on_task)
     problem.friction.log_friction(problem.unchanged)  # all contacts start from these
     reference = SolvedCompound.of(problem.friction, problem.rubber, problem.rubber)
@@ -318,8 +325,7 @@ def design(
     of_compounds = [doubt(text) for text in reading_notes((rubbers or {}).values())]
     of_compounds += [d.about(name) for name, each in named.items() for d in each.doubts]
     points, fruitless = list[xr.Dataset](), set[float]()
-    rising = compound_design.rising_levels(wanted, problem)
-    for level in rising:
+    for level in rising:  # each admits the optimum of the last
         point = compound_design.solved_point(problem, reference, level, points[-1:])
         answers = base.today_answer_friction * (point.friction / base.today_friction)
         text = "friction of the answer with the design"
