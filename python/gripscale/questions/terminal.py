@@ -246,23 +246,13 @@ def argument(text: str, metavar: str | None = None) -> Any:
 
 
 CasePath = Annotated[Path, argument("The case file (TOML).", "CASE.toml")]
-OwnFolder = Annotated[
-    Path | None,
-    option(
-        "Results folder, instead of this command's own in that of the case.",
-        "--output",
-        metavar="DIR",
-    ),
-]
-MeasuredPath = Annotated[
-    Path | None,
-    option(
-        "Measured friction, instead of what the case names: a table with columns speed and "
-        "friction, and if known spread, temperature and pressure.",
-        "--measured",
-        metavar="FILE.csv",
-    ),
-]
+_FOLDER = "Results folder, instead of this command's own in that of the case."
+OwnFolder = Annotated[Path | None, option(_FOLDER, "--output", metavar="DIR")]
+_MEASURED = (
+    "Measured friction, instead of what the case names: a table with columns speed and friction, "
+    "and if known spread, temperature and pressure."
+)
+MeasuredPath = Annotated[Path | None, option(_MEASURED, "--measured", metavar="FILE.csv")]
 SurfaceUnit = Annotated[
     str | None, option("Where the file of the surface does not state it; of counts such as 0.5 um.")
 ]
@@ -275,21 +265,13 @@ SurfaceChannel = Annotated[
 SurfaceCrop = Annotated[
     tuple[str, str] | None, option('Part of the profiles, such as "120 mm" "1780 mm".')
 ]
-LongestWavelength = Annotated[
-    str | None,
-    option(
-        "Longest wave kept in profiles; by default 1.5 footprints, where longer ones hold most of "
-        "the mean square height, else all."
-    ),
-]
-Modulus = Annotated[
-    str | None,
-    option(
-        "E (Young) or G (shear), of files of moduli that do not state it.",
-        "--modulus",
-        metavar="E|G",
-    ),
-]
+_LONGEST = (
+    "Longest wave kept in profiles; by default 1.5 footprints, where longer ones hold most of the "
+    "mean square height, else all."
+)
+LongestWavelength = Annotated[str | None, option(_LONGEST)]
+_MODULUS = "E (Young) or G (shear), of files of moduli that do not state it."
+Modulus = Annotated[str | None, option(_MODULUS, "--modulus", metavar="E|G")]
 Workers = Annotated[int | None, option("Cores to use; all by default.")]
 Cluster = Annotated[
     str | None, option('"local", or the address of a Dask scheduler: tcp://host:8786.')

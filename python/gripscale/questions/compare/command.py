@@ -13,37 +13,32 @@ if TYPE_CHECKING:
     from gripscale.questions.compare.comparison import SolvedLadder
 
 
+_VARY = (
+    "Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
+    "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off."
+)
+_MODELS = (
+    "Models wanted, by name or group (waves, measured, theory, windows, map), such as "
+    "'chain,measured'; windows and map take a minute or two. By default all."
+)
+_ACCURACY = (
+    "Half width of the 90 % interval that is wanted: more windows are solved until finite strain "
+    "adds no more than a third of it."
+)
+
+
 @terminal.case_command
 def compare_command(
     case: terminal.CasePath,
-    vary: Annotated[
-        str | None,
-        terminal.option(
-            "Compare over one input, as `gripscale study` varies it: speed=0.003:30:log9, "
-            "pressure='1 bar,3 bar', temperature='20 C,40 C', smallest_wavelength, cut_off.",
-            metavar="NAME=VALUES",
-        ),
-    ] = None,
+    vary: Annotated[str | None, terminal.option(_VARY, metavar="NAME=VALUES")] = None,
     measured: terminal.MeasuredPath = None,
-    models: Annotated[
-        str | None,
-        terminal.option(
-            "Models wanted, by name or group (waves, measured, theory, windows, map), such "
-            "as 'chain,measured'; windows and map take a minute or two. By default all."
-        ),
-    ] = None,
+    models: Annotated[str | None, terminal.option(_MODELS)] = None,
     output: terminal.OwnFolder = None,
     seeds: Annotated[int, typer.Option(help="Random phases drawn of the sine waves.")] = 3,
     tolerance: Annotated[
         float, typer.Option(help="Estimated relative error of each direct contact.")
     ] = 0.05,
-    accuracy: Annotated[
-        float,
-        typer.Option(
-            help="Half width of the 90 % interval that is wanted: more windows are solved until "
-            "finite strain adds no more than a third of it."
-        ),
-    ] = 0.1,
+    accuracy: Annotated[float, typer.Option(help=_ACCURACY)] = 0.1,
     workers: terminal.Workers = None,
     cluster: terminal.Cluster = None,
 ) -> None:
