@@ -57,36 +57,30 @@ def answer_notices(data: xr.Dataset) -> Iterator[Finding]:
     direct = direct_of(data)
     steep = float(data.get("answer_steep_share", math.nan))
     if steep > WORTH_SAYING:
-        yield Finding(
-            Severity.WARNING,
+        text = (
             f"{percent_text(steep)} of the friction comes from slopes above 1, where neither small "
-            "strain nor a measured profile is reliable.",
-            friction=steep,
-            topic=Topic.SOLUTION,
+            "strain nor a measured profile is reliable."
         )
+        yield Finding(Severity.WARNING, text, friction=steep, topic=Topic.SOLUTION)
     octave = {} if CONTINUED_TO in data else changes(data, 1.0 / OCTAVE)
     if max(map(abs, octave.values()), default=0.0) > SMALL_CHANGE:
         half = in_mm(float(data.cutoff_wavelength) / OCTAVE, 3)
         cure = "; `gripscale cut-off` computes it" if is_measured(data) else ""
-        yield Finding(
-            Severity.WARNING,
+        text = (
             f"If the roughness goes on as over its last octave, down to {half}, half the cut-off, "
-            f"{in_words(octave)}{cure}.",
-            friction=octave.get("friction", math.nan),
-            area=octave.get("contact_fraction", math.nan),
-            topic=Topic.SURFACE,
+            f"{in_words(octave)}{cure}."
         )
+        friction, area = (octave.get(name, math.nan) for name in ("friction", "contact_fraction"))
+        yield Finding(Severity.WARNING, text, friction, area, Topic.SURFACE)
     traction, lost = float(direct.total_friction), float(direct.total_friction_from_dissipation)
     apart = abs(traction / lost - 1.0) if reliance.is_moving(data) and lost > 0.0 else 0.0
     if apart > LARGE_MISMATCH:
-        yield Finding(
-            Severity.WARNING,
+        text = (
             f"The two frictions of the {reliance.solved_model(data)}, from traction and from "
             f"losses, differ by {percent_text(apart)}; the answer takes the one from "
-            f"{'losses' if is_measured(data) else 'traction'}.",
-            friction=apart,
-            topic=Topic.SOLUTION,
+            f"{'losses' if is_measured(data) else 'traction'}."
         )
+        yield Finding(Severity.WARNING, text, friction=apart, topic=Topic.SOLUTION)
 
 
 # Names of measured friction at the speed of an answer, and of its standard deviation.
@@ -143,12 +137,10 @@ def _beyond_measurement(direct: xr.Dataset, record: InputRecord) -> Iterator[Fin
     held = float(direct.cutoff_wavelength)
     if held > 1.01 * end and CONTINUED_TO not in direct:
         cure = ": `gripscale cut-off`, or down_to in [below_measurement], continues the roughness"
-        yield Finding(
-            Severity.DOUBT,
-            f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves "
-            f"shorter than {in_mm(held, 3)}, two of their steps"
-            f"{'' if record.of_map else cure}.",
-            key="below_measurement.down_to",
+        text = (
+            f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves shorter "
+            f"than {in_mm(held, 3)}, two of their steps{'' if record.of_map else cure}."
         )
+        yield Finding(Severity.DOUBT, text, key="below_measurement.down_to")
     if limit > 1.01 * held:
         yield inputs.extrapolated_roughness(limit, held, changes(direct, limit / held))

@@ -66,13 +66,9 @@ def no_answer(data: xr.Dataset, but: str = "") -> str:
 def guesses(data: xr.Dataset) -> Iterator[Finding]:
     """Yield the shares of an answer on frequencies and heights that were not measured."""
     beyond = model.extrapolation_of(direct_of(data))
-    if friction_sentence(beyond):
-        yield Finding(
-            Severity.WARNING,
-            f"{friction_sentence(beyond)} There the Prony series is an extrapolation.",
-            friction=beyond.share,
-            topic=Topic.RUBBER,
-        )
+    if sentence := friction_sentence(beyond):
+        text = f"{sentence} There the Prony series is an extrapolation."
+        yield Finding(Severity.WARNING, text, friction=beyond.share, topic=Topic.RUBBER)
     missing = float(data.get("answer_missing_share", math.nan))
     if missing > WORTH_NAMING:
         text = f"{percent_text(missing)} of the contact lies on filled gaps of the measurement."

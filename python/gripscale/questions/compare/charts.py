@@ -321,13 +321,12 @@ def measured_sheet(
 def comparison_pictures(data: xr.Dataset) -> Iterator[Picture]:
     """Yield the figures of a comparison: its ladder and wavelengths, or all over its axis."""
     if axis := varied(data):
-        yield Picture(
-            f"over_{axis}",
-            comparison_axis_figure(data),
+        caption = (
             f"Area and friction of every model over {axis.replace('_', ' ')}; bands are the "
-            "standard deviation over its samples, dashed is beyond the measured band.",
-            "Two panels with a curve for each model.",
+            "standard deviation over its samples, dashed is beyond the measured band."
         )
+        alt = "Two panels with a curve for each model."
+        yield Picture(f"over_{axis}", comparison_axis_figure(data), caption, alt)
         return
     yield Picture(
         "comparison",

@@ -345,10 +345,8 @@ def compare(
             if stages:
                 asked = stages.pop(0)
             elif ladders.windows_left(ladder, accuracy):
-                setups = {
-                    label: replace(setup, windows=setup.windows + 1)
-                    for label, setup in setups.items()
-                }
+                more = ladder.setups[0].windows + 1
+                setups = {label: replace(setup, windows=more) for label, setup in setups.items()}
             else:
                 break
     data = ladder.data

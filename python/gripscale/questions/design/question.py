@@ -201,14 +201,12 @@ class CompoundDesign(Result):
         return Table("design", columns, title, notes)
 
     def pictures(self) -> Iterator[Picture]:
-        yield Picture(
-            "design",
-            design_figure(self.data),
+        caption = (
             "Friction gained against rolling resistance, and the master curves of some points "
-            "beside today's.",
-            "A curve of friction over rolling resistance with points of compounds, and three "
-            "panels of curves over the frequency.",
+            "beside today's."
         )
+        alt = "A curve of friction over rolling resistance, and three panels over the frequency."
+        yield Picture("design", design_figure(self.data), caption, alt)
 
 
 def _gain_columns(data: xr.Dataset, of: str, heading: str) -> list[Column]:
@@ -413,14 +411,9 @@ def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
     paths = []
     for at in range(data.sizes["point"]):
         rubber, point = designed_rubber(data, at), data.isel(point=at)
-        curve = MasterCurve(
-            point.frequency.values,
-            point.storage.values,
-            point.loss.values,
-            rubber.reference_temperature,
-            rubber.name,
-            f"design of gripscale, not measured; from {data.attrs['rubber']}",
-        )
+        numbers = (point[name].values for name in ("frequency", "storage", "loss"))
+        source = f"design of gripscale, not measured; from {data.attrs['rubber']}"
+        curve = MasterCurve(*numbers, rubber.reference_temperature, rubber.name, source)
         text = json.dumps(rubber.to_dict(), indent=1)
         paths.append(write_master_curve(target / f"{rubber.name}.csv", curve))
         paths.append(write_text(target / f"{rubber.name}.json", text))
