@@ -411,9 +411,10 @@ def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
     paths = []
     for at in range(data.sizes["point"]):
         rubber, point = designed_rubber(data, at), data.isel(point=at)
-        numbers = (point[name].values for name in ("frequency", "storage", "loss"))
+        frequency, storage, loss = point.frequency.values, point.storage.values, point.loss.values
         source = f"design of gripscale, not measured; from {data.attrs['rubber']}"
-        curve = MasterCurve(*numbers, rubber.reference_temperature, rubber.name, source)
+        kelvin = rubber.reference_temperature
+        curve = MasterCurve(frequency, storage, loss, kelvin, rubber.name, source)
         text = json.dumps(rubber.to_dict(), indent=1)
         paths.append(write_master_curve(target / f"{rubber.name}.csv", curve))
         paths.append(write_text(target / f"{rubber.name}.json", text))
