@@ -253,7 +253,8 @@ AT_200 = "Speed = 200 m/s is not between 1e-09 m/s and 100 m/s: is its unit righ
 def test_commands_and_their_pages_say_the_doubts_of_a_run(tmp_path, shell, command, of_its_load):
     file = write(tmp_path, case=TRAPPED, road=with_plate(20e-3))
     (tmp_path / "friction.csv").write_text("speed [m/s],friction\n0.1,2\n1,2\n200,2\n")
-    said = [n.sentence for n in case_notices(None, InputRecord(record.inputs(read_case(file))))]
+    of_inputs = record.input_findings(InputRecord(record.inputs(read_case(file))))
+    said = [finding.sentence for finding in of_inputs]
     first = [*said[:3], *filter(None, [of_its_load])]
     for words in ("plates", "states the temperature of its moduli", "The footprint, 1 mm"):
         assert any(words in text for text in first)

@@ -4,24 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
+from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.charts.draw import FigureFolder
+from gripscale.cli import app
 from gripscale.conditions import Conditions
 from gripscale.conditions.area_term import ConstantStress
 from gripscale.io.table import significant
+from gripscale.questions import terminal
 from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, answer_number, believed
 from gripscale.questions.page_of_folder import read_result
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane
-from tests.samples import GENTLE_SINES, SHIFTED_RUBBER, Shell
+from tests.samples import GENTLE_SINES, SHIFTED_RUBBER
 
 LOAD: dict[str, Any] = {"pressure": 3e5, "speed": 0.3, "footprint": 0.05}
 COLD = Conditions(heat="none")
@@ -96,10 +98,10 @@ class Asked:
         """What it answers with."""
         return ["friction", "contact_fraction"] if self.case.load.speed else ["contact_fraction"]
 
-    @cached_property
+    @property
     def expected(self) -> list[float]:
         """The numbers of `gs.answer`, by its documented attributes."""
-        return [self.answer.friction, self.answer.contact_fraction][-len(self.names) :]
+        return [getattr(self.answer, name) for name in self.names]
 
     @property
     def shown(self) -> dict[str, str]:
@@ -126,21 +128,17 @@ def asked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
     case = case_of(surface, **arguments)
     folder = tmp_path_factory.mktemp(request.param)
     path = case.save(folder / "case.toml")
+    printed = shell("run", path, "--output", folder / "results")
+    return Asked(case, gs.answer(case), folder / "results", printed)
+
+
+def shell(*words: object) -> str:
+    """Return what a command prints, as one line; its figures are not drawn."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(FigureFolder, "save", lambda *_: None)
-        run = request.getfixturevalue("shell_of_module")
-        result = run("run", path, "--output", folder / "results")
+        result = CliRunner().invoke(app, list(map(str, words)), env={"COLUMNS": "100"})
     assert result.exit_code == 0, result.output
-    return Asked(case, gs.answer(case), folder / "results", " ".join(result.output.split()))
-
-
-@pytest.fixture(scope="module")
-def shell_of_module() -> Shell:
-    from typer.testing import CliRunner
-
-    from gripscale.cli import app
-
-    return lambda *words: CliRunner().invoke(app, list(map(str, words)), env={"COLUMNS": "100"})
+    return " ".join(result.output.split())
 
 
 def ways(asked: Asked) -> Iterator[tuple[str, list[float]]]:
@@ -171,33 +169,21 @@ def test_run_prints_the_answer_once(asked: Asked) -> None:
 
 
 def test_pages_show_it(asked: Asked) -> None:
-    from gripscale.report.elements import Card
-
-    for cards in (
-        asked.answer.page_content().cards,
-        read_result(asked.folder).page_content().cards,
-    ):
-        assert all(isinstance(card, Card) for card in cards)
-        values = {card.label: card.value for card in cards}
+    for result in (asked.answer, read_result(asked.folder)):
+        values = {card.label: card.value for card in result.page_content().cards}
         for name, value in asked.shown.items():
             assert values[f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}"] == value
 
 
 @pytest.mark.parametrize("asked", ["several_profiles", "waves"], indirect=True)
-def test_commands_lead_with_it(asked: Asked, shell_of_module: Shell) -> None:
+def test_commands_lead_with_it(asked: Asked) -> None:
     path, folder = asked.folder.parent / "case.toml", asked.folder.parent
     pressure = f"pressure={asked.case.load.pressure / 1e5:g} bar"
     commands = {
-        "comparison": ["compare", path, "--models", asked.judge],
-        "study": ["study", path, "--vary", pressure],
+        "comparison": ("compare", path, "--models", asked.judge),
+        "study": ("study", path, "--vary", pressure),
     }
-    printed = {}
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(FigureFolder, "save", lambda *_: None)
-        for name, command in commands.items():
-            result = shell_of_module(*command, "--output", folder / name)
-            assert result.exit_code == 0, result.output
-            printed[name] = " ".join(result.output.split())
+    printed = {name: shell(*words, "--output", folder / name) for name, words in commands.items()}
     compared = gs.load(folder / "comparison" / "comparison.nc")
     assert asked.of(compared.data) == pytest.approx(asked.expected, rel=1e-4)
     assert printed["comparison"].count("Answer: ") == 1
@@ -237,8 +223,6 @@ def test_uncertainty_has_it(asked: Asked) -> None:
 
 
 def test_a_number_and_its_per_cent_stay_on_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    from gripscale.questions import terminal
-
     for length in range(80, 100):
         terminal.print_wrapped(terminal.screen(), f"{'x' * length} large strain 5.0 %")
         assert "5.0 %" in capsys.readouterr().out

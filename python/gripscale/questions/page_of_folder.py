@@ -45,40 +45,21 @@ KINDS_OF_REPORTS = (
 )
 
 
-def predicted_tree(path: Path) -> xr.DataTree:
-    """Return the file of a prediction; raise `FileError` for one that no model answered."""
-    tree = netcdf.load_tree(path)
-    names = set(tree.variables)
-    if not ({"total_contact_fraction", "total_friction"} <= names) or not (
-        {"prediction_status", "status"} & names
-    ):
+def _predicted(path: Path) -> xr.Dataset:
+    """Return a prediction; raise `FileError` for a file that no model answered."""
+    data = netcdf.load_dataset(path)
+    totals = {"total_contact_fraction", "total_friction"} <= {*data}
+    if not totals or not {"prediction_status", "status"} & {*data}:
         raise FileError(
             f"{path} has no report: it holds no totals or quantiles of a {KINDS_OF_REPORTS}"
         )
-    return tree
-
-
-def read_run(folder: Path) -> Answer:
-    """Return what a run left in a folder: its answer, with what is of the same case beside it.
-
-    Raises `FileError` if a file is damaged or no result.
-    """
-    result: Answer = load(folder / ANSWER_FILE)
-
-    def of_this_case(name: str) -> xr.Dataset | None:
-        path = folder / name
-        data = predicted_tree(path).to_dataset() if path.is_file() else None
-        same = data is not None and data.attrs.get("case") == result.data.attrs.get("case")
-        return data if same else None
-
-    result.chain, result.curve = of_this_case(CHAIN_FILE), of_this_case(CURVE_FILE)
-    return result
+    return data
 
 
 def write_report(result: str | Path, output: str | Path | None = None) -> Path:
     """Write the HTML report of `result` and return its path.
 
-    Raises `FileError` if the result is missing or unreadable, or the page cannot be written. Raises
+    Raises `FileError` if the result is missing or unreadable, or the page cannot be written;
     `InputError` if the libraries of `gripscale[report]` are not installed.
 
     Parameters
@@ -94,28 +75,26 @@ def write_report(result: str | Path, output: str | Path | None = None) -> Path:
     return write_page(read_result(path).page_content, output or folder / "report.html")
 
 
-def read_comparisons(folder: Path) -> Comparison | None:
-    """Return the comparisons in a folder as one; None without any."""
-    paths = [folder / "comparison.nc", *sorted(folder.glob("over_*.nc"))]
-    every = [Comparison(predicted_tree(p).to_dataset()) for p in paths if p.is_file()]
-    if not every:
-        return None
-    every[0].others = every[1:]
-    return every[0]
-
-
 def read_result(path: Path) -> Result:
     """Read the results folder or netCDF file at `path`.
 
     Raises `FileError` if it is missing, unreadable or no result of gripscale.
     """
+    result: Result
     if not path.is_dir():
-        result: Result = load(path)
+        result = load(path)
         return result
     if (path / ANSWER_FILE).is_file():
-        return read_run(path)
-    if (compared := read_comparisons(path)) is not None:
-        return compared
+        run: Answer = load(path / ANSWER_FILE)
+        for name, part in ((CHAIN_FILE, "chain"), (CURVE_FILE, "curve")):
+            data = _predicted(path / name) if (path / name).is_file() else xr.Dataset()
+            if data and data.attrs.get("case") == run.data.attrs.get("case"):
+                setattr(run, part, data)
+        return run
+    paths = [path / "comparison.nc", *sorted(path.glob("over_*.nc"))]
+    if compared := [Comparison(_predicted(file)) for file in paths if file.is_file()]:
+        compared[0].others = compared[1:]
+        return compared[0]
     others = sorted(file for file in path.glob("*.nc") if not file.name.startswith("."))
     if not others:
         raise FileError(f"{path} holds no result; expected the folder of a {KINDS_OF_REPORTS}")

@@ -1,7 +1,6 @@
 """The questions: one package each, found by the kind of a result, by a command and by the app.
 
-A package says in its `__init__` what it holds, as texts, so that nothing heavy is
-imported to list them:
+A package says in its `__init__` what it holds, as texts, so that nothing heavy is imported:
 
     KINDS       the class of a saved result by its kind,  {"cut_off": "question:CutOff"}
     COMMANDS    the function of a command by its name,    {"cut-off": "command:cut_off"}

@@ -4,8 +4,7 @@
     result.save("answer.nc")
     gs.load("answer.nc").page("answer.html")
 
-A file knows its question by the attribute `kind`, from which
-`gripscale.questions.page_of_folder` finds its class.
+The attribute `kind` of a file tells its question.
 """
 
 from __future__ import annotations

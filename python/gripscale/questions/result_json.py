@@ -1,7 +1,6 @@
 """A result for other programs: its answers as one flat table, and all of it as JSON.
 
-Every number is in SI units; the map `units` of the table has the units of its columns. A number
-that is missing or infinite is null, as JSON has no NaN.
+Every number is in SI units. A number that is missing or infinite is null, as JSON has no NaN.
 """
 
 from __future__ import annotations
@@ -49,10 +48,7 @@ def summary_table(data: xr.Dataset) -> Table:
     """Return the answers of a result as one flat table: a row for each, all its numbers in it.
 
     A row is a place on the dimensions of the status of a result: a prediction, a model of a
-    comparison, a point of a study. What holds for several rows stands in each of them.
-
-    Rubber at rest has no friction. An answer is made of the direct contact: it stands in its row,
-    not in that of each model.
+    comparison, a point of a study. An answer stands in the row of the direct contact.
     """
     rows = data[next(name for name in ROWS if name in data)]  # each of its values is a row
     numbered = {dim: np.arange(n) for dim, n in rows.sizes.items() if dim not in data.coords}
@@ -75,8 +71,7 @@ def summary_table(data: xr.Dataset) -> Table:
     for name, value in texts.items():
         varied = {name, name.removeprefix("nominal_")} & columns.keys()
         if not varied and value not in (None, "", "null"):
-            everywhere = np.full(rows.size, value, object)
-            columns[name] = Column(name, everywhere, unit=_UNITS.get(name, ""))
+            columns[name] = Column(name, [value] * rows.size, unit=_UNITS.get(name, ""))
     order = {name: at for at, name in reversed([*enumerate([*map(str, rows.dims), *FIRST])])}
     return Table("summary", sorted(columns.values(), key=lambda c: order.get(c.name, len(order))))
 
@@ -94,7 +89,6 @@ def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = 
             if f"answer_{name}" in data:
                 number = answer_number(data, name)
                 answer[name], answer[f"{name}_interval"] = number.value, number[1:]
-    findings = [asdict(each) | {"topic": each.topic.name.lower()} for each in result.findings]
     content = {
         "format": FORMAT,
         "gripscale": version_of("gripscale"),
@@ -102,7 +96,7 @@ def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = 
         "case": case,
         "command": data.attrs.get("command", ""),
         "answer": answer,
-        "findings": findings,
+        "findings": [asdict(f) | {"topic": f.topic.name.lower()} for f in result.findings],
         "failure": result.failure,
         "table": _table(result.table()),
         "summary": _table(summary_table(data)),
@@ -113,12 +107,10 @@ def result_as_json(result: Result, case: str = "", files: Sequence[NamedFile] = 
 
 def _table(table: Table) -> dict[str, Any]:
     """Return a table as rows of numbers by the names of its columns, with their units."""
+    units = {column.name: si_unit(column.unit, column.size) for column in table.columns}
     names = [column.name for column in table.columns]
     rows = zip(*(column.values for column in table.columns), strict=True)
-    return {
-        "units": {column.name: si_unit(column.unit, column.size) for column in table.columns},
-        "rows": [dict(zip(names, row, strict=True)) for row in rows],
-    }
+    return {"units": units, "rows": [dict(zip(names, row, strict=True)) for row in rows]}
 
 
 def _plain(value: Any) -> Any:

@@ -47,16 +47,13 @@ MANNER: ContextVar[Manner] = ContextVar("manner", default=_USUAL)  # manner of t
 
 
 def screen(stderr: bool = False) -> Console:
-    """Return a console for a terminal, or for a plain file or pipe of sensible width.
-
-    It prints nothing to standard output where the command prints its result only.
-    """
+    """Return a console for a terminal, or for a plain file or pipe of sensible width."""
     from rich.console import Console
 
     manner = MANNER.get()
     stream = sys.stderr if stderr else sys.stdout
     wide = None if stream.isatty() or "COLUMNS" in os.environ else PLAIN_WIDTH
-    quiet = not stderr and (manner.quiet or manner.json)
+    quiet = not stderr and (manner.quiet or manner.json)  # the command prints its result only
     return Console(stderr=stderr, width=wide, highlight=False, markup=False, quiet=quiet)
 
 
@@ -70,19 +67,6 @@ def print_error(message: str, label: str = "error: ") -> None:
 
 # Folder that the running command writes its results into.
 RESULTS_FOLDER: ContextVar[Path | None] = ContextVar("results", default=None)
-
-
-def failure_of(error: GripscaleError | KeyboardInterrupt) -> tuple[str, int]:
-    """Return the sentence and the exit code a command ends with after `error`."""
-    if isinstance(error, KeyboardInterrupt):
-        target = RESULTS_FOLDER.get()
-        if target is None or not any(target.rglob("[!.]*.nc")):
-            return "Stopped; nothing was finished.", STOPPED
-        return f"Stopped; what was finished is kept in {target}.", STOPPED
-    from gripscale.report.failures import explained
-
-    exit_code = _NOT_CONVERGED if isinstance(error, ConvergenceError) else BAD_INPUT
-    return explained(error), exit_code
 
 
 def print_wrapped(console: Console, message: str) -> None:
@@ -112,16 +96,13 @@ PROGRESS_LINES = "GRIPSCALE_PROGRESS_LINES"
 
 
 def show_step(console: Console, text: str) -> None:
-    """Write a step of the work over the one before it in a terminal; write nothing elsewhere.
-
-    The terminal is that of the errors where standard output is a file or holds the result only.
-    """
+    """Write a step of the work over the one before it in a terminal; write nothing elsewhere."""
     from rich.text import Text
 
     if os.environ.get(PROGRESS_LINES):
         print_wrapped(console, text)
         return
-    if console.quiet or not console.is_terminal:
+    if console.quiet or not console.is_terminal:  # standard output is a file, or for the result
         console = screen(stderr=True)
     if MANNER.get().quiet or not console.is_terminal:
         return
@@ -152,14 +133,21 @@ def command(body: Callable[P, None]) -> Callable[P, None]:
         MANNER.set(_USUAL)
         try:
             body(*args, **kwargs)
-        except (GripscaleError, KeyboardInterrupt) as error:
+        except KeyboardInterrupt:
             end_steps()
-            label = ""
-            if isinstance(error, GripscaleError):
-                error.args, label = (with_options(error.words, kwargs),), "error: "
-            message, exit_code = failure_of(error)
-            print_error(message, label)
-            raise typer.Exit(exit_code) from None
+            target = RESULTS_FOLDER.get()
+            kept = target is not None and any(target.rglob("[!.]*.nc"))
+            rest = f"what was finished is kept in {target}" if kept else "nothing was finished"
+            print_error(f"Stopped; {rest}.", "")
+            raise typer.Exit(STOPPED) from None
+        except GripscaleError as error:
+            from gripscale.report.failures import explained
+
+            end_steps()
+            error.args = (with_options(error.words, kwargs),)
+            print_error(explained(error))
+            failed = isinstance(error, ConvergenceError)
+            raise typer.Exit(_NOT_CONVERGED if failed else BAD_INPUT) from None
 
     return inside
 
@@ -258,23 +246,13 @@ def argument(text: str, metavar: str | None = None) -> Any:
 
 
 CasePath = Annotated[Path, argument("The case file (TOML).", "CASE.toml")]
-OwnFolder = Annotated[
-    Path | None,
-    option(
-        "Results folder, instead of this command's own in that of the case.",
-        "--output",
-        metavar="DIR",
-    ),
-]
-MeasuredPath = Annotated[
-    Path | None,
-    option(
-        "Measured friction, instead of what the case names: a table with columns speed and "
-        "friction, and if known spread, temperature and pressure.",
-        "--measured",
-        metavar="FILE.csv",
-    ),
-]
+_FOLDER = "Results folder, instead of this command's own in that of the case."
+OwnFolder = Annotated[Path | None, option(_FOLDER, "--output", metavar="DIR")]
+_MEASURED = (
+    "Measured friction, instead of what the case names: a table with columns speed and friction, "
+    "and if known spread, temperature and pressure."
+)
+MeasuredPath = Annotated[Path | None, option(_MEASURED, "--measured", metavar="FILE.csv")]
 SurfaceUnit = Annotated[
     str | None, option("Where the file of the surface does not state it; of counts such as 0.5 um.")
 ]
@@ -287,21 +265,13 @@ SurfaceChannel = Annotated[
 SurfaceCrop = Annotated[
     tuple[str, str] | None, option('Part of the profiles, such as "120 mm" "1780 mm".')
 ]
-LongestWavelength = Annotated[
-    str | None,
-    option(
-        "Longest wave kept in profiles; by default 1.5 footprints, where longer ones hold most of "
-        "the mean square height, else all."
-    ),
-]
-Modulus = Annotated[
-    str | None,
-    option(
-        "E (Young) or G (shear), of files of moduli that do not state it.",
-        "--modulus",
-        metavar="E|G",
-    ),
-]
+_LONGEST = (
+    "Longest wave kept in profiles; by default 1.5 footprints, where longer ones hold most of the "
+    "mean square height, else all."
+)
+LongestWavelength = Annotated[str | None, option(_LONGEST)]
+_MODULUS = "E (Young) or G (shear), of files of moduli that do not state it."
+Modulus = Annotated[str | None, option(_MODULUS, "--modulus", metavar="E|G")]
 Workers = Annotated[int | None, option("Cores to use; all by default.")]
 Cluster = Annotated[
     str | None, option('"local", or the address of a Dask scheduler: tcp://host:8786.')
@@ -344,10 +314,9 @@ def surface_keys(
 
 def columns_of(text: str) -> dict[str, str | int] | list[str | int]:
     """Return columns typed as 1,3,4 or as frequency=1,storage=3,loss_factor=4."""
-    parts = text.split(",")
-    if not all("=" in part for part in parts):
-        return [column_of(part) for part in parts]
-    pairs = [part.split("=", 1) for part in parts]
+    pairs = [part.split("=", 1) for part in text.split(",")]
+    if any(len(pair) == 1 for pair in pairs):
+        return [column_of(part) for part in text.split(",")]
     return {quantity.strip(): column_of(column) for quantity, column in pairs}
 
 
@@ -373,10 +342,7 @@ class CaseCommand:
         return read_case(self.file)
 
     def open_results(self, output: Path | None, name: str, opening: str = "") -> None:
-        """Make the folder of results, then print what the command begins with, rubber and surface.
-
-        The folder is called `name`, in that of the case, by default.
-        """
+        """Make the folder of results, `name` in that of the case by default; print the opening."""
         from gripscale.case_file.folder import claim
         from gripscale.io.folders import require_writable
 
@@ -389,7 +355,7 @@ class CaseCommand:
         print_wrapped(self.console, opening)
 
     def solving(self, workers: int | None) -> dict[str, Any]:
-        """Return where a question keeps what it solves, on how many cores, and what tells of it."""
+        """Return the solver arguments: folder, workers and progress callback."""
         show_step(self.console, "solving ...")
         progress = progress_printer(self.console)
         return {"folder": self.target, "workers": workers, "on_task": progress}
@@ -402,7 +368,7 @@ class CaseCommand:
         drawings: str = "figures",
         page: Callable[[Path], Path] | None = None,
     ) -> None:
-        """End the command with the result of its question: save, print and draw it.
+        """End the command with its result: save, print and draw it.
 
         `contents` is what the folder holds beside the result, `drawings` the folder of the figures.
         """
@@ -418,13 +384,8 @@ class CaseCommand:
             for name, figure in result.figures():
                 figures.save(figure, name)
 
-        self.conclude(
-            result,
-            list(result.parts()),
-            closing=f"Result ({result.file}), {contents} are in",
-            draw=draw,
-            page=page,
-        )
+        closing = f"Result ({result.file}), {contents} are in"
+        self.conclude(result, list(result.parts()), closing=closing, draw=draw, page=page)
 
     def conclude(
         self,

@@ -27,8 +27,6 @@ from gripscale.model import STATUS
 from gripscale.questions.answer.variables import SYMBOLS, believed
 from gripscale.report.elements import Card
 
-# Places.
-
 # What selections of effects are called where nothing else says what they are of.
 EFFECTS = {"all": "all effects", "none": "no effects"}
 _KINDS = {"Pa": "pressure", "m/s": "speed", "m": "length"}  # of quantities, by their SI unit
@@ -95,9 +93,6 @@ def at_places(data: xr.Dataset, name: str) -> NDArray[Any]:
     return np.ravel(whole.transpose(*dimensions(data)).values)
 
 
-# Numbers.
-
-
 def answers(data: xr.Dataset) -> list[str]:
     """Return the variables to believe: friction, then the contact area."""
     return [believed(data, name) for name in reversed(SYMBOLS)]
@@ -117,12 +112,11 @@ def title(variable: xr.DataArray) -> str:
 
 def course(data: xr.Dataset, name: str) -> str:
     """Return in words the least and the most of a number, and where; empty without a value."""
-    values = at_places(data, name)
+    values, every = at_places(data, name), list(places(data))
     values = np.where(values > 0.0, values, np.nan)  # none at rest
     if not np.isfinite(values).any():
         return ""
     ends = [at_places(data, str(end.name)) for end in interval_ends_of(data, name)]
-    every = list(places(data))
 
     def number(i: int) -> str:
         both = [significant(float(end[i])) for end in ends if math.isfinite(end[i])]
@@ -134,9 +128,6 @@ def course(data: xr.Dataset, name: str) -> str:
     least, most = int(np.nanargmin(values)), int(np.nanargmax(values))
     texts = [f"{number(i)} at {where(data, every[i])}" for i in (least, most)]
     return f"{words} from {texts[0]} to {texts[1]}"
-
-
-# Tables.
 
 
 def number_columns(data: xr.Dataset, names: Iterable[str]) -> Iterator[Column]:
@@ -153,16 +144,14 @@ def number_columns(data: xr.Dataset, names: Iterable[str]) -> Iterator[Column]:
 
 def table(data: xr.Dataset, columns: Iterable[Column], name: str, caption: str) -> Table:
     """Return a row for each prediction: its place, the columns and its status."""
-    dims, every = dimensions(data), list(places(data))
+    every = list(places(data))
     keys = [
         Column(dim, [name_at(data, dim, at[dim]) for at in every], dim.replace("_", " "))
-        for dim in dims
+        for dim in dimensions(data)
     ]
     states = [str(text) for text in at_places(data, STATUS)]
-    bad = [text != CONVERGED for text in states]
-    return Table(
-        name, [*keys, *columns, Column("status", states)], caption, keys=len(keys), bad=bad
-    )
+    bad, columns = [text != CONVERGED for text in states], [*columns, Column("status", states)]
+    return Table(name, [*keys, *columns], caption, keys=len(keys), bad=bad)
 
 
 def first_rows(whole: Table, most: int) -> Table:
@@ -176,8 +165,6 @@ def first_rows(whole: Table, most: int) -> Table:
     notes = [*whole.notes, f"{len(whole) - most} more predictions are in the result file."]
     return replace(whole, columns=columns, bad=whole.bad[:most], notes=notes)
 
-
-# Charts.
 
 MOST_BANDS = 3  # curves beyond which intervals would cover each other, and are not drawn
 MOST_NAMES = 12  # names in a legend of curves, evenly spaced among more
@@ -261,17 +248,12 @@ def panel(
         )
         if not np.isfinite(y).any():
             continue
-        bars: dict[str, Any] = {}
-        if both and not numbers:
-            bars = {"low": both[0], "high": both[1]}
+        bars: dict[str, Any] = dict(zip(("low", "high"), () if numbers else both, strict=False))
         if both and numbers and len(every) <= MOST_BANDS and np.isfinite(both[0]).any():
-            marks.append(
-                ShadedBand(places_x, both[0], both[1], only, "" if others else INTERVAL, 0.15)
-            )
-        marks.append(
-            Series(places_x, y, only, words or "sliding", marker=marker, beyond=numbers & dashed,
-                   listed=i % listed == 0, **drawn, **bars)
-        )  # fmt: skip
+            label = "" if others else INTERVAL
+            marks.append(ShadedBand(places_x, both[0], both[1], only, label, 0.15))
+        marks.append(Series(places_x, y, only, words or "sliding", marker=marker, **drawn, **bars,
+                            beyond=numbers & dashed, listed=i % listed == 0))  # fmt: skip
     return Panel(abscissa, ordinate(data[name]), marks)
 
 
@@ -296,8 +278,6 @@ def stacked_panel(
     return Panel(abscissa, y, [*bands[::-1], total])
 
 
-# The head of the page.
-
 # Models in words; others by their names.
 _MODELS = {"chain": "chain of sine waves", "direct": "direct contact of the measured surface"}
 
@@ -320,8 +300,7 @@ def load_in_words(data: xr.Dataset) -> Iterator[str]:
 def cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield the range of friction and contact area."""
     for name in answers(data):
-        values = data[name].values
-        values = values[values > 0.0]  # none at rest
+        values = data[name].values[data[name].values > 0.0]  # none at rest
         if not values.size:
             continue
         detail = "answer" if name.startswith("answer") else model_in_words(data)

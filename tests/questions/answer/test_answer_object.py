@@ -48,14 +48,10 @@ def made(**other: Any) -> gs.Case:
     return gs.Case(profile, rubber, cleaning={"crop": CROP}, **arguments)
 
 
-def numbers(answer: gs.Answer) -> tuple[object, ...]:
+def numbers(answer: gs.Answer) -> list[object]:
     """Return friction and contact fraction with their intervals."""
-    return (
-        answer.friction,
-        answer.friction_interval,
-        answer.contact_fraction,
-        answer.contact_fraction_interval,
-    )
+    names = ("friction", "contact_fraction")
+    return [getattr(answer, f"{name}{end}") for name in names for end in ("", "_interval")]
 
 
 @pytest.fixture(scope="module")
@@ -165,9 +161,8 @@ def test_profiles_across_each_other_say_that_a_road_is_isotropic() -> None:
     rubber = gs.read_master_curve(DMA, reference_temperature=293.15)
     whole = {"cleaning": {"crop": (0.12, 1.78)}, "smallest_wavelength": END, "waves": WAVES}
     answer = gs.answer(gs.Case(lines, rubber, **UNFILLED, **whole))
-    assert "The surface is isotropic: the rms slope over 1 mm along sliding is" in " ".join(
-        answer.basis
-    )
+    isotropic = "The surface is isotropic: the rms slope over 1 mm along sliding is"
+    assert any(isotropic in line for line in answer.basis)
     assert not any("ridges" in finding.sentence for finding in answer.findings)
     alone = gs.answer(gs.Case(lines[:1], rubber, **UNFILLED, **whole))
     assert numbers(alone) == numbers(answer)

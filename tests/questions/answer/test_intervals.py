@@ -34,32 +34,28 @@ def test_interval_of_a_product_holds_the_truth_nine_times_in_ten() -> None:
     assert share == pytest.approx(LEVEL, abs=0.01)
 
 
+def error(sigma: float, freedom: float) -> LogError:
+    return LogError(xr.DataArray(sigma), xr.DataArray(freedom))
+
+
 def test_closed_forms() -> None:
-    one = LogError(xr.DataArray(0.1), xr.DataArray(5.0))
-    alone = combined([one])
-    assert alone.sigma == pytest.approx(0.1)
-    assert alone.freedom == pytest.approx(5.0)
+    one, certain = error(0.1, 5.0), error(0.1, math.inf)
+    assert combined([one]) == (pytest.approx(0.1), pytest.approx(5.0))
     assert half_width(one) == pytest.approx(math.sinh(0.1 * stats.t.ppf(0.95, 5)))
-    certain = LogError(xr.DataArray(0.1), xr.DataArray(math.inf))
-    assert half_width(combined([certain, certain])) == pytest.approx(
-        math.sinh(0.1 * math.sqrt(2.0) * stats.norm.ppf(0.95))
-    )
+    width = math.sinh(0.1 * math.sqrt(2.0) * stats.norm.ppf(0.95))
+    assert half_width(combined([certain, certain])) == pytest.approx(width)
 
 
 def test_what_is_not_known_is_not_left_out() -> None:
-    known = LogError(xr.DataArray(0.1), xr.DataArray(5.0))
-    unknown = LogError(xr.DataArray(math.nan), xr.DataArray(math.nan))
-    assert math.isnan(half_width(combined([known, unknown])))
-    single = LogError(xr.DataArray(0.1), xr.DataArray(0.0))
-    assert math.isnan(half_width(single))
+    assert math.isnan(half_width(combined([error(0.1, 5.0), error(math.nan, math.nan)])))
+    assert math.isnan(half_width(error(0.1, 0.0)))
 
 
 def test_no_interval_of_an_area_holds_more_than_all_of_it() -> None:
     """Of 0.97 with an error of 5 %; the friction, which has no such limit, keeps its interval."""
-    error = LogError(xr.DataArray(0.05), xr.DataArray(np.inf))
 
     def ends(name: str, value: float) -> list[float]:
-        numbers = with_interval(name, xr.DataArray(value), error)
+        numbers = with_interval(name, xr.DataArray(value), error(0.05, math.inf))
         return [float(numbers[f"answer_{name}{end}"]) for end in ("_low", "", "_high")]
 
     width = math.exp(0.05 * 1.645)

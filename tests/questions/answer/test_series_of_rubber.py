@@ -83,13 +83,10 @@ def test_the_error_is_the_change_by_the_measured_moduli():
     found = answered(30.0)
     assert abs(change) > 0.03
     assert series_error(found, "friction") == pytest.approx(abs(change), rel=0.25)
-    adjoint = FrictionAdjoint.of(series)
-    grid = series.grid
-    pair = (
-        np.log(MeasuredModuli.of(rubber).plane_strain_modulus(0.3 * grid.along)),
-        np.log(rubber.plane_strain_modulus(0.3 * grid.along)),
-    )
-    first = adjoint.by_modulus(pair[0] - pair[1]).sum() / series.friction_from_dissipation
+    omega = 0.3 * series.grid.along
+    pair = (each.plane_strain_modulus(omega) for each in (MeasuredModuli.of(rubber), rubber))
+    difference = FrictionAdjoint.of(series).by_modulus(np.subtract(*map(np.log, pair))).sum()
+    first = difference / series.friction_from_dissipation
     assert first == pytest.approx(change, rel=0.3)
 
 

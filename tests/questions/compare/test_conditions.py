@@ -66,25 +66,19 @@ def test_chain_and_direct_contact_know_every_effect(made: SolvedLadder) -> None:
         tolerance=subject.tolerance,
         conditions=subject.conditions,
     )
-    direct = made.data.sel(model="direct")
+    direct, chain = (made.data.sel(model=name) for name in ("direct", "chain_half_plane"))
     assert direct.total_friction == pytest.approx(alone.friction, rel=1e-12)
-    assert direct.total_adhesive_friction == pytest.approx(
-        2e6 * alone.contact_fraction / 3e5, rel=1e-12
-    )
-    chain = made.data.sel(model="chain_half_plane")
-    assert chain.total_adhesive_friction == pytest.approx(
-        2e6 * float(chain.total_contact_fraction) / 3e5, rel=1e-12
-    )
+    areas = alone.contact_fraction, float(chain.total_contact_fraction)
+    for member, area in zip((direct, chain), areas, strict=True):
+        assert member.total_adhesive_friction == pytest.approx(2e6 * area / 3e5, rel=1e-12)
 
 
 def test_a_theory_knows_temperature_and_softening(made: SolvedLadder) -> None:
     subject, persson = made.setups[0], made.data.sel(model="persson")
-    spectrum = gs.surface.areal_spectrum(
-        gs.surface.profile_spectrum(subject.surface.measured.cleaned[0])  # type: ignore[union-attr]
-    )
-    smallest = max(
-        float(subject.surface.sines.wavelength[-1]), 2 * math.pi / spectrum.wavenumber[-1]
-    )
+    line = subject.surface.measured.cleaned[0]  # type: ignore[union-attr]
+    spectrum = gs.surface.areal_spectrum(gs.surface.profile_spectrum(line))
+    end = 2 * math.pi / spectrum.wavenumber[-1]
+    smallest = max(float(subject.surface.sines.wavelength[-1]), end)
     load = {"pressure": 3e5, "speed": 0.1, "smallest_wavelength": smallest}
     asked = Conditions(temperature=308.15, softening=subject.conditions.softening)
     alone = gs.theory.persson(subject.rubber, spectrum, conditions=asked, **load)
@@ -93,11 +87,8 @@ def test_a_theory_knows_temperature_and_softening(made: SolvedLadder) -> None:
     assert persson.total_friction == pytest.approx(alone.friction, rel=1e-9)
     own = 2e6 * alone.contact_fraction / 3e5
     assert persson.total_adhesive_friction == pytest.approx(own, rel=1e-9)
-    data = made.data
-    assert any(
-        "Softening: in the chains, the direct contacts and Persson" in line
-        for line in temperature_only(data)
-    )
+    words = "Softening: in the chains, the direct contacts and Persson"
+    assert any(words in line for line in temperature_only(made.data))
 
 
 def test_table_and_answer_have_the_area_term(made: SolvedLadder) -> None:
@@ -113,15 +104,11 @@ def test_table_and_answer_have_the_area_term(made: SolvedLadder) -> None:
 
 
 def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: SolvedLadder) -> None:
-    over = gs.compare(
-        made.case,
-        vary={"temperature": "20 C,35 C"},
-        seeds=1,
-        models=["chain_half_plane", "persson"],
-    )
+    models, temperatures = ["chain_half_plane", "persson"], {"temperature": "20 C,35 C"}
+    over = gs.compare(made.case, vary=temperatures, seeds=1, models=models)
     data = over.data
     warm = data.sel(temperature=308.15)
-    for member in ("chain_half_plane", "persson"):
+    for member in models:
         own = float(made.data.total_friction.sel(model=member))
         assert float(warm.total_friction.sel(model=member)) == pytest.approx(own, rel=1e-12)
         cold = float(data.total_friction.sel(temperature=293.15, model=member))

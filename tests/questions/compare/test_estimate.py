@@ -22,22 +22,12 @@ from gripscale.questions.answer.samples import ratio
 
 Make = Callable[..., xr.Dataset]
 
-DIRECT = {
-    "contact_fraction": 0.04,
-    "friction": 0.2,
-    "friction_from_dissipation": 0.2,
-    "contact_fraction_error": 0.002,
-    "friction_error": 0.01,
-}
-
-
+NUMBERS = {"contact_fraction": 0.04, "friction": 0.2, "friction_from_dissipation": 0.2}
+DIRECT = NUMBERS | {"contact_fraction_error": 0.002, "friction_error": 0.01}
 GRID = 0.05 / math.sqrt(3.0)
 """Of the direct contact: even within its estimated error of 5 %."""
-SAMPLING = {
-    "contact_fraction_sampling_error": 0.03,
-    "friction_sampling_error": 0.04,
-    "freedom": 40.0,
-}
+ERRORS = {"contact_fraction_sampling_error": 0.03, "friction_sampling_error": 0.04}
+SAMPLING = {**ERRORS, "freedom": 40.0}
 PRESSED = {"pressure_over_modulus": 0.05}
 """Nominal pressure over modulus."""
 
@@ -50,28 +40,21 @@ def test_finite_strain_follows_its_law_where_no_window_was_solved(
     assert best.answer_contact_fraction == pytest.approx(0.04 * area[0])
     assert best.answer_friction == pytest.approx(0.2 * friction[0])
     assert best.factor_label.values.tolist() == [LARGE_STRAIN_LABEL]
-    assert best.answer_contact_fraction_uncertainty == pytest.approx(
-        math.hypot(0.03, GRID, area[1])
-    )
+    sigma = math.hypot(0.03, GRID, area[1])
+    assert best.answer_contact_fraction_uncertainty == pytest.approx(sigma)
     sigma = math.hypot(0.04, GRID, friction[1])
     assert best.answer_friction_uncertainty == pytest.approx(sigma)
-    freedom = sigma**4 / (0.04**4 / 40.0)
-    assert best.answer_friction_half_width == pytest.approx(
-        math.sinh(stats.t.ppf(0.95, freedom) * sigma)
-    )
+    width = math.sinh(stats.t.ppf(0.95, sigma**4 / (0.04**4 / 40.0)) * sigma)
+    assert best.answer_friction_half_width == pytest.approx(width)
 
 
 def test_the_law_is_not_included_where_no_pressure_over_modulus_is_known(
     solved: Make, together: Make
 ) -> None:
-    best = answer_of_samples(together(direct=solved(DIRECT | SAMPLING)))
-    assert best.answer_friction == pytest.approx(0.2)
-    assert math.isnan(best.answer_friction_factor.item())
-
-
-def test_there_is_no_interval_without_samples_of_the_road(solved: Make, together: Make) -> None:
+    """Nor is there an interval without samples of the road."""
     best = answer_of_samples(together(direct=solved(DIRECT)))
     assert best.answer_friction == pytest.approx(0.2)
+    assert math.isnan(best.answer_friction_factor.item())
     assert math.isnan(best.answer_friction_half_width)
 
 
@@ -98,10 +81,7 @@ def test_windows_leave_the_answer_and_say_what_it_becomes(solved: Make, together
 
 def test_a_supplied_factor_replaces_ours(solved: Make, together: Make) -> None:
     ours = Factor("finite_strain", "x", LogNormalValue(0.9, 0.01), LogNormalValue(0.8, 0.01))
-    windows = {
-        "windows_finite_strain": solved((0.1, 1.0)),
-        "windows_half_plane": solved((0.1, 1.0)),
-    }
+    windows = dict.fromkeys(("windows_finite_strain", "windows_half_plane"), solved((0.1, 1.0)))
     models = together(direct=solved(DIRECT | SAMPLING), **windows)
     best = answer_of_samples(models, [ours])
     assert best.answer_friction == pytest.approx(0.16)
@@ -121,6 +101,6 @@ def test_there_is_none_without_a_direct_contact(solved: Make, together: Make) ->
     best = answer_of_samples(together(chain=solved((0.04, 0.2))))
     assert math.isnan(best.answer_friction)
     assert best.sizes["factor"] == 0
-    broken = together(direct=solved({"prediction_status": "tolerance not met"}))
-    assert math.isnan(answer_of_samples(broken).answer_friction)
-    assert math.isnan(answer_of_samples(broken).answer_friction_half_width)
+    broken = answer_of_samples(together(direct=solved({"prediction_status": "tolerance not met"})))
+    assert math.isnan(broken.answer_friction)
+    assert math.isnan(broken.answer_friction_half_width)

@@ -16,52 +16,31 @@ from gripscale.case_file.named_inputs import read_surface
 from gripscale.case_file.prepare import case_surface
 from gripscale.charts.paper import figure_file
 from gripscale.core.errors import InputError
+from gripscale.half_space import sampling_error
 from gripscale.half_space.model import DirectContact
-from gripscale.half_space.sampling_error import (
-    error_of_residuals,
-    friction_residuals,
-    pieces_that_carry,
-    sampling_error,
-)
 from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.questions import designed_rubber
-from gripscale.questions.design import compound_design
+from gripscale.questions.design import compound_design, question
 from gripscale.questions.design.compound_limits import CompoundLimits, PointLimit, changed
 from gripscale.questions.design.compound_search import design_problem
 from gripscale.questions.design.goal_friction import CompoundGoal, Gain, gain
-from gripscale.questions.design.question import (
-    CompoundDesign,
-    design_figure,
-    parse_goal,
-    parse_levels,
-    parse_limit,
-    rolling_at_todays_friction,
-)
+from gripscale.questions.design.question import CompoundDesign, design_figure
 from gripscale.questions.page_of_folder import write_report
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, SHIFTED_RUBBER, Shell, case_text, write_road, write_short_road
 
-CASE = case_text(
-    'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "1 mm"',
-    'file = "dma.txt"',
-    HALF_PLANE,
-)
+SURFACE = 'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "1 mm"'
+CASE = case_text(SURFACE, 'file = "dma.txt"', HALF_PLANE)
 LEVELS = [0.8, 1.0, 1.2]
 
 
-def loss_factor(rubber: gs.Rubber, hertz: float) -> float:
-    """tan(delta) at a frequency."""
-    return float(rubber.loss_factor(2.0 * np.pi * hertz))
-
-
-def loss_compliance(rubber: gs.Rubber, hertz: float) -> float:
-    """J'' [1/Pa] at a frequency, -Im(1/E*)."""
-    return -float((1.0 / rubber.complex_modulus(2.0 * np.pi * hertz)).imag)
-
-
-LOSSES = (loss_factor, loss_compliance)
+def losses(rubber: gs.Rubber, hertz: float) -> np.ndarray:
+    """tan(delta) and J'' [1/Pa], -Im(1/E*), at a frequency."""
+    omega = 2.0 * np.pi * hertz
+    compliance = -(1.0 / rubber.complex_modulus(omega)).imag
+    return np.array([rubber.loss_factor(omega), compliance])
 
 
 @pytest.fixture(scope="module")
@@ -125,15 +104,10 @@ def test_the_curve_rises_and_keeps_to_its_levels(data):
     assert (data.gap.values < 4e-3).all()
     assert ((data.gain_low < data.gain) & (data.gain < data.gain_high)).all()
     for at in range(data.sizes["point"]):
-        rubber, today = (
-            designed_rubber(data, at),
-            gs.Rubber.from_dict(json.loads(data.attrs["rubber_parameters"])),
-        )
-        ratios = [
-            loss(rubber, hertz) / loss(today, hertz) for hertz in (10.0, 50.0) for loss in LOSSES
-        ]
-        assert max(ratios) == pytest.approx(float(data.rolling_ratio[at]), rel=1e-9)
-        between = [loss(rubber, 25.0) / loss(today, 25.0) for loss in LOSSES]
+        rubber = designed_rubber(data, at)
+        today = gs.Rubber.from_dict(json.loads(data.attrs["rubber_parameters"]))
+        slow, between, fast = (losses(rubber, f) / losses(today, f) for f in (10.0, 25.0, 50.0))
+        assert max(*slow, *fast) == pytest.approx(float(data.rolling_ratio[at]), rel=1e-9)
         assert max(between) <= float(data.rolling_level[at]) * 1.02
         omega = 2.0 * np.pi * 10.0
         stiff = float(rubber.complex_modulus(omega).real / today.complex_modulus(omega).real)
@@ -141,24 +115,19 @@ def test_the_curve_rises_and_keeps_to_its_levels(data):
         assert 0.9 - 1e-6 < stiff < 1.1 + 1e-6
 
 
-def test_a_compound_has_no_gain_over_itself(case):
-    friction = design_problem(read_case(case)).friction
-    same = friction.contacts(friction.rubber, tolerance=0.05)
-    result = gain(friction, same, same)
-    assert (result.log_ratio, result.sampling, result.grid) == (0.0, 0.0, 0.0)
-    assert result.interval == (0.0, 0.0)
-
-
 def test_the_sampling_error_of_a_gain_is_that_of_a_ratio(case):
     """Less than those of both frictions, of which most cancels, and that of one against none."""
     friction = design_problem(read_case(case)).friction
     ratio = np.linspace(1.3, 0.8, 1 + friction.rubber.moduli.size)
     before = friction.contacts(friction.rubber, tolerance=0.05)
+    none = gain(friction, before, before)
+    assert (none.log_ratio, none.sampling, none.grid, none.interval) == (0.0, 0.0, 0.0, (0.0, 0.0))
     after = friction.contacts(changed(friction.rubber, ratio), tolerance=0.05)
     piece = 2.0 * friction.parts[0].largest_wavelength
-    each = [sampling_error(contacts[0], piece).friction for contacts in (before, after)]
-    carrying = pieces_that_carry(before[0], piece)
-    whole = error_of_residuals(friction_residuals(before[0], piece), carrying)
+    each = [sampling_error.sampling_error(c[0], piece).friction for c in (before, after)]
+    carrying = sampling_error.pieces_that_carry(before[0], piece)
+    residuals = sampling_error.friction_residuals(before[0], piece)
+    whole = sampling_error.error_of_residuals(residuals, carrying)
     assert whole == pytest.approx(each[0], rel=1e-12)
     result = gain(friction, before, after)
     assert 0.0 < result.sampling < 0.5 * np.hypot(*each)
@@ -183,7 +152,7 @@ def test_the_interval_of_a_gain_holds_the_measurement_of_the_rubber(data):
     assert wide == pytest.approx(1.6454 * np.hypot(narrow / 1.6635, 0.01), rel=0.01)
 
 
-def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
+def test_friction_never_falls_with_a_looser_level(case, monkeypatch):
     """A search that ends lower at a looser level makes no point: the one below is admissible."""
     nearest, found = compound_design.nearest_design, []
 
@@ -192,7 +161,7 @@ def test_friction_never_falls_with_a_looser_level(case, tmp_path, monkeypatch):
         return replace(found[-1], ratio=found[0].ratio)
 
     monkeypatch.setattr(compound_design, "nearest_design", no_better)
-    worst = gs.design(read_case(case), folder=tmp_path, levels=LEVELS).data
+    worst = gs.design(read_case(case), levels=LEVELS).data
     assert worst.rolling_level.values.tolist() == [0.8]
     assert json.loads(worst.attrs[compound_design.FRUITLESS]) == [1.0, 1.2]
     lines = CompoundDesign(worst).lines
@@ -204,13 +173,10 @@ def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_pat
     """The rolling resistance is taken where the sweeps end, and the answer says so."""
     rows = ["Temperature [C],Frequency [Hz],E' [MPa],E'' [MPa]"]
     for celsius in (10, 20, 30, 40):
-        body = SHIFTED_RUBBER.at(273.15 + celsius)
-        frequency = np.geomspace(0.01, 100.0, 15)
-        moduli = body.complex_modulus(2.0 * np.pi * frequency) / 1e6
-        rows += [
-            f"{celsius},{hertz:.5g},{modulus.real:.6g},{modulus.imag:.6g}"
-            for hertz, modulus in zip(frequency, moduli, strict=True)
-        ]
+        for hertz in np.geomspace(0.01, 100.0, 15):
+            body = SHIFTED_RUBBER.at(273.15 + celsius)
+            modulus = body.complex_modulus(2.0 * np.pi * hertz) / 1e6
+            rows.append(f"{celsius},{hertz:.5g},{modulus.real:.6g},{modulus.imag:.6g}")
     (tmp_path / "sweeps.csv").write_text("\n".join(rows), encoding="utf-8")
     text = CASE.replace("dma.txt", "sweeps.csv").replace("road.txt", str(case.parent / "road.txt"))
     text = text.replace("[load]", 'reference_temperature = "20 C"\n[load]')
@@ -224,25 +190,25 @@ def test_a_design_on_sweeps_that_end_below_the_rolling_temperature(case, tmp_pat
 
     short = ShiftTable([283.15, 293.15, 303.15], [1.0, 0.0, -0.8])
     others = {"short": replace(SHIFTED_RUBBER, shift=short)}
-    data = gs.design(
-        read_case(tmp_path / "case.toml"), folder=tmp_path, levels=[1.0], rubbers=others
-    ).data
+    data = gs.design(read_case(tmp_path / "case.toml"), levels=[1.0], rubbers=others).data
     assert np.isfinite(data.compound_gain).all()
     assert np.isnan(data.compound_rolling_ratio).all()
     assert "rolling resistance of short must lie within 10 to 30 °C" in data.attrs["notes"]
 
 
-@pytest.mark.parametrize("which", [0, 1, 2], ids=["factor", "per decade", "E'"])
-def test_wider_limits_are_worth_what_is_said(case, data, tmp_path, which):
+@pytest.mark.parametrize(
+    ("which", "wider"),
+    [
+        (0, CompoundLimits(2.2, 2.0)),
+        (1, CompoundLimits(2.0, 2.2)),
+        (2, CompoundLimits(2.0, 2.0, (PointLimit("storage_modulus", 0.9 / 1.1, 1.21),))),
+    ],
+    ids=["factor", "per decade", "E'"],
+)
+def test_wider_limits_are_worth_what_is_said(case, data, which, wider):
     """First order against an optimum with a tenth more room."""
     point = data.isel(point=LEVELS.index(1.0))
-    factor, per_decade, stiff = 2.0, 2.0, PointLimit("storage_modulus", 0.9, 1.1)
-    wider = [
-        CompoundLimits(1.1 * factor, per_decade),
-        CompoundLimits(factor, 1.1 * per_decade),
-        CompoundLimits(factor, per_decade, (replace(stiff, low=0.9 / 1.1, high=1.21),)),
-    ][which]
-    more = gs.design(read_case(case), folder=tmp_path, levels=[1.0], limits=wider).data
+    more = gs.design(read_case(case), levels=[1.0], limits=wider).data
     gained = np.log1p(float(more.gain_optimum[0])) - np.log1p(float(point.gain_optimum))
     # second order in a tenth; the contacts of the search start elsewhere
     assert float(point.limit_worth[which]) == pytest.approx(gained, rel=0.2, abs=1e-3)
@@ -254,27 +220,27 @@ def test_todays_friction_between_two_points(data):
     made = data.isel(point=slice(0, 2)).assign(
         rolling_ratio=("point", [0.6, 0.9]), gain=("point", [-0.1, 0.2])
     )
-    assert rolling_at_todays_friction(made) == pytest.approx(0.7)
-    assert np.isnan(rolling_at_todays_friction(made.assign(gain=("point", [0.1, 0.2]))))
+    assert question.rolling_at_todays_friction(made) == pytest.approx(0.7)
+    more = made.assign(gain=("point", [0.1, 0.2]))
+    assert np.isnan(question.rolling_at_todays_friction(more))
 
 
 def test_answer_first_and_the_limits_named(data):
     lines = CompoundDesign(data).lines
     now, then = float(data.today_answer_friction[0]), float(data.answer_friction[1, 0])
     assert lines[0].startswith(f"Answer: friction {now:.3f} now → {then:.3f} with the design ")
-    assert any(
-        "A limit relaxed by a tenth gives" in line and "E' at 10 Hz" in line for line in lines
-    )
+    (relaxed,) = (line for line in lines if "A limit relaxed by a tenth gives" in line)
+    assert "E' at 10 Hz" in relaxed
 
 
 def test_the_figure_draws_the_answer_and_no_near_copy_of_it(data):
-    made = data.isel(point=[0, 1, 1]).assign(rolling_ratio=("point", [0.8, 1.0, 1.015]))
-    labels = {text.get_text() for text in design_figure(made).legends[0].get_texts()}
-    assert {"same rolling resistance", "rolling resistance -20 %"} < labels
-    assert "rolling resistance +1 %" not in labels
-    apart = made.assign(rolling_ratio=("point", [0.8, 1.0, 1.15]))
-    labels = {text.get_text() for text in design_figure(apart).legends[0].get_texts()}
-    assert "rolling resistance +15 %" in labels
+    def labels(last: float) -> set[str]:
+        made = data.isel(point=[0, 1, 1]).assign(rolling_ratio=("point", [0.8, 1.0, last]))
+        return {text.get_text() for text in design_figure(made).legends[0].get_texts()}
+
+    assert {"same rolling resistance", "rolling resistance -20 %"} < labels(1.015)
+    assert "rolling resistance +1 %" not in labels(1.015)
+    assert "rolling resistance +15 %" in labels(1.15)
 
 
 def test_frequencies_on_the_figure_keep_apart(data):
@@ -283,28 +249,26 @@ def test_frequencies_on_the_figure_keep_apart(data):
     figure_file(figure)
     for axes in figure.axes[1:]:
         low, high = axes.get_xlim()
-        places = [at for at in axes.get_xticks() if low <= at <= high]
-        boxes = [
-            label.get_window_extent()
-            for label, at in zip(axes.get_xticklabels(), axes.get_xticks(), strict=True)
-            if at in places
-        ]
+        labels = zip(axes.get_xticklabels(), axes.get_xticks(), strict=True)
+        boxes = [label.get_window_extent() for label, at in labels if low <= at <= high]
         assert len(boxes) > 2
         assert all(a.x1 + 4.0 < b.x0 for a, b in pairwise(boxes))
 
 
-def test_no_level_within_the_limits_is_refused(case, tmp_path):
-    with pytest.raises(InputError, match="levels must include one above"):
-        gs.design(read_case(case), folder=tmp_path, levels=[0.01])
+def test_no_level_within_the_limits_is_refused(case):
     stiff = CompoundLimits(points=[PointLimit("storage_modulus", 3.0, 4.0)])
-    with pytest.raises(InputError, match="limits must leave an admissible change"):
-        gs.design(read_case(case), folder=tmp_path, limits=stiff)
+    for options, words in (
+        ({"levels": [0.01]}, "levels must include one above"),
+        ({"limits": stiff}, "limits must leave an admissible change"),
+    ):
+        with pytest.raises(InputError, match=words):
+            gs.design(read_case(case), **options)
 
 
-def test_limits_that_today_does_not_keep(case, tmp_path):
+def test_limits_that_today_does_not_keep(case):
     """A stiffer rubber is asked for: the search starts outside and ends inside."""
     stiff = CompoundLimits(points=[PointLimit("storage_modulus", 1.2, 1.5)])
-    data = gs.design(read_case(case), folder=tmp_path, levels=[1.0], limits=stiff).data
+    data = gs.design(read_case(case), levels=[1.0], limits=stiff).data
     assert float(data.limited_ratio[0, 0]) == pytest.approx(1.2, abs=1e-4)
 
 
@@ -314,15 +278,8 @@ def test_a_goal_on_another_road(case, tmp_path):
     write_road(tmp_path / "smooth.txt", other)
     smooth = read_surface(str(tmp_path / "smooth.txt"), read_case_file(case))
     goals = [CompoundGoal(0.3, 3e5, weight=3.0), CompoundGoal(0.3, 3e5, road="smooth")]
-    free = CompoundLimits(points=[])
-    data = gs.design(
-        read_case(case),
-        folder=tmp_path,
-        goals=goals,
-        levels=[1.0],
-        limits=free,
-        roads={"smooth": smooth},
-    ).data
+    free, roads = CompoundLimits(points=[]), {"smooth": smooth}
+    data = gs.design(read_case(case), goals=goals, levels=[1.0], limits=free, roads=roads).data
     assert data.sizes["limit"] == 0
     rough, mild = data.today_friction.values
     assert mild < 0.8 * rough
@@ -334,23 +291,29 @@ def test_a_goal_on_another_road(case, tmp_path):
 
 def test_goals_and_limits_as_text():
     default = CompoundGoal(0.3, 3e5)
-    goal = parse_goal("speed=3 mm/s, weight=2, temperature=0 C", default)
+    goal = question.parse_goal("speed=3 mm/s, weight=2, temperature=0 C", default)
     assert goal == CompoundGoal(3e-3, 3e5, 273.15, 2.0)
-    limit = parse_limit("loss_factor, 10 Hz, 0 C, 1:2")
-    assert (limit.quantity, limit.frequency, limit.temperature) == ("loss_factor", 10.0, 273.15)
-    assert (limit.low, limit.high) == (1.0, 2.0)
-    assert parse_limit("storage_modulus,1 Hz,0.9:inf").temperature is None
-    assert parse_levels("0.8,1") == [0.8, 1.0]
-    for wrong in ("colour=red", "speed", "speed=fast"):
-        with pytest.raises(InputError, match="goal"):
-            parse_goal(wrong, default)
-    for wrong in ("loss_factor, 10 Hz", "stiffness, 10 Hz, 0.9:1.1", "loss_factor, ten, 1:2"):
-        with pytest.raises(InputError, match="limit"):
-            parse_limit(wrong)
-    with pytest.raises(InputError, match="low must be below high"):
-        parse_limit("loss_factor, 10 Hz, 2:1")
-    with pytest.raises(InputError, match="levels must be"):
-        parse_levels("0.8,much")
+    limit = question.parse_limit("loss_factor, 10 Hz, 0 C, 1:2")
+    assert limit == PointLimit("loss_factor", 1.0, 2.0, 10.0, 273.15)
+    assert question.parse_limit("storage_modulus,1 Hz,0.9:inf").temperature is None
+    assert question.parse_levels("0.8,1") == [0.8, 1.0]
+
+
+@pytest.mark.parametrize(
+    ("parse", "text", "words"),
+    [
+        *((question.parse_goal, text, "goal") for text in ("colour=red", "speed", "speed=fast")),
+        (question.parse_limit, "loss_factor, 10 Hz", "limit"),
+        (question.parse_limit, "stiffness, 10 Hz, 0.9:1.1", "limit"),
+        (question.parse_limit, "loss_factor, ten, 1:2", "limit"),
+        (question.parse_limit, "loss_factor, 10 Hz, 2:1", "low must be below high"),
+        (question.parse_levels, "0.8,much", "levels must be"),
+    ],
+)
+def test_what_is_no_goal_limit_or_level_is_refused(parse, text, words):
+    default = [CompoundGoal(0.3, 3e5)] if parse is question.parse_goal else []
+    with pytest.raises(InputError, match=words):
+        parse(text, *default)
 
 
 def test_the_command_writes_what_it_says(case: Path, shell: Shell, tmp_path: Path) -> None:

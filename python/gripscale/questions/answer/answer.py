@@ -3,8 +3,7 @@
     answer = gs.answer(case)
     answer.friction, answer.friction_interval
 
-The measured surface is pressed and slid as a whole; known factors lead to finite strain and from
-lines to a surface (`gripscale.questions.answer.estimate`). `gripscale run` prints this object.
+Known factors lead from direct contact to finite strain and from lines to a surface (`estimate`).
 """
 
 from __future__ import annotations
@@ -43,8 +42,6 @@ from gripscale.report.failures import explained, failures_in
 
 # Names of the saved answer in a results folder, and of what is beside it.
 ANSWER_FILE, CHAIN_FILE, CURVE_FILE = "answer.nc", "chain.nc", "cut_off.nc"
-
-
 # Names until the next version, with a warning.
 _OLD_NAMES = {
     "adhesive_friction": "interface_friction",
@@ -72,9 +69,8 @@ class NumbersWithIntervals(Result):
     @property
     def hysteresis_friction(self) -> float:
         """Its part by the hysteresis [-]."""
-        return variables.answer_number(
-            self.data, variables.of_hysteresis(self.data, "friction")
-        ).value
+        name = variables.of_hysteresis(self.data, "friction")
+        return variables.answer_number(self.data, name).value
 
     @property
     def interface_friction(self) -> float:
@@ -133,8 +129,8 @@ class Answer(NumbersWithIntervals):
         if not self.reliable:
             return NO_WIDTHS
         names = {"friction": "friction", "area": "contact_fraction"}
-        widths = {key: float(self.data[f"answer_{name}_half_width"]) for key, name in names.items()}
-        return {key: width for key, width in widths.items() if math.isfinite(width)}
+        widths = {key: self.data[f"answer_{name}_half_width"] for key, name in names.items()}
+        return {key: float(width) for key, width in widths.items() if math.isfinite(width)}
 
     @property
     def basis(self) -> Sequence[str]:
@@ -168,8 +164,8 @@ class Answer(NumbersWithIntervals):
             yield "cut_off", cut_off_sheet(self.curve)
 
     def page_content(self) -> Page:
-        record = InputRecord(self.inputs)
-        return answer_page(self.data, record, self.findings, self.curve, self.chain)
+        inputs = InputRecord(self.inputs)
+        return answer_page(self.data, inputs, self.findings, self.curve, self.chain)
 
 
 def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
@@ -189,23 +185,22 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     folder : path, optional
         Keeps each prediction as soon as it is there: what was interrupted resumes.
     """
-    bench = bench_of(folder)
+    bench, load = bench_of(folder), case.load
     samples = direct_contact.solve_direct_contact(case, bench)
     if samples is None:
         chain = solved_chain(case, bench)
-        result = answer_with_inputs(
-            case, answer_of_waves(sample_numbers(chain, case.task()), case, case.load)
-        )
+        data = answer_of_waves(sample_numbers(chain, case.task()), case, load)
+        result = answer_with_inputs(case, data)
         result.chain = chain
         return result
-    curve = direct_contact.continued_curve(case, case.load, folder)
-    data = direct_contact.direct_contact_totals(samples, case, case.load, curve)
+    curve = direct_contact.continued_curve(case, load, folder)
+    data = direct_contact.direct_contact_totals(samples, case, load, curve)
     if case.softening_doubts:
         filled = case.replace(filled=True)
         of_filled = direct_contact.solve_direct_contact(filled, bench)
         assert of_filled is not None  # of the same surface
-        continued = direct_contact.continued_curve(filled, case.load, folder)
-        totals = direct_contact.direct_contact_totals(of_filled, filled, case.load, continued)
+        continued = direct_contact.continued_curve(filled, load, folder)
+        totals = direct_contact.direct_contact_totals(of_filled, filled, load, continued)
         data = variables.with_filled(data, totals)
     data.attrs[FINDINGS] = to_json(direct_contact.other_findings(samples, data, case))
     result = answer_with_inputs(case, data)
@@ -219,10 +214,7 @@ def bench_of(folder: str | Path | None) -> Bench:
 
 
 def solved_chain(case: Case, bench: Bench) -> xr.Dataset:
-    """Return the chain of waves of a case as its model predicts it, with the deformed blocks.
-
-    A wave that does not converge ends it: `prediction_status` says so.
-    """
+    """Return the chain of waves of a case, with the deformed blocks; a failed wave ends it."""
     (predicted,) = bench.solve({variables.OF_THE_PAPER: case.task()}).values()
     sources = {"surface_source": case.surface.source, "rubber_source": case.measured_rubber.source}
     return predicted.assign_attrs(case.attributes | sources)

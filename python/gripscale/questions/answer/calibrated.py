@@ -1,16 +1,11 @@
 """How much of the error of an answer is left where its area term was fitted to measured friction.
 
-A fitted stress is (measured friction - hysteresis) p_0 A_0/A_r, so that an error of contact area or
-hysteresis that is the same here and at a measured point cancels. On the same contact the share w of
-its variance that is left, and the standard error s of the total friction, are
+An error of contact area or hysteresis that is the same here and at a measured point cancels. The
+share w of its variance that is left, and the standard error s of the total friction, are
 
     w = min(1, |ln(A/A_i)|/ln 5 + |log10(v/v_i)| + |T - T_i|/10 K),    s^2 = w s_answer^2 + s_fit^2
 
-at the nearest measured point i. Area: between loads at which the mean area differs by a factor of
-1.2 to 7, the deviation of 20 pieces of the shipped road from their mean changes by at most this
-share of its variance, by speed (0.03 to 30 m/s) as by pressure (1 to 10 bar)
-(`studies/shared_error.py`). Speed and temperature: the stress is known where it was measured; in a
-decade of speed, or 10 K, that of a dry road changes by as much as the area is uncertain.
+at the nearest measured point i (docs/derivations.md).
 """
 
 from __future__ import annotations
@@ -72,13 +67,8 @@ def errors_left(
     contacts: Sequence[Contact], contact_fraction: xr.DataArray
 ) -> tuple[xr.DataArray, xr.DataArray]:
     """Return w and the half width of the fit for answers of contacts, one each or one in all."""
-    areas = np.atleast_1d(contact_fraction.values)
-    rows = np.array(
-        [
-            contact.remaining_error(float(area))
-            for contact, area in zip(contacts, areas, strict=True)
-        ]
-    )
+    pairs = zip(contacts, np.atleast_1d(contact_fraction.values), strict=True)
+    rows = np.array([contact.remaining_error(float(area)) for contact, area in pairs])
     shape = contact_fraction.shape
     share, width = (contact_fraction.copy(data=column.reshape(shape)) for column in rows.T)
     return share, width

@@ -67,16 +67,13 @@ def named_traces(data: xr.Dataset, inputs: xr.Dataset | None = None) -> list[Nam
 
     Profiles are numbered where their names do not tell them apart.
     """
-    traces = traces_of(data)
-    names: list[str] = []
+    traces, names = traces_of(data), list[str]()
     if inputs is not None and "profile_name" in inputs:
         names = [str(name) for name in inputs["profile_name"].values if name]
     if len({_word(name) for name in names}) != len(traces):
         names = [f"profile {number}" for number in range(1, len(traces) + 1)]
-    return [
-        ("map" if "section" in trace else name, trace)
-        for name, trace in zip(names[:MOST_DRAWN], traces, strict=False)
-    ]
+    pairs = zip(names[:MOST_DRAWN], traces, strict=False)
+    return [("map" if "section" in trace else name, trace) for name, trace in pairs]
 
 
 def trace_sheet(trace: xr.Dataset, title: str = "", length: float | None = None) -> draw.Sheet:
@@ -106,19 +103,15 @@ def trace_charts(trace: xr.Dataset, name: str) -> list[Chart]:
 def height_panels(trace: xr.Dataset, name: str) -> list[chart.Panel]:
     """Return the stretch with most friction, and what its heights are worth for the friction."""
     line = _around_contact(trace)
-    part = _stretch(line)
+    part, label = _stretch(line), "change of $\\mu$ by the height"
     worth = 100.0 * part.by_height.values * MICRO * MILLI
+    curve = chart.Series(part.x.values, worth, GREEN, label, width=0.9)
     return [
         _stretch_panel(line, name),
         chart.Panel(
             _along(part),
             chart.PlotAxis("friction by height\n[% / (µm mm)]"),
-            [
-                chart.Series(
-                    part.x.values, worth, GREEN, "change of $\\mu$ by the height", width=0.9
-                ),
-                chart.CrossLine(0.0),
-            ],
+            [curve, chart.CrossLine(0.0)],
             name=f"height-{_word(name)}",
             caption=f"{name}: per cent of its friction for a micrometre of height on a millimetre "
             "of the surface. Heights out of contact have no effect.",
@@ -138,8 +131,7 @@ def height_figure(trace: xr.Dataset, name: str) -> Figure:
 def _sheet(panels: list[chart.Panel], heights: list[float], title: str) -> draw.Sheet:
     """Return panels of these heights [inch] below each other, the last one to scale."""
     x, y = panels[-1].x, panels[-1].y
-    ends = (float(end or 0.0) for end in (x.low, x.high, y.low, y.high))
-    start, end, low, high = ends
+    start, end, low, high = (float(end or 0.0) for end in (x.low, x.high, y.low, y.high))
     heights = [*heights, _INSIDE * WIDE * (high - low) / (end - start)]
     height = sum(heights) + _BELOW * len(panels) + _HEAD
     look: dict[str, Any] = {"legend_columns": 4, "legend_title": title}
@@ -180,9 +172,8 @@ def _around_contact(trace: xr.Dataset, length: float | None = None) -> xr.Datase
         drawn[f"stretch_{name}"] = running[after] - running[before]
     trace = trace.assign(drawn)
     size, unit = (MILLI, "mm") if np.ptp(x) > MILLI else (MICRO, "µm")
-    lengths = [name for name in _LENGTHS if name in trace]
-    trace = trace.assign({name: trace[name].astype(float) / size for name in lengths})
-    return trace.assign_attrs(unit=unit)
+    lengths = {name: trace[name].astype(float) / size for name in _LENGTHS if name in trace}
+    return trace.assign(lengths).assign_attrs(unit=unit)
 
 
 def _stretch(trace: xr.Dataset) -> xr.Dataset:
@@ -209,19 +200,14 @@ def _line_panels(trace: xr.Dataset) -> list[chart.Panel]:
         for name, colour in (("load", GREY), ("friction", GREEN))
         if np.isfinite(values := trace[f"running_{name}"].values).any()
     ]
-    rows: tuple[tuple[str, list[chart.Outline]], ...] = (
-        (f"height $z$ [{trace.unit}]", [surface, outline("rubber", BLUE, "rubber", 0.9), contact]),
-        ("pressure $p$ [MPa]", [replace(pressure, low=low, high=high)]),
-        ("running share [-]", running),
-    )
+    heights: list[chart.Mark] = [shade, surface, outline("rubber", BLUE, "rubber", 0.9), contact]
+    unnamed, height = replace(along, label=""), chart.PlotAxis(f"height $z$ [{trace.unit}]")
+    force = chart.PlotAxis("pressure $p$ [MPa]", low=0.0)
+    share = chart.PlotAxis("running share [-]", low=0.0)
     return [
-        chart.Panel(
-            along if number == len(rows) else replace(along, label=""),
-            chart.PlotAxis(label, low=None if number == 1 else 0.0),
-            [shade, *marks],
-            height=250 if number == 1 else 190,
-        )
-        for number, (label, marks) in enumerate(rows, start=1)
+        chart.Panel(unnamed, height, heights, height=250),
+        chart.Panel(unnamed, force, [shade, replace(pressure, low=low, high=high)], height=190),
+        chart.Panel(along, share, [shade, *running], height=190),
     ]
 
 
@@ -246,13 +232,13 @@ def _stretch_panel(trace: xr.Dataset, name: str = "") -> chart.Panel:
     elif np.isfinite(part.stretch_friction):
         shares = (percent(float(part[f"stretch_{what}"])) for what in ("friction", "load"))
         makes = "the stretch with most friction, {} of it under {} of the load".format(*shares)
-    floor, ceiling = np.full(x.size, lowest), np.full(x.size, top)
+    floor = np.full(x.size, lowest)
     return chart.Panel(
         _along(part),
         chart.PlotAxis(f"height $z$ [{trace.unit}]", low=lowest, high=top),
         [
             chart.ShadedBand(x, floor, np.maximum(surface, lowest), FAINT, alpha=1.0),
-            chart.ShadedBand(x, rubber, ceiling, SKY, alpha=0.25),
+            chart.ShadedBand(x, rubber, np.full(x.size, top), SKY, alpha=0.25),
             chart.ShadedBand(x, rubber, rubber + scale * pressure, ORANGE, text, alpha=0.8),
             chart.Series(x, np.where(surface < lowest, np.nan, surface), INK, "surface", width=0.8),
             chart.Series(x, rubber, BLUE, "rubber", width=0.9),
@@ -280,15 +266,12 @@ def _field_panels(trace: xr.Dataset, name: str = "") -> list[chart.Panel]:
     if "field_pressure" not in trace:
         return []
     x, y, pressure = (trace[f"field_{of}"].values for of in ("x", "y", "pressure"))
-    marks: list[chart.Mark] = [
-        chart.ValueMap(x, y, pressure.T / MEGA, "pressure $p$ [MPa]"),
-        chart.CrossLine(float(trace.section), BLUE, "section", width=1.2),
-    ]
+    field = chart.ValueMap(x, y, pressure.T / MEGA, "pressure $p$ [MPa]")
     return [
         chart.Panel(
             chart.PlotAxis(f"$x$, the way of sliding [{trace.unit}]", grid=False),
             chart.PlotAxis(f"$y$ [{trace.unit}]", grid=False),
-            marks,
+            [field, chart.CrossLine(float(trace.section), BLUE, "section", width=1.2)],
             name=f"field-{_word(name)}",
             caption=f"{name}: contact pressure, white out of contact, and the section below.",
             alt=f"Contact pressure over the map {name}.",

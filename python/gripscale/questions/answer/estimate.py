@@ -2,19 +2,18 @@
 
     A/A_0 = (direct contact) x (finite strain/small strain) x (isotropic surface/its lines)
 
-and friction likewise. The first factor is a law measured on windows of other roads
-(`gripscale.half_space.line_to_map`). A comparison also solves it, as a ratio of two models on the
-same windows, and says what the answer becomes with it. The second is a law measured on synthetic
-surfaces (`gripscale.half_space.line_to_map`). The interval (`intervals`) is for the mean over the
-road with the roughness down to the cut-off, from the sampling of the road and the errors of grids
-and factors.
+and friction likewise. Both factors are laws (`gripscale.half_space.line_to_map`), of windows of
+other roads and of synthetic surfaces; a comparison also solves the first. The interval
+(`intervals`) is for the mean over the road with the roughness down to the cut-off, from the
+sampling of the road and the errors of grids and factors.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -30,7 +29,6 @@ from gripscale.continuation.curve import QUANTILE_90
 from gripscale.core.described import Described
 from gripscale.experiment.design import variable_attributes
 from gripscale.half_space import line_to_map
-from gripscale.half_space.line_to_map import finite_over_small
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import SHARES_BY_SLOPE
 from gripscale.model import LINE_UNDER_LOAD, Load
@@ -106,73 +104,71 @@ def answer_of_samples(
     `conditions` add their errors. Where the area term was fitted to measured friction, `contacts`,
     one for each answer, say what of the errors is left (`calibrated`).
 
-    `answer_contact_fraction` and `answer_friction` have a relative standard `_uncertainty`, the
-    ends `_low` and `_high` of their 90 % interval and its relative `_half_width`, NaN without a
-    direct contact that converged or where the profiles are too short to tell how well they
-    represent the surface (`_sampling_error`); over `factor` the `_factor` on each with its
-    `_factor_uncertainty`, NaN if not included. Where an area term was asked for,
-    `answer_interface_friction` is its stress on the area of the answer, `answer_friction` the sum
-    with `answer_hysteresis_friction`, which factors and errors stay those of.
+    The names are those of `variables`. Numbers are NaN without a direct contact that converged,
+    intervals also where the profiles are too short to represent the surface, factors that are not
+    included.
     """
-    direct = samples.sel(model=DIRECT, drop=True) if DIRECT in samples["model"].values else None
     status = samples["prediction_status"].isel(model=0, sample=0, drop=True)
     unknown = xr.full_like(status, math.nan, dtype=float)
-    factors: dict[str, tuple[str, FactorNumbers]] = {}
-    if direct is not None:
-        strain = solved_finite_strain or _of_large_strain(direct)
-        factors[FACTOR_OF_STRAIN] = LARGE_STRAIN_LABEL, strain
-        heights = direct.get("upper_height")
-        if heights is not None and bool(heights.notnull().any()):  # lines of a surface, no map
-            factors["isotropic_surface"] = LINES_TO_SURFACE, _of_surface(direct)
-        factors |= _of_conditions(direct, conditions, unknown)
-        for factor in supplied:
-            free = 1.0 - reduce.mean(direct, "contact_fraction") if factor.of_small_contact else 1.0
-            factors[factor.name] = factor.label, _numbers_of(factor, unknown, free)
-    labels, solved = [label for label, _ in factors.values()], [n for _, n in factors.values()]
-
-    def over_factors(values: Sequence[xr.DataArray]) -> xr.DataArray:
-        return xr.concat(values, "factor") if values else unknown.expand_dims(factor=0)
-
-    values = {name: over_factors([numbers[name][0] for numbers in solved]) for name in ESTIMATED}
+    if DIRECT not in samples["model"].values:
+        return estimate_of_waves(
+            xr.Dataset(dict.fromkeys((*ESTIMATED, "adhesive_friction"), unknown))
+        )
+    direct = samples.sel(model=DIRECT, drop=True)
+    area, pressed = (reduce.mean(direct, n) for n in ("contact_fraction", "pressure_over_modulus"))
+    strain = solved_finite_strain or _numbers(
+        area, lambda name: line_to_map.finite_over_small(name, pressed.values, area.values)
+    )
+    factors = {FACTOR_OF_STRAIN: (LARGE_STRAIN_LABEL, strain)}
+    data = xr.Dataset({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
+    heights = direct.get("upper_height")
+    if heights is not None and bool(heights.notnull().any()):  # lines of a surface, no map
+        means = (reduce.mean(direct, name.removeprefix("total_")) for name in LINE_UNDER_LOAD)
+        line = line_to_map.LineUnderLoad(*(mean.values for mean in means))
+        laws = line_to_map.SURFACE_OVER_LINES
+        surface = _numbers(area, lambda name: laws[name](line, area.values), line_to_map.FREEDOM)
+        factors["isotropic_surface"] = LINES_TO_SURFACE, surface
+        data[variables.REACH] = unknown.copy(data=line.reach)
+    factors |= _of_conditions(direct, conditions, unknown)
+    for factor in supplied:
+        free = 1.0 - area if factor.of_small_contact else 1.0
+        law = partial(_supplied, factor, free)
+        factors[factor.name] = factor.label, _numbers(unknown, law, factor.freedom)
+    labels, solved = zip(*factors.values(), strict=True)
+    values = {
+        name: xr.concat([numbers[name][0] for numbers in solved], "factor") for name in ESTIMATED
+    }
     # a factor that is not known of both quantities is not included
     included = values["contact_fraction"].notnull() & values["friction"].notnull()
-    data = xr.Dataset({"factor_label": ("factor", np.array(labels, dtype=object))})
-    data = data.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
-    if direct is not None:
-        shares = (share for share in (*variables.BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
-        data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
-        if "isotropic_surface" in factors:
-            data[variables.REACH] = unknown.copy(data=_line_of(direct).reach)
-    term = unknown if direct is None else direct.get("adhesive_friction", unknown)
+    data["factor_label"] = ("factor", np.array(labels, dtype=object))
+    shares = (share for share in (*variables.BASIS_SHARES, *SHARES_BY_SLOPE) if share in direct)
+    data = data.assign({f"answer_{share}": reduce.mean(direct, share) for share in shares})
     errors_of_total: dict[str, intervals.LogError] = {}  # of the area term, where there is one
     remaining, fit = xr.ones_like(unknown), xr.zeros_like(unknown)
-    if direct is not None and contacts:
-        area = reduce.mean(direct, "contact_fraction")
+    if contacts:
         remaining, fit = errors_left(contacts, area * values["contact_fraction"].prod("factor"))
     for name in ESTIMATED:
-        mean, road, grid = unknown, intervals.LogError(unknown, unknown), unknown
-        if direct is not None:
-            mean, road = reduce.mean(direct, name), reduce.road_error(direct, name)
-            # even within the estimated error, and the same for all profiles
-            grid = reduce.estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
+        mean, road = reduce.mean(direct, name), reduce.road_error(direct, name)
+        # even within the estimated error, and the same for all profiles
+        grid = reduce.estimated_error(direct, name).fillna(0.0) / math.sqrt(3.0)
         errors = [_certain(grid)] if sampled and sampled.of_road else [road, _certain(grid)]
         of_inputs = [] if sampled is None else [*sampled.errors[name]]
         value, each = values[name].where(included), [numbers[name][1] for numbers in solved]
-        sigma = over_factors([error.sigma for error in each]).where(included)
+        sigma = xr.concat([error.sigma for error in each], "factor").where(included)
         errors += [
             intervals.LogError(sigma.isel(factor=at).fillna(0.0), error.freedom)
             for at, error in enumerate(each)
         ]
         error = intervals.combined([*errors, *of_inputs])
         data = data.assign(with_interval(name, mean * value.prod("factor"), error))
-        if bool(term.notnull().any()):
+        if bool(direct.get("adhesive_friction", unknown).notnull().any()):
             parts = [intervals.LogError(remaining**0.5 * e.sigma, e.freedom) for e in errors]
             errors_of_total[name] = intervals.combined([*parts, *of_inputs])
         data[f"answer_{name}_sampling_error"] = road.sigma
         data[f"answer_{name}_grid_error"] = grid
         data[f"answer_{name}_factor"] = value
         data[f"answer_{name}_factor_uncertainty"] = sigma
-    if direct is not None and "adhesive_friction" in direct:
+    if "adhesive_friction" in direct:
         if errors_of_total:
             term = reduce.mean(direct, "adhesive_friction")
             term = term * data["answer_contact_fraction_factor"].prod("factor")
@@ -191,11 +187,10 @@ def with_large_strain(
     supplied: Sequence[Factor] = (),
     conditions: Conditions | None = None,
 ) -> xr.Dataset:
-    """Return an answer with what it becomes by the solved factor of finite strain.
+    """Return an answer with what it becomes by the solved factor of finite strain, if it is solved.
 
     The error of the factor is the scatter of the samples of both models and, evenly, as much again
-    as it changes, for what the samples leave out. Unchanged where windows were not solved with both
-    models, or a supplied factor has its name.
+    as it changes, for what the samples leave out.
     """
     solved = {DIRECT, *FINITE_STRAIN} <= set(samples["model"].values.tolist())
     if not solved or any(factor.name == FACTOR_OF_STRAIN for factor in supplied):
@@ -209,14 +204,12 @@ def with_large_strain(
         changed = xr.apply_ufunc(lambda x: np.abs(np.log(x)), value.where(value > 0.0))
         factor[name] = value, intervals.combined([error, _certain(changed / math.sqrt(3.0))])
     large = answer_of_samples(samples, supplied, solved_finite_strain=factor, conditions=conditions)
-    names = {
-        name: name.replace(variables.LARGE_STRAIN, "answer_")
-        for name in variables.LARGE_STRAIN_NUMBERS
-    }
-    numbers = {name: large[answered] for name, answered in names.items() if answered in large}
-    for name, number in numbers.items():
-        number.attrs = variable_attributes(variables.LARGE_STRAIN_NUMBERS[name])
-    return answer.assign(numbers)
+    for name, text in variables.LARGE_STRAIN_NUMBERS.items():
+        answered = name.replace(variables.LARGE_STRAIN, "answer_")
+        if answered in large:
+            answer = answer.assign({name: large[answered]})
+            answer[name].attrs = variable_attributes(text)
+    return answer
 
 
 def large_strain_answer(data: xr.Dataset) -> xr.Dataset | None:
@@ -276,35 +269,21 @@ def _certain(sigma: xr.DataArray) -> intervals.LogError:
     return intervals.LogError(sigma, xr.full_like(sigma, math.inf))
 
 
-def _of_large_strain(direct: xr.Dataset) -> FactorNumbers:
-    """Return finite over small strain by the law at the contact area and modulus of the lines."""
-    lines, pressed = (
-        reduce.mean(direct, name) for name in ("contact_fraction", "pressure_over_modulus")
-    )
-    numbers = {}
+def _numbers(
+    like: xr.DataArray, law: Callable[[str], tuple[Any, Any]], freedom: float = math.inf
+) -> FactorNumbers:
+    """Return a factor by its `law`: of each quantity the ratio and its standard error."""
+    ones, numbers = xr.ones_like(like), {}
     for name in ESTIMATED:
-        ratio, sigma = finite_over_small(name, pressed.values, lines.values)
-        numbers[name] = lines.copy(data=ratio), _certain(lines.copy(data=sigma))
+        ratio, sigma = law(name)
+        numbers[name] = ones * ratio, intervals.LogError(ones * sigma, ones * freedom)
     return numbers
 
 
-def _line_of(direct: xr.Dataset) -> line_to_map.LineUnderLoad:
-    """Return the mean of the lines of direct contacts under their load."""
-    names = (name.removeprefix("total_") for name in LINE_UNDER_LOAD)
-    return line_to_map.LineUnderLoad(*(reduce.mean(direct, name).values for name in names))
-
-
-def _of_surface(direct: xr.Dataset) -> FactorNumbers:
-    """Return the step from lines to their surface at the contact area of the lines."""
-    lines = reduce.mean(direct, "contact_fraction")
-    line = _line_of(direct)
-    freedom = xr.full_like(lines, line_to_map.FREEDOM)
-    numbers = {}
-    for name, law in line_to_map.SURFACE_OVER_LINES.items():
-        surface = law(line, lines.values)
-        sigma = lines.copy(data=surface.uncertainty)
-        numbers[name] = lines.copy(data=surface.ratio), intervals.LogError(sigma, freedom)
-    return numbers
+def _supplied(factor: Factor, share: Any, name: str) -> tuple[Any, Any]:
+    """Return a factor and its error, their logarithms times a share."""
+    value, sigma = getattr(factor, name)
+    return value**share, sigma * share
 
 
 def _of_conditions(
@@ -314,8 +293,8 @@ def _of_conditions(
     factors: dict[str, tuple[str, FactorNumbers]] = {}
     if conditions is not None and conditions.softening is not None:
         values = LogNormalValue(1.0, LOG_AREA), LogNormalValue(1.0, LOG_FRICTION)
-        rule = Factor("strain_rule", "strain rule", *values)
-        factors[rule.name] = rule.label, _numbers_of(rule, unknown)
+        rule = dict(zip(ESTIMATED, values, strict=True))
+        factors["strain_rule"] = "strain rule", _numbers(unknown, rule.__getitem__)
     if "condition" not in direct.dims:
         return factors
     for at, label in enumerate(direct.condition.values):
@@ -327,23 +306,10 @@ def _of_conditions(
     return factors
 
 
-def _numbers_of(factor: Factor, unknown: xr.DataArray, share: Any = 1.0) -> FactorNumbers:
-    numbers = {}
-    for name in ESTIMATED:
-        number: LogNormalValue = getattr(factor, name)
-        sigma = xr.full_like(unknown, number.uncertainty) * share
-        error = intervals.LogError(sigma, xr.full_like(unknown, factor.freedom))
-        numbers[name] = xr.full_like(unknown, number.value) ** share, error
-    return numbers
-
-
-# The answer of sine waves stated by hand: their chain, which no measured surface judges.
-
-
 def estimate_of_waves(
     numbers: xr.Dataset, errors: Mapping[str, intervals.LogError] = MappingProxyType({})
 ) -> xr.Dataset:
-    """Return friction and contact fraction of a chain as `answer_of_samples` does, with no factors.
+    """Return the answer of sine waves by their chain, with no factors, as `answer_of_samples` does.
 
     `numbers` are its `sample_numbers` under one load or several. Without `errors` of what they
     depend on there is no interval.
@@ -351,15 +317,13 @@ def estimate_of_waves(
     unknown = xr.full_like(numbers["friction"], math.nan)
     errors = dict.fromkeys(ESTIMATED, intervals.LogError(unknown, unknown)) | dict(errors)
     best = xr.Dataset({"factor_label": ("factor", np.empty(0, dtype=object))})
+    best = best.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
     for name in ESTIMATED:
         best = best.assign(with_interval(name, numbers[name], errors[name]))
         best[f"answer_{name}_sampling_error"] = best[f"answer_{name}_grid_error"] = unknown
         for part in ("factor", "factor_uncertainty"):
             best[f"answer_{name}_{part}"] = unknown.expand_dims(factor=0)
-    best = with_interface(best, numbers["adhesive_friction"], errors)
-    return variables.described(
-        best.assign({f"answer_{share}": unknown for share in variables.BASIS_SHARES})
-    )
+    return variables.described(with_interface(best, numbers["adhesive_friction"], errors))
 
 
 def answer_of_waves(

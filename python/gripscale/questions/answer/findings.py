@@ -15,26 +15,12 @@ from gripscale.core.units import in_mm
 from gripscale.cut_off_exponents import OCTAVE
 from gripscale.experiment.measured_friction import MeasuredFriction, nearest_series
 from gripscale.io.table import significant
-from gripscale.questions.answer.reliance import (
-    MOST_ON_GUESSES,
-    direct_of,
-    estimated_names,
-    guesses,
-    is_measured,
-    is_moving,
-    no_answer,
-    solved_model,
-)
+from gripscale.questions.answer import reliance
+from gripscale.questions.answer.reliance import direct_of, is_measured
 from gripscale.questions.answer.variables import answer_number, has_answer
 from gripscale.questions.cut_off.curve import CONTINUED_TO
-from gripscale.questions.inputs.record import (
-    InputRecord,
-    extrapolated,
-    extrapolated_roughness,
-    in_words,
-    input_findings,
-    misfits,
-)
+from gripscale.questions.inputs import record as inputs
+from gripscale.questions.inputs.record import InputRecord, in_words
 from gripscale.report.elements import percent_text
 from gripscale.rubber.extrapolation import WORTH_SAYING
 from gripscale.wave.result import LARGE_MISMATCH
@@ -45,8 +31,7 @@ SMALL_CHANGE = 0.05  # relative change by half the cut-off that is as good as no
 
 def no_answer_notices(data: xr.Dataset) -> Iterator[Finding]:
     """Yield that a result has no answer, or none to rely on; nothing if it has one."""
-    statement = no_answer(data)
-    if statement:
+    if statement := reliance.no_answer(data):
         yield Finding(Severity.ERROR, f"Answer: {statement}", math.inf, math.inf)
 
 
@@ -54,42 +39,48 @@ def answer_notices(data: xr.Dataset) -> Iterator[Finding]:
     """Yield what may change an answer, other than what `no_answer` says of it."""
     if not has_answer(data):
         return
-    yield from _against_measurement(data)
-    yield from (share for share in guesses(data) if share.effect <= MOST_ON_GUESSES)
+    if MEASURED_FRICTION in data:
+        answer, measured = answer_number(data, "friction"), float(data[MEASURED_FRICTION])
+        difference = answer.value / measured - 1.0
+        text = (
+            f"The answer is {percent_text(abs(difference))} "
+            f"{'below' if difference < 0.0 else 'above'} the measured friction, "
+            f"{measured_words(data)}"
+        )
+        if answer.interval:
+            where = "inside" if answer.low <= measured <= answer.high else "outside"
+            text += f", which lies {where} its interval"
+        yield Finding(Severity.WARNING, f"{text}.", friction=difference, topic=Topic.MEASURED)
+    shares = reliance.guesses(data)
+    yield from (share for share in shares if share.effect <= reliance.MOST_ON_GUESSES)
     yield from from_json(data.attrs.get(FINDINGS, ""))
     direct = direct_of(data)
     steep = float(data.get("answer_steep_share", math.nan))
     if steep > WORTH_SAYING:
-        yield Finding(
-            Severity.WARNING,
+        text = (
             f"{percent_text(steep)} of the friction comes from slopes above 1, where neither small "
-            "strain nor a measured profile is reliable.",
-            friction=steep,
-            topic=Topic.SOLUTION,
+            "strain nor a measured profile is reliable."
         )
+        yield Finding(Severity.WARNING, text, friction=steep, topic=Topic.SOLUTION)
     octave = {} if CONTINUED_TO in data else changes(data, 1.0 / OCTAVE)
     if max(map(abs, octave.values()), default=0.0) > SMALL_CHANGE:
         half = in_mm(float(data.cutoff_wavelength) / OCTAVE, 3)
         cure = "; `gripscale cut-off` computes it" if is_measured(data) else ""
-        yield Finding(
-            Severity.WARNING,
+        text = (
             f"If the roughness goes on as over its last octave, down to {half}, half the cut-off, "
-            f"{in_words(octave)}{cure}.",
-            friction=octave.get("friction", math.nan),
-            area=octave.get("contact_fraction", math.nan),
-            topic=Topic.SURFACE,
+            f"{in_words(octave)}{cure}."
         )
+        friction, area = (octave.get(name, math.nan) for name in ("friction", "contact_fraction"))
+        yield Finding(Severity.WARNING, text, friction, area, Topic.SURFACE)
     traction, lost = float(direct.total_friction), float(direct.total_friction_from_dissipation)
-    apart = abs(traction / lost - 1.0) if is_moving(data) and lost > 0.0 else 0.0
+    apart = abs(traction / lost - 1.0) if reliance.is_moving(data) and lost > 0.0 else 0.0
     if apart > LARGE_MISMATCH:
-        yield Finding(
-            Severity.WARNING,
-            f"The two frictions of the {solved_model(data)}, from traction and from losses, "
-            f"differ by {percent_text(apart)}; the answer takes the one from "
-            f"{'losses' if is_measured(data) else 'traction'}.",
-            friction=apart,
-            topic=Topic.SOLUTION,
+        text = (
+            f"The two frictions of the {reliance.solved_model(data)}, from traction and from "
+            f"losses, differ by {percent_text(apart)}; the answer takes the one from "
+            f"{'losses' if is_measured(data) else 'traction'}."
         )
+        yield Finding(Severity.WARNING, text, friction=apart, topic=Topic.SOLUTION)
 
 
 # Names of measured friction at the speed of an answer, and of its standard deviation.
@@ -106,37 +97,17 @@ def measured_at_load(case: Case, measured: MeasuredFriction | None) -> dict[str,
     kelvin = (case.conditions or Conditions()).temperature_of(case.rubber)
     series = nearest_series(measured, kelvin)
     at_speed = series.at(case.load.speed) if case.load.speed > 0.0 else None
-    if at_speed is None:
-        return {}
     about = {"units": "1", "source": measured.source, "state": series.state}
-    return {
-        MEASURED_FRICTION: xr.Variable((), at_speed[0], about),
-        MEASURED_SPREAD: xr.Variable((), at_speed[1], about),
-    }
+    pairs = zip((MEASURED_FRICTION, MEASURED_SPREAD), at_speed or (), strict=False)
+    return {name: xr.Variable((), value, about) for name, value in pairs}
 
 
 def measured_words(data: xr.Dataset) -> str:
     """Return the measured friction beside an answer, such as `0.64 ± 0.02 at 20 °C`."""
-    friction, spread = (float(data[name]) for name in (MEASURED_FRICTION, MEASURED_SPREAD))
+    friction, spread = float(data[MEASURED_FRICTION]), float(data[MEASURED_SPREAD])
     about = f" ± {significant(spread, 2)}" if math.isfinite(spread) else ""
     state = data[MEASURED_FRICTION].attrs["state"]
     return f"{significant(friction)}{about}{f' at {state}' if state else ''}"
-
-
-def _against_measurement(data: xr.Dataset) -> Iterator[Finding]:
-    """Yield how an answer differs from the friction measured at its load."""
-    if MEASURED_FRICTION not in data:
-        return
-    answer, measured = answer_number(data, "friction"), float(data[MEASURED_FRICTION])
-    difference = answer.value / measured - 1.0
-    text = (
-        f"The answer is {percent_text(abs(difference))} {'below' if difference < 0.0 else 'above'} "
-        f"the measured friction, {measured_words(data)}"
-    )
-    if answer.interval:
-        holds = answer.low <= measured <= answer.high
-        text += f", which lies {'inside' if holds else 'outside'} its interval"
-    yield Finding(Severity.WARNING, f"{text}.", friction=difference, topic=Topic.MEASURED)
 
 
 def changes(data: xr.Dataset, ratio: float) -> dict[str, float]:
@@ -145,18 +116,17 @@ def changes(data: xr.Dataset, ratio: float) -> dict[str, float]:
     Numbers whose exponent is not known are left out.
     """
     exponents = model.cut_off_exponents_of(direct_of(data))
-    powers = {name: getattr(exponents, name) for name in estimated_names(data)}
+    powers = {name: getattr(exponents, name) for name in reliance.estimated_names(data)}
     return {name: ratio**power - 1.0 for name, power in powers.items() if math.isfinite(power)}
 
 
-def case_notices(direct: xr.Dataset | None, record: InputRecord) -> list[Finding]:
+def case_notices(direct: xr.Dataset, record: InputRecord) -> list[Finding]:
     """Return what may change an answer, ranked: findings of its own and of its inputs."""
-    if direct is None:
-        return input_findings(record)
-    beyond = _beyond_measurement(direct, record) if has_answer(direct) else extrapolated(record)
+    answered = has_answer(direct)
+    beyond = _beyond_measurement(direct, record) if answered else inputs.extrapolated(record)
     in_answer = set(model.input_doubts_of(direct))
-    inputs = (finding for finding in record.warnings() if finding not in in_answer)
-    return ranked([*answer_notices(direct), *beyond, *misfits(record), *inputs])
+    of_inputs = (finding for finding in record.warnings() if finding not in in_answer)
+    return ranked([*answer_notices(direct), *beyond, *inputs.misfits(record), *of_inputs])
 
 
 def _beyond_measurement(direct: xr.Dataset, record: InputRecord) -> Iterator[Finding]:
@@ -167,12 +137,10 @@ def _beyond_measurement(direct: xr.Dataset, record: InputRecord) -> Iterator[Fin
     held = float(direct.cutoff_wavelength)
     if held > 1.01 * end and CONTINUED_TO not in direct:
         cure = ": `gripscale cut-off`, or down_to in [below_measurement], continues the roughness"
-        yield Finding(
-            Severity.DOUBT,
-            f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves "
-            f"shorter than {in_mm(held, 3)}, two of their steps"
-            f"{'' if record.of_map else cure}.",
-            key="below_measurement.down_to",
+        text = (
+            f"The cut-off of the case is {in_mm(end, 3)}, but the heights hold no waves shorter "
+            f"than {in_mm(held, 3)}, two of their steps{'' if record.of_map else cure}."
         )
+        yield Finding(Severity.DOUBT, text, key="below_measurement.down_to")
     if limit > 1.01 * held:
-        yield extrapolated_roughness(limit, held, changes(direct, limit / held))
+        yield inputs.extrapolated_roughness(limit, held, changes(direct, limit / held))

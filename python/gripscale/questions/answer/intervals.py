@@ -5,11 +5,9 @@ and n_i degrees of freedom of that error. The errors are independent, so that
 
     s^2 = sum(s_i^2),    n = s^4 / sum(s_i^4 / n_i)
 
-(Welch & Satterthwaite: B. L. Welch, Biometrika 34 (1947) 28), and the interval at level L is
-
-    y exp(-t s) ... y exp(t s),    t the (1 + L)/2 quantile of Student's t for n.
-
-Its half width over y is sinh(t s).
+(Welch & Satterthwaite: B. L. Welch, Biometrika 34 (1947) 28). The interval at level L is
+y exp(-t s) to y exp(t s), with t the (1 + L)/2 quantile of Student's t for n; its half width over y
+is sinh(t s).
 """
 
 from __future__ import annotations

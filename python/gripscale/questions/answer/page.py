@@ -19,39 +19,21 @@ from gripscale.core.finding import FILLED, Finding
 from gripscale.core.units import display_unit_of, in_mm
 from gripscale.half_space.model import DirectContact
 from gripscale.io.table import Column, Table, fixed, significant
-from gripscale.questions.answer import reliance
+from gripscale.questions.answer import reliance, variables
 from gripscale.questions.answer.charts import named_traces, trace_charts
 from gripscale.questions.answer.direct_contact import ISOTROPIC
 from gripscale.questions.answer.estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.findings import MEASURED_FRICTION, measured_words, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
-from gripscale.questions.answer.variables import (
-    ERROR_LEFT,
-    FRICTION_BELOW_MEASUREMENT,
-    HEADINGS,
-    SYMBOLS,
-    AnswerNumber,
-    answer_number,
-    both_answers,
-    has_answer,
-    of_hysteresis,
-)
+from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, answer_number, has_answer
 from gripscale.questions.chain.page import chain_section
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.cut_off.question import CutOff
 from gripscale.questions.inputs.page import files_table, rubber_section, surface_section
 from gripscale.questions.inputs.record import InputRecord, signed_percent
-from gripscale.report.elements import (
-    Card,
-    Element,
-    Facts,
-    Page,
-    Section,
-    Text,
-    case_title,
-    percent_text,
-    rerun_section,
-)
+from gripscale.questions.view import load_in_words
+from gripscale.report import elements
+from gripscale.report.elements import Card, Facts, Page, Section, percent_text
 from gripscale.report.equations import method_section
 from gripscale.surface import SineStack
 from gripscale.surface.direction import ERROR_OF_RIDGES
@@ -62,7 +44,12 @@ HYSTERESIS_ALONE = (
     "Hysteresis alone is a lower bound: far below the friction of a dry road, which interface = "
     '"dry" in [conditions] adds, and nearer to that of a lubricated one.'
 )
-_SHORT = {"friction": "μ", "contact_fraction": "area"}
+_LOAD = {
+    "nominal_pressure": "Nominal pressure",
+    "nominal_speed": "Sliding speed",
+    "footprint": "Footprint",
+    "thickness": "Thickness of the rubber",
+}
 _WORDS = {"friction": "friction", "contact_fraction": "area"}
 _PICTURE = (
     "The direct contact of the measured surface. Friction is made where pressure acts on flanks "
@@ -73,7 +60,7 @@ _PICTURE = (
 
 def answer_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield the answer of a result of one load, then what it rests on; or why there is none."""
-    both = list(both_answers(data))
+    both = list(variables.both_answers(data))
     statement = reliance.no_answer(data, FILLED if both else "")
     if not has_answer(data):
         yield f"Answer: {statement}"
@@ -99,14 +86,16 @@ def answer_lines(data: xr.Dataset) -> Iterator[str]:
     yield from (f"  {line}" for line in basis_lines(data))
 
 
-def _by_filler(data: xr.Dataset, both: Sequence[tuple[str, Mapping[str, AnswerNumber]]]) -> str:
+def _by_filler(
+    data: xr.Dataset, both: Sequence[tuple[str, Mapping[str, variables.AnswerNumber]]]
+) -> str:
     """Return both numbers where it is not known whether the rubber is filled."""
-    friction = "" if friction_parts(data) else "hysteresis friction "
+    alone = reliance.is_moving(data) and not friction_parts(data)
     kinds = {"filled": "filled, as a typical tread", "unfilled": "unfilled"}
     texts = []
     for filler, numbers in both:
         words = [f"{SYMBOLS[name]} = {numbers[name]}" for name in reliance.estimated_names(data)]
-        start = friction if reliance.is_moving(data) else ""
+        start = "hysteresis friction " if alone else ""
         texts.append(f"{kinds[filler]}: {start}{', '.join(words)}")
     return (
         "one question decides, whether the rubber is filled (carbon black, silica), as every tread "
@@ -127,18 +116,15 @@ def basis_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield what an answer is for, how it was solved and corrected, and what its interval holds."""
     if not has_answer(data):
         return
-    pressure, speed = (
-        display_unit_of(data.attrs, name).text(float(data[f"nominal_{name}"]))
-        for name in ("pressure", "speed")
-    )
+    pressure, speed = load_in_words(data)
     motion = f"and {speed}" if reliance.is_moving(data) else "at rest"
     end = in_mm(float(data.get(CONTINUED_TO, data.cutoff_wavelength)), 3)
-    thick = ""
+    more = ""
     if "thickness" in data:
         thickness = display_unit_of(data.attrs, "thickness").text(float(data.thickness))
-        thick = f", rubber {thickness} thick on a rigid base"
-    thick += ", for random phases" if data.attrs.get(PHASES_OF) == "random" else ""
-    yield f"For {pressure} {motion}, roughness down to {end}{thick}."
+        more = f", rubber {thickness} thick on a rigid base"
+    more += ", for random phases" if data.attrs.get(PHASES_OF) == "random" else ""
+    yield f"For {pressure} {motion}, roughness down to {end}{more}."
     if reliance.is_moving(data) and not friction_parts(data):
         yield HYSTERESIS_ALONE
     if reading := tester_reading(data.attrs.get(TESTER, ""), *answer_number(data, "friction")):
@@ -162,14 +148,14 @@ def answer_cards(data: xr.Dataset) -> Iterator[Card]:
     """Yield friction and contact area with their intervals."""
     if not has_answer(data):
         return
-    source = "not to be relied on" if reliance.no_answer(data) else "answer"
+    bad = bool(reliance.no_answer(data))
+    source = "not to be relied on" if bad else "answer"
     if not reliance.is_measured(data):
         source = "by the chain of waves"
     for name in reliance.estimated_names(data):
         title, number = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]}", answer_number(data, name)
-        of_friction = friction_parts(data) or "hysteresis alone"
-        parts = [source, of_friction if name == "friction" else ""]
-        detail, bad = "; ".join(filter(None, parts)), bool(reliance.no_answer(data))
+        parts = f"; {friction_parts(data) or 'hysteresis alone'}" if name == "friction" else ""
+        detail = f"{source}{parts}"
         interval = f"{number.interval} ({100.0 * LEVEL:.0f} %)" if number.interval else ""
         yield Card(title, significant(number.value), detail, bad, interval)
     if MEASURED_FRICTION in data:
@@ -181,11 +167,11 @@ def _corrections(data: xr.Dataset) -> str:
     """Return what the direct contact alone says, and each factor on it."""
     names, labels = reliance.estimated_names(data), data.factor_label.values
     factors = {name: data[f"answer_{name}_factor"].values for name in names}
-    alone = {
-        name: answer_number(data, of_hysteresis(data, name)).value / np.nanprod(factors[name])
-        for name in names
-    }
-    solved = ", ".join(f"{_SHORT[name]} {significant(value)}" for name, value in alone.items())
+    alone = {}
+    for name in names:
+        corrected = answer_number(data, variables.of_hysteresis(data, name)).value
+        alone["μ" if name == "friction" else "area"] = corrected / np.nanprod(factors[name])
+    solved = ", ".join(f"{name} {significant(value)}" for name, value in alone.items())
     steps = []
     for at, label in enumerate(labels):
         values = {_WORDS[name]: float(factors[name][at]) for name in names}
@@ -196,8 +182,8 @@ def _corrections(data: xr.Dataset) -> str:
             steps.append(f"{label}: {text}")
     where = "your profiles" if LINES_TO_SURFACE in labels else "the measured surface"
     where = "lines of your spectrum with random phases" if PHASES_OF in data.attrs else where
-    corrected = f", then corrected: {'; '.join(steps)}" if steps else ""
-    return f"Solved on {where} at small strain ({solved}){corrected}."
+    then = f", then corrected: {'; '.join(steps)}" if steps else ""
+    return f"Solved on {where} at small strain ({solved}){then}."
 
 
 def _in_interval(data: xr.Dataset) -> Iterator[str]:
@@ -216,8 +202,8 @@ def _in_interval(data: xr.Dataset) -> Iterator[str]:
     ]
     if data.attrs.get(SHEAR_STRESS) == DRY_TREAD.kind:
         parts.append(f"shear stress between treads {percent_text(STRESS_SCATTER)}")
-    if ERROR_LEFT in data:
-        share = percent_text(1.0 - float(data[ERROR_LEFT]))
+    if variables.ERROR_LEFT in data:
+        share = percent_text(1.0 - float(data[variables.ERROR_LEFT]))
         yield (
             f"the area term was fitted to measured friction: {share} of the variance of the "
             "friction cancels here (all of it at the measured points, nothing on another surface "
@@ -226,19 +212,15 @@ def _in_interval(data: xr.Dataset) -> Iterator[str]:
     if parts:
         of = " and ".join(_WORDS[each] for each in names)
         yield f"in the interval, standard errors of {of}: {'; '.join(parts)}"
-    below = data.get(FRICTION_BELOW_MEASUREMENT)
+    below = data.get(variables.FRICTION_BELOW_MEASUREMENT)
     if below is not None and not below.ndim and float(below) > reliance.WORTH_NAMING:
         limit = in_mm(float(data.resolution_limit), 3)
         yield (
             f"{percent_text(float(below))} of the friction is made in waves shorter than {limit}, "
             "which were not measured"
         )
-    missing = [
-        str(label)
-        for label, value in zip(labels, data[f"answer_{name}_factor"], strict=True)
-        if value.isnull()
-    ]
-    if missing:
+    missing = labels[data[f"answer_{name}_factor"].isnull().values]
+    if missing.size:
         yield f"not included: {', '.join(missing)}"
     unknown = []
     if "part_label" not in data and answer_number(data, name).interval:
@@ -246,8 +228,8 @@ def _in_interval(data: xr.Dataset) -> Iterator[str]:
     if ISOTROPIC in data.attrs:
         yield str(data.attrs[ISOTROPIC]).rstrip(".")
     elif LINES_TO_SURFACE in labels:
-        change = f"with ridges 3:1 the area changes up to {ERROR_OF_RIDGES:.1f} times"
-        unknown.append(f"lay: {change}")
+        ridges = f"with ridges 3:1 the area changes up to {ERROR_OF_RIDGES:.1f} times"
+        unknown.append(f"lay: {ridges}")
     if unknown:
         yield f"not in the interval: {', and '.join(unknown)}"
 
@@ -261,8 +243,7 @@ def answer_page(
 ) -> Page:
     """Return the page of an answer: its numbers, the contact, and the inputs with their origin.
 
-    With the contact against the cut-off and the chain of waves of the same case, where they are
-    known.
+    `curve` and `chain` are the contact against the cut-off and the chain of waves of the same case.
     """
     waves = None
     if chain is not None and "sines_wavelength" in chain:
@@ -270,57 +251,37 @@ def answer_page(
     curves = [] if curve is None else CutOff(curve).elements()
     chapters = [Section("cut-off", "Against the cut-off", curves)]
     chapters += [] if chain is None else [chain_section(chain, data)]
+    traces = named_traces(data, record.data)
+    charts = [chart for name, trace in traces for chart in trace_charts(trace, name)]
+    contact: list[elements.Element] = []
+    if charts:
+        contact = [elements.Text(_PICTURE), charts[0], *slopes_table(data), *charts[1:]]
+    files = [files_table(record)] if record.has("file_name") else []
+    load = [
+        (title, display_unit_of(data.attrs, name.removeprefix("nominal_")).text(float(data[name])))
+        for name, title in _LOAD.items()
+        if name in data
+    ]
     moving = chain if reliance.is_moving(data) else None
+    method = [*(DirectContact if reliance.is_measured(data) else Chain).method]
+    method += ["surface"] if LINES_TO_SURFACE in data.factor_label.values else []
+    method += ["interface"] if friction_parts(data) and reliance.is_measured(data) else []
     return Page.of(
-        f"Contact and friction: {case_title(data.attrs)}",
+        f"Contact and friction: {elements.case_title(data.attrs)}",
         next(iter(basis_lines(data)), ""),
         [*no_answer_notices(data), *findings],
         answer_cards(data),
         [
-            Section("contact", "Rubber on the surface", contact_elements(data, record)),
-            Section("inputs", "Inputs and their origin", _origin(data, record)),
+            Section("contact", "Rubber on the surface", contact),
+            Section("inputs", "Inputs and their origin", [Facts("Load", load), *files]),
             Section("surface", "Surface", surface_section(record, waves)),
             Section("rubber", "Rubber", rubber_section(record, moving)),
             *chapters,
-            method_section(method_of_answer(data), () if chain is None else Chain.method),
-            rerun_section(data.attrs),
+            method_section(method, () if chain is None else Chain.method),
+            elements.rerun_section(data.attrs),
         ],
         basis_lines(data),
     )
-
-
-def method_of_answer(data: xr.Dataset) -> list[str]:
-    """Return how the model of an answer says it works, with its further steps."""
-    if not reliance.is_measured(data):
-        return [*Chain.method]
-    steps = {"surface": LINES_TO_SURFACE in data.factor_label.values}
-    steps["interface"] = bool(friction_parts(data))
-    return [*DirectContact.method, *(name for name, taken in steps.items() if taken)]
-
-
-def _origin(data: xr.Dataset, record: InputRecord) -> list[Element]:
-    """Return the load, and the measured files with their checksums."""
-    load = [
-        (title, display_unit_of(data.attrs, key).text(float(data[name])))
-        for key, name, title in (
-            ("pressure", "nominal_pressure", "Nominal pressure"),
-            ("speed", "nominal_speed", "Sliding speed"),
-            ("footprint", "footprint", "Footprint"),
-            ("thickness", "thickness", "Thickness of the rubber"),
-        )
-        if name in data
-    ]
-    return [Facts("Load", load), *([files_table(record)] if record.has("file_name") else [])]
-
-
-def contact_elements(direct: xr.Dataset, record: InputRecord) -> list[Element]:
-    """Return the direct contact of the measured surface as pictures and by slope."""
-    traces = named_traces(direct, record.data)
-    charts = [chart for name, trace in traces for chart in trace_charts(trace, name)]
-    if not charts:
-        return []
-    first, *others = charts
-    return [Text(_PICTURE), first, *slopes_table(direct), *others]
 
 
 def slopes_table(direct: xr.Dataset) -> Iterator[Table]:
@@ -330,9 +291,9 @@ def slopes_table(direct: xr.Dataset) -> Iterator[Table]:
     ends = direct.slope.values.tolist()
     names = [f"{low:g} to {high:g}" for low, high in pairwise(ends)] + [f"above {ends[-1]:g}"]
     columns = [
-        Column(name, direct[f"answer_{name}_by_slope"].values, heading, "%", 0.01, format=fixed(1))
-        for name, heading in (("friction", "friction"), ("load", "load"), ("contact", "contact"))
-        if direct[f"answer_{name}_by_slope"].notnull().all()
+        Column(name, shares.values, name, "%", 0.01, format=fixed(1))
+        for name in ("friction", "load", "contact")
+        if (shares := direct[f"answer_{name}_by_slope"]).notnull().all()
     ]
     caption = "Shares by slope of the surface, direct contact"
     yield Table("slopes", [Column("slope", names, "slope |dh/dx|", words=False), *columns], caption)

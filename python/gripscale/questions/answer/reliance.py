@@ -1,8 +1,7 @@
 """The law of reliance: whether a result has an answer, and whether it may be relied on.
 
-There is none to rely on where the inputs may be those of another case, where more than half of
-friction or contact comes from what was not measured, where the measured surface is too small, or
-where fewer summits carry than on the surfaces that the step from profiles to a surface knows.
+There is none where the inputs may be those of another case, where more than half of friction or
+contact was not measured, where the surface is too small, or where too few of its summits carry.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from gripscale.surface.random_phases import PHASES_OF
 
 # Share of friction or contact from what was not measured that makes an answer a guess.
 MOST_ON_GUESSES = 0.5
-ESTIMATED_AREA = "answer_contact_fraction"
+_WHOLE, _NONE = 0.99, 1e-3  # contact fraction and friction together that no road has
 WORTH_NAMING = 0.005  # share of the contact on filled gaps that is as good as none
 
 
@@ -45,63 +44,48 @@ def no_answer(data: xr.Dataset, but: str = "") -> str:
         ended = str(direct[name].item()) if name and not direct[name].ndim else ""
         words = f"The {solved_model(data)} has no result: {ended}."
         return " ".join(["none.", *doubts, words])
-    guessed = [share.sentence for share in guesses(data) if share.effect > MOST_ON_GUESSES]
-    widths = [] if f"filled_{ESTIMATED_AREA}" in data else _sampled_too_little(data)
-    reasons = [*doubts, *_as_on_a_plate(data), *guessed, *_beyond_law(data), *widths]
-    return f"none to rely on. {' '.join(reasons)}" if reasons else ""
-
-
-_WHOLE, _NONE = 0.99, 1e-3  # contact fraction and friction together that no road has
-
-
-def _as_on_a_plate(data: xr.Dataset) -> Iterator[str]:
-    """Yield that an answer is that of a smooth plate, as where a unit is wrong."""
     area, friction = (answer_number(data, name).value for name in ("contact_fraction", "friction"))
+    reasons = doubts
     if is_moving(data) and area > _WHOLE and friction < _NONE:
-        yield (
+        reasons.append(
             f"The rubber touches {percent_text(area)} of the surface with a friction of "
             f"{friction:.1g}, as on a smooth plate: are the units of heights, distances and moduli "
             "right?"
         )
+    reasons += [share.sentence for share in guesses(data) if share.effect > MOST_ON_GUESSES]
+    if float(data.get(REACH, math.nan)) > 1.0:
+        reasons.append(
+            "So few summits of the profiles carry that the step from profile to surface is beyond "
+            "the surfaces it was measured on; a map needs no such step."
+        )
+    if "filled_answer_contact_fraction" not in data:
+        reasons += _sampled_too_little(data)
+    return f"none to rely on. {' '.join(reasons)}" if reasons else ""
 
 
 def guesses(data: xr.Dataset) -> Iterator[Finding]:
     """Yield the shares of an answer on frequencies and heights that were not measured."""
     beyond = model.extrapolation_of(direct_of(data))
-    if friction_sentence(beyond):
-        yield Finding(
-            Severity.WARNING,
-            f"{friction_sentence(beyond)} There the Prony series is an extrapolation.",
-            friction=beyond.share,
-            topic=Topic.RUBBER,
-        )
+    if sentence := friction_sentence(beyond):
+        text = f"{sentence} There the Prony series is an extrapolation."
+        yield Finding(Severity.WARNING, text, friction=beyond.share, topic=Topic.RUBBER)
     missing = float(data.get("answer_missing_share", math.nan))
     if missing > WORTH_NAMING:
         text = f"{percent_text(missing)} of the contact lies on filled gaps of the measurement."
         yield Finding(Severity.WARNING, text, area=missing, topic=Topic.SURFACE)
 
 
-def _beyond_law(data: xr.Dataset) -> Iterator[str]:
-    """Yield that the law from lines to their surface knows no such lines under such a load."""
-    if float(data.get(REACH, math.nan)) > 1.0:
-        yield (
-            "So few summits of the profiles carry that the step from profile to surface is beyond "
-            "the surfaces it was measured on; a map needs no such step."
-        )
-
-
 def _sampled_too_little(data: xr.Dataset) -> Iterator[str]:
     """Yield that the surface is too small for an interval, or for one that says something."""
     numbers = [answer_number(data, name) for name in estimated_names(data)]
     if not math.isfinite(numbers[-1].low):
-        if not is_measured(data):
-            if "part_label" in data:
-                yield "Fewer than two samples have an answer."
-            return
-        yield (
-            "The measured surface is too small to tell whether it stands for the whole: it holds "
-            "fewer than four pieces of two largest waves, or one summit carries it."
-        )
+        if is_measured(data):
+            yield (
+                "The measured surface is too small to tell whether it stands for the whole: it "
+                "holds fewer than four pieces of two largest waves, or one summit carries it."
+            )
+        elif "part_label" in data:
+            yield "Fewer than two samples have an answer."
     elif any(number.high > 2.0 * number.value for number in numbers):
         # the parts of an interval that is sampled say why
         why = ": the measured surface is too small, or too few of its summits carry"

@@ -3,18 +3,14 @@
 Samples (profiles, seeds of random phases, windows, maps) are the dimension `sample` of a Dataset;
 only those whose `prediction_status` is "converged" count. Relative uncertainties are standard
 deviations of logarithms, which add in squares in products of independent log-normal numbers (J.
-Aitchison & J. A. C. Brown, The Lognormal Distribution (1957), sec. 2.3):
-
-    y = y_1^(+-1) y_2^(+-1) ...,      sigma^2 = sigma_1^2 + sigma_2^2 + ...
-
-A number between y exp(-sigma) and y exp(sigma) is within one standard uncertainty.
+Aitchison & J. A. C. Brown, The Lognormal Distribution (1957), sec. 2.3).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import xarray as xr
@@ -41,9 +37,8 @@ def sample_numbers(
 ) -> xr.Dataset:
     """Return totals, named without `total_`, their estimated errors, and curves by wavelength.
 
-    `curve_contact_fraction` and `curve_friction` over `curve` count all waves not shorter than
-    `curve_wavelength`. Friction at rest is zero. An area term of `conditions` that the model does
-    not know is that of its contact area at the temperature before the contact.
+    The curves count all waves not shorter than `curve_wavelength`. An area term of `conditions`
+    that the model does not know is that of its contact area at the temperature before the contact.
     """
     numbers: dict[str, Any] = {name: float(answer[f"total_{name}"]) for name in SAMPLED_QUANTITIES}
     numbers |= {f"{name}_error": error_of_total(answer, name) for name in SMOOTH}
@@ -52,20 +47,17 @@ def sample_numbers(
     numbers |= {name: float(answer[name].item()) for name in TRAPPED_WATER if name in answer}
     names = (*CONDITION_ERRORS, *OTHER_CHANGES, WARMING)
     numbers |= {name: answer[name] for name in names if name in answer}
-    for share in SHARES_BY_SLOPE:
-        if f"total_{share}" in answer:
-            numbers[share] = answer[f"total_{share}"]
+    numbers |= {s: answer[f"total_{s}"] for s in SHARES_BY_SLOPE if f"total_{s}" in answer}
     lines = () if task.surface.measured is None else task.surface.measured.cleaned
     numbers["length"] = sum(line.length for line in lines) or math.nan
     if float(answer["nominal_speed"]) == 0.0:
         numbers["friction_error"] = math.nan
-    if model.ADHESIVE_FRICTION in answer or conditions is None:
-        numbers["adhesive_friction"] = float(answer.get(model.ADHESIVE_FRICTION, math.nan))
-    else:
+    area_term = float(answer.get(model.ADHESIVE_FRICTION, math.nan))
+    if conditions is not None and model.ADHESIVE_FRICTION not in answer:
         load, kelvin = task.load, task.rubber.reference_temperature
-        numbers["adhesive_friction"] = conditions.adhesive_friction(
-            numbers["contact_fraction"], load.pressure, load.speed, kelvin
-        )
+        state = numbers["contact_fraction"], load.pressure, load.speed, kelvin
+        area_term = conditions.adhesive_friction(*state)
+    numbers["adhesive_friction"] = area_term
     beyond, exponents = model.extrapolation_of(answer), model.cut_off_exponents_of(answer)
     for whole, parts in ((beyond, model.OUTSIDE_BAND), (exponents, model.CUT_OFF_EXPONENTS)):
         numbers |= {name: getattr(whole, part) for name, (part, _) in parts.items()}
@@ -88,13 +80,12 @@ def _curve(answer: xr.Dataset) -> dict[str, Any]:
         area, friction = (weight @ answer[n].transpose("profile", ...).values for n in names)
     elif "running_friction" in answer:
         friction = answer["running_friction"].values
-        unknown = xr.full_like(answer["running_friction"], math.nan)
-        area = answer.get("running_contact_fraction", unknown).values
+        area = answer.get("running_contact_fraction", friction * math.nan)
     else:
         return {}
     return {
         "curve_wavelength": ("curve", answer["wavelength"].values),
-        "curve_contact_fraction": ("curve", area),
+        "curve_contact_fraction": ("curve", np.asarray(area)),
         "curve_friction": ("curve", friction),
         "curve_stepped": float("amplitude" in answer and not by_octave),
     }
@@ -106,8 +97,7 @@ def curve_at(
     """Return `contact_fraction` or `friction` of all waves not shorter than `at` [m].
 
     The curve has falling `wavelength` [m], NaN beyond its end, and `values` [-], NaN where unknown;
-    if `stepped`, nothing lies between its waves. Above the longest wave nothing counts yet, below
-    the shortest no more is added.
+    if `stepped`, nothing lies between its waves.
     """
     finite = np.isfinite(values) & np.isfinite(wavelength)
     if not finite.any():
@@ -123,22 +113,15 @@ def curve_at(
 
 
 def octaves(longest: float, shortest: float, end: float) -> Array:
-    """Return the lower ends of octaves [m], falling, that hold both waves, `end` among them.
-
-    Empty where there are no waves (NaN).
-    """
+    """Return the lower ends of octaves [m], falling, that hold both waves; empty for NaN."""
     if math.isnan(longest):
         return np.empty(0)
-    first = np.floor(np.log2(longest / end) + _ROUNDING)
-    last = np.floor(np.log2(shortest / end) + _ROUNDING)
+    first, last = np.floor(np.log2(np.array([longest, shortest]) / end) + _ROUNDING)
     return np.asarray(end * 2.0 ** np.arange(first, last - 1.0, -1.0))
 
 
 def running(samples: xr.Dataset, name: str, wavelength: Array) -> xr.DataArray:
-    """Return the mean over the samples down to each wavelength [m].
-
-    NaN where a sample with a curve does not have it there.
-    """
+    """Return the mean down to each wavelength [m]; NaN where a sample's curve is not known."""
     dims = samples["prediction_status"].dims
     values = np.full((*samples["prediction_status"].shape, wavelength.size), np.nan)
     there = converged(samples)
@@ -176,8 +159,7 @@ def mean(samples: xr.Dataset, name: str) -> xr.DataArray:
         return np.asarray(weighed / np.where(total != 0.0, total, math.nan))
 
     lengths, dims = samples["length"].fillna(1.0), [["sample"], ["sample"]]
-    mean: xr.DataArray = xr.apply_ufunc(weighted, values, lengths, input_core_dims=dims)
-    return mean
+    return cast(xr.DataArray, xr.apply_ufunc(weighted, values, lengths, input_core_dims=dims))
 
 
 def spread(values: xr.DataArray) -> xr.DataArray:
@@ -245,21 +227,19 @@ def ratio(over: xr.Dataset, under: xr.Dataset, name: str) -> tuple[xr.DataArray,
     The error is from the scatter of the ratios of subjects that both have, or else from the scatter
     of both; the truth lies evenly within the errors that the models estimate.
     """
+    pair = over, under
     if not paired(over, under):
-        upper, lower = (usable(samples, name).mean("sample") for samples in (over, under))
-        uncertainties = (relative_uncertainty(samples, name) for samples in (over, under))
-        first, second = (road_error(samples, name).freedom for samples in (over, under))
-        fewest = first.where(first < second, second)
-        return upper / lower.where(lower != 0.0), LogError(in_quadrature(*uncertainties), fewest)
-    both = converged(over) & converged(under)
-    upper, lower = (samples[name].where(both).mean("sample") for samples in (over, under))
-    scatter = pair_scatter(over, under, name)
-    errors = (
-        estimated_error(samples, name).where(both.any("sample")) / math.sqrt(3.0)
-        for samples in (over, under)
-    )
-    sigma = in_quadrature(scatter.sigma, *errors)
-    return upper / lower.where(lower != 0.0), LogError(sigma, scatter.freedom)
+        upper, lower = (usable(samples, name).mean("sample") for samples in pair)
+        sigma = in_quadrature(*(relative_uncertainty(samples, name) for samples in pair))
+        first, second = (road_error(samples, name).freedom for samples in pair)
+        freedom = first.where(first < second, second)
+    else:
+        both = converged(over) & converged(under)
+        upper, lower = (samples[name].where(both).mean("sample") for samples in pair)
+        scatter, freedom = pair_scatter(over, under, name)
+        errors = (estimated_error(samples, name).where(both.any("sample")) for samples in pair)
+        sigma = in_quadrature(scatter, *(error / math.sqrt(3.0) for error in errors))
+    return upper / lower.where(lower != 0.0), LogError(sigma, freedom)
 
 
 def pair_scatter(over: xr.Dataset, under: xr.Dataset, name: str) -> LogError:
@@ -272,9 +252,7 @@ def pair_scatter(over: xr.Dataset, under: xr.Dataset, name: str) -> LogError:
 
 def paired(first: xr.Dataset, second: xr.Dataset) -> bool:
     """Return whether two models have one sample each of the same two subjects or more."""
-    subjects, others = (
-        samples["subject"].values[_present(samples)].tolist() for samples in (first, second)
-    )
+    subjects, others = (s["subject"].values[_present(s)].tolist() for s in (first, second))
     return len(subjects) > 1 and subjects == others and len(set(subjects)) == len(subjects)
 
 
@@ -302,10 +280,7 @@ def _sum(values: xr.DataArray, there: xr.DataArray) -> xr.DataArray:
 
 
 def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
-    """Return how the means change with the smallest wavelength.
-
-    d ln(sum x_i) = sum x_i d ln x_i / sum x_i.
-    """
+    """Return how the means change with the cut-off: d ln(sum x_i) = sum x_i d ln x_i / sum x_i."""
     there = converged(samples)
     data: dict[str, Any] = {}
     for name, (quantity, _) in model.CUT_OFF_EXPONENTS.items():
@@ -313,9 +288,8 @@ def cut_off_exponents(samples: xr.Dataset) -> xr.Dataset:
         total = _sum(weight, there)
         mean = _sum(weight * samples[name], there) / total.where(total != 0.0)
         data[name] = mean.where(there.any("sample"))
-    why_not = _over_samples(
-        lambda texts: next(filter(None, texts), ""), samples[model.WHY_NO_EXPONENT].where(there, "")
-    )
+    texts = samples[model.WHY_NO_EXPONENT].where(there, "")
+    why_not = _over_samples(lambda texts: next(filter(None, texts), ""), texts)
     data[model.WHY_NO_EXPONENT] = why_not.where(there.any("sample"), NOT_TOLD.why_not)
     return xr.Dataset(data)
 
@@ -345,8 +319,6 @@ def status_word(samples: xr.Dataset) -> xr.DataArray:
 
 def _over_samples(text: Callable[..., str], *values: xr.DataArray) -> xr.DataArray:
     """Return one text of the values of all samples, for each load."""
-    each: dict[str, Any] = {"vectorize": True, "output_dtypes": [object]}
-    words: xr.DataArray = xr.apply_ufunc(
-        text, *values, input_core_dims=[["sample"]] * len(values), **each
-    )
-    return words
+    core: dict[str, Any] = {"input_core_dims": [["sample"]] * len(values)}
+    words = xr.apply_ufunc(text, *values, vectorize=True, output_dtypes=[object], **core)
+    return cast(xr.DataArray, words)

@@ -16,7 +16,7 @@ where the case has an interface the sum with its friction. The factors and error
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import xarray as xr
@@ -74,39 +74,28 @@ def _number(start: str, words: str, role: str, symbol: str) -> dict[str, dict[st
     return about
 
 
-def _evidence(texts: Mapping[str, str]) -> dict[str, dict[str, str]]:
-    return {name: {"long_name": text, "role": "evidence"} for name, text in texts.items()}
-
-
 _HYSTERESIS = "friction coefficient of the hysteresis"
-_AREA = f"{HEADINGS['contact_fraction']} {SYMBOLS['contact_fraction']}"
+_SYMBOL_OF_AREA = SYMBOLS["contact_fraction"]
+_AREA = f"{HEADINGS['contact_fraction']} {_SYMBOL_OF_AREA}"
+_EVIDENCE = {
+    **{f"answer_friction{end}": text.format(_HYSTERESIS) for end, text in _PARTS.items()},
+    **{f"answer_contact_fraction{end}": text.format(_AREA) for end, text in _PARTS.items()},
+    ERROR_LEFT: "share of the variance of the answer that a fit to measured friction leaves",
+    REACH: "how few summits of the lines carry, over the fewest that the step to a surface knows",
+    **{f"answer_{share}": model.BASIS[f"total_{share}"] for share in BASIS_SHARES},
+    **{f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()},
+}
 # All variables of an answer with their attributes.
 ANSWER_NUMBERS: dict[str, dict[str, str]] = {
     **_number("answer_friction", HEADINGS["friction"], "answer", SYMBOLS["friction"]),
-    **_number(
-        "answer_contact_fraction",
-        HEADINGS["contact_fraction"],
-        "answer",
-        SYMBOLS["contact_fraction"],
-    ),
+    **_number("answer_contact_fraction", HEADINGS["contact_fraction"], "answer", _SYMBOL_OF_AREA),
     **_number(HYSTERESIS, _HYSTERESIS, "part", "hysteresis"),
     INTERFACE: {
         "long_name": "friction coefficient of the interface over the contact area of the answer",
         "role": "part",
         "symbol": "area term",
     },
-    **_evidence(
-        {f"answer_friction{end}": text.format(_HYSTERESIS) for end, text in _PARTS.items()}
-        | {f"answer_contact_fraction{end}": text.format(_AREA) for end, text in _PARTS.items()}
-        | {
-            ERROR_LEFT: "share of the variance of the answer that a fit to measured friction "
-            "leaves",
-            REACH: "how few summits of the lines carry, over the fewest that the step to a surface "
-            "knows",
-        }
-        | {f"answer_{share}": model.BASIS[f"total_{share}"] for share in BASIS_SHARES}
-        | {f"answer_{share}": text for share, text in SHARES_BY_SLOPE.items()}
-    ),
+    **{name: {"long_name": text, "role": "evidence"} for name, text in _EVIDENCE.items()},
 }
 # The numbers with the solved factor of finite strain, and their meaning.
 LARGE_STRAIN_NUMBERS = {
@@ -155,9 +144,6 @@ def with_present_names(data: xr.Dataset) -> xr.Dataset:
     return data.rename({old: new for old, new in names.items() if old in data})
 
 
-# Which number is to be believed.
-
-
 def is_estimated(data: xr.Dataset, name: str) -> bool:
     """Return whether a result has the answer of a number such as `friction`."""
     answer = f"answer_{name}"
@@ -178,6 +164,9 @@ def has_answer(data: xr.Dataset) -> bool:
     """Return whether a result of one load holds an answer of the contact area."""
     area = data.get("answer_contact_fraction")
     return area is not None and not area.ndim and math.isfinite(float(area))
+
+
+_ENDS = ("", "_low", "_high")  # of the names of a number and both ends of its interval
 
 
 class AnswerNumber(NamedTuple):
@@ -202,14 +191,13 @@ def answer_number(data: xr.Dataset, name: str) -> AnswerNumber:
     """Return a number of the answer of one load, such as `friction`; NaN without one."""
     if not has_answer(data):
         return AnswerNumber(math.nan, math.nan, math.nan)
-    names = [f"answer_{name}{end}" for end in ("", "_low", "_high")]
+    names = [f"answer_{name}{end}" for end in _ENDS]
     # `get` would look for names that are spelled like a missing one
     return AnswerNumber(*(float(data[n]) if n in data else math.nan for n in names))
 
 
 # The answer of a case that does not state whether its rubber is filled has both numbers.
 FILLERS = ("filled", "unfilled")
-_ENDS = ("", "_low", "_high")
 
 
 def with_filled(data: xr.Dataset, filled: xr.Dataset) -> xr.Dataset:
@@ -223,19 +211,18 @@ def with_filled(data: xr.Dataset, filled: xr.Dataset) -> xr.Dataset:
             for end in names:
                 text = f"{of[end].attrs.get('long_name', name)}, {filler} rubber"
                 numbers[f"{filler}_{end}"] = of[end].assign_attrs(long_name=text)
-        _, low, high = names
-        numbers[low] = data[low].copy(data=min(float(data[low]), float(filled[low])))
-        numbers[high] = data[high].copy(data=max(float(data[high]), float(filled[high])))
+        for end, widest in zip(names[1:], (min, max), strict=True):
+            numbers[end] = data[end].copy(data=widest(float(data[end]), float(filled[end])))
     return data.assign(numbers)
 
 
 def both_answers(data: xr.Dataset) -> Iterator[tuple[str, dict[str, AnswerNumber]]]:
     """Yield "filled" and "unfilled" with friction and contact area; nothing of other answers."""
-    for filler in FILLERS:
-        if f"{filler}_answer_contact_fraction" not in data:
-            return
-        numbers = {}
-        for name in ("friction", "contact_fraction"):
-            start = f"{filler}_answer_{name}"
-            numbers[name] = AnswerNumber(*(float(data[f"{start}{end}"]) for end in _ENDS))
-        yield filler, numbers
+    for filler in FILLERS if "filled_answer_contact_fraction" in data else ():
+        yield (
+            filler,
+            {
+                name: AnswerNumber(*(float(data[f"{filler}_answer_{name}{end}"]) for end in _ENDS))
+                for name in ("friction", "contact_fraction")
+            },
+        )

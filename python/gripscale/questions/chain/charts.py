@@ -16,28 +16,11 @@ import xarray as xr
 from gripscale.charts import chart, style
 from gripscale.charts.chart import CrossLine, Mark, Panel, PlotAxis, Series, ShadedBand
 from gripscale.charts.draw import Sheet
-from gripscale.charts.style import (
-    BLUE,
-    COLOURS,
-    DASHES,
-    DPI,
-    FAINT,
-    GREY,
-    INK,
-    ORANGE,
-    RED,
-    ROUND,
-    WIDE,
-)
+from gripscale.charts.style import BLUE, COLOURS, DASHES, FAINT, GREY, INK, ORANGE, RED, WIDE
 from gripscale.core import Array, checks
 from gripscale.core.units import MILLI
-from gripscale.questions.answer.variables import (
-    ANSWER,
-    AXIS_TITLES,
-    HEADINGS,
-    OF_THE_PAPER,
-    answer_number,
-)
+from gripscale.questions.answer import variables
+from gripscale.questions.answer.variables import ANSWER, AXIS_TITLES, HEADINGS
 from gripscale.questions.chain.view import PredictionView
 
 if TYPE_CHECKING:
@@ -51,10 +34,8 @@ def contact_figure(predictions: Mapping[str, xr.Dataset]) -> Figure:
     """Draw real contact area and friction of each named prediction, such as dynamic and static.
 
     Filled symbols are the running values, open symbols and thin lines those of each wave; a model
-    without waves is a level line at its total, with its answer as a band if it has one.
-    Friction leaves out what is at rest, which has none;
-    of a prediction without a single converged wave the legend says that there is nothing to draw.
-    Lines are dashed beyond the measured band of the rubber.
+    without waves is a level line at its total, with its answer as a band if it has one. Dashed is
+    beyond the measured band of the rubber. Nothing at rest has friction.
     """
     return contact_sheet(predictions).on_paper()
 
@@ -63,7 +44,7 @@ def contact_sheet(predictions: Mapping[str, xr.Dataset]) -> Sheet:
     """Describe what `contact_figure` draws; arguments and errors are its own."""
     views = [PredictionView(data, name) for name, data in predictions.items()]
     judged = any(not view.waves for view in views)
-    title = f"Points: {OF_THE_PAPER}, for comparison" if judged else ""
+    title = f"Points: {variables.OF_THE_PAPER}, for comparison" if judged else ""
     return Sheet([_total_panel(views, name) for name in AXIS_TITLES], legend_title=title)
 
 
@@ -74,7 +55,8 @@ def _total_panel(views: Views, name: str) -> Panel:
     else:
         least = [float(np.nanmin(view.usable(name), initial=0.0)) for view in views if view.waves]
         axis = PlotAxis(f"{HEADINGS[name]} [-]", low=min(0.0, *least, 0.0))
-    abscissa = _wavelengths(views)
+    columns = [view.column("wavelength") / MILLI for view in views if view.waves]
+    abscissa = chart.wavelength_axis(np.concatenate([*columns, []]))
     marks = [
         mark
         for view, colour in zip(views, COLOURS, strict=False)
@@ -83,29 +65,21 @@ def _total_panel(views: Views, name: str) -> Panel:
     ]
     failed = (mark for view in views if view.waves for mark in _failed(view, name))
     caption = (
-        f"{HEADINGS[name]} by wave: running total down to each wave (filled), and of each wave "
-        "(open); dashed beyond the measured band."
+        f"{HEADINGS[name].capitalize()} by wave: running total down to each wave (filled), and of "
+        "each wave (open); dashed beyond the measured band."
     )
     return Panel(
         abscissa,
         axis,
         [*marks, *failed],
         name=f"{name.replace('_', '-')}-by-wave",
-        caption=caption[0].upper() + caption[1:],
+        caption=caption,
         alt="Points against wavelength, which falls to the right.",
     )
 
 
-def _wavelengths(views: Views) -> PlotAxis:
-    columns = [view.column("wavelength") / MILLI for view in views if view.waves]
-    return chart.wavelength_axis(np.concatenate([*columns, []]))
-
-
 def _total_marks(view: PredictionView, name: str, colour: str, along: PlotAxis) -> Iterator[Mark]:
-    """Yield the running value and that of each wave, or the total of a model without waves.
-
-    Above them the answer with its interval, if there is one.
-    """
+    """Yield the values of each wave and down to it, or a total without waves; then the answer."""
     if not view.waves:
         if np.isfinite(total := view.total(name)):
             yield CrossLine(total, colour, f"{view.name}, total", "dotted", 1.4)
@@ -118,14 +92,12 @@ def _total_marks(view: PredictionView, name: str, colour: str, along: PlotAxis) 
                      beyond=down_to)  # fmt: skip
         yield Series(x, each, colour, f"{view.name}, each wave", marker="o", beyond=beyond,
                      width=0.8, filled=False)  # fmt: skip
-    best, low, high = answer_number(view.data, name)
+    best, low, high = variables.answer_number(view.data, name)
     if np.isfinite(best):
         measured = np.isfinite(low)
         yield CrossLine(best, INK, ANSWER if measured else "answer", width=1.2)
         if measured:
-            ends = (
-                (0.0, 1.0) if along.low is None or along.high is None else (along.low, along.high)
-            )
+            ends = (0.0, 1.0) if along.low is None else (along.low, along.high or 1.0)
             yield ShadedBand(ends, [low] * 2, [high] * 2, INK, ANSWER, alpha=0.12)
 
 
@@ -178,7 +150,7 @@ def _figure(view: PredictionView, waves: Sequence[int], columns: int, full: floa
     row_height = HEAD + inside * (PRESSURE + high - low) + MIDDLE + FOOT
     height = max(math.ceil(len(waves) / columns), 1) * row_height
     with figure_rules():
-        figure = Figure(figsize=(width, height), dpi=DPI)
+        figure = Figure(figsize=(width, height), dpi=style.DPI)
         for number, i in enumerate(waves):
             row, column = divmod(number, columns)
             start, wide = (LEFT + column * (inside + BETWEEN)) / width, inside / width
@@ -220,15 +192,12 @@ def _draw_pressure(axes: Axes, view: PredictionView, i: int) -> None:
     axes.axhline(mean, color=GREY, lw=0.8, ls=DASHES["dashed"])
     axes.set_xlim(-0.5, 0.5)
     axes.set_xticks([])  # those of the block below hold here, too
-    axes.yaxis.set_major_locator(MaxNLocator(2, steps=ROUND, min_n_ticks=2))
+    axes.yaxis.set_major_locator(MaxNLocator(2, steps=style.ROUND, min_n_ticks=2))
     axes.set_title(title, loc="left", y=1.0, fontsize=7.0, parse_math=False)
 
 
 def _draw_mesh(axes: Axes, view: PredictionView, i: int, low: float, high: float) -> None:
-    """Draw the rigid wave and the block upon it between two heights [wavelengths].
-
-    Of the periodic mesh some columns and rows of nodes, over three wavelengths.
-    """
+    """Draw the rigid wave and some nodes of the block upon it between heights [wavelengths]."""
     abscissa = np.linspace(-0.5, 0.5, 200)
     steepness = view.column("amplitude")[i] / view.column("wavelength")[i]
     wave = steepness * np.cos(2.0 * math.pi * abscissa)

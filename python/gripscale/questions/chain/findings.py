@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import astuple
 
 import numpy as np
 import xarray as xr
@@ -43,10 +44,6 @@ def _of_waves(flagged: np.ndarray, words: str) -> Iterator[str]:
         yield f"{waves}: {words}."
 
 
-def _share(value: float) -> str:
-    return f"{100.0 * value:.3g} %"
-
-
 def prediction_sentence(view: PredictionView) -> str:
     """Return how many waves, how much of the friction and how far; empty within the band."""
     beyond = model.extrapolation_of(view.data)
@@ -55,7 +52,7 @@ def prediction_sentence(view: PredictionView) -> str:
     outside = int(np.count_nonzero(view.column("outside_band") == 1.0))
     if not outside or not beyond.anywhere:
         return ""
-    part = "" if math.isnan(beyond.share) else f", {_share(beyond.share)} of the friction,"
+    part = "" if math.isnan(beyond.share) else f", {100.0 * beyond.share:.3g} % of the friction,"
     verb = "lies" if view.waves == 1 else "lie"
     waves = f"{outside} of {view.waves} wave{'s' if view.waves != 1 else ''}"
     return f"{waves}{part} {verb} {beyond.furthest}."
@@ -73,18 +70,16 @@ def study_sentence(data: xr.Dataset) -> str:
     beyond = [part for part in every if part.share > WORTH_SAYING]
     if not beyond:
         return ""
-    most = max(part.share for part in beyond)
-    ends = (max(getattr(part, end) for part in beyond) for end in ("below", "above"))
-    count = f"{len(beyond)} of {len(every)} predictions, up to {_share(most)} of their friction"
-    return f"{count}, lie {Extrapolation(most, *ends).furthest}."
+    most = Extrapolation(*map(max, zip(*map(astuple, beyond), strict=True)))
+    count = f"{len(beyond)} of {len(every)} predictions"
+    return f"{count}, up to {100.0 * most.share:.3g} % of their friction, lie {most.furthest}."
 
 
 def comparison_notices(comparison: xr.Dataset) -> Iterator[Finding]:
     """Yield a warning for each model of a comparison with friction beyond the band."""
     for at, label in enumerate(comparison.label.values):
         member = comparison.isel(model=at)
-        text = study_sentence(member)
-        if text:
+        if text := study_sentence(member):
             share = float(member[model.FRICTION_OUTSIDE_BAND].max())
             yield Finding(Severity.WARNING, f"{label}: {text}", share, topic=Topic.RUBBER)
 
@@ -97,12 +92,9 @@ def exponent_sentence(data: xr.Dataset) -> str:
     exponents = model.cut_off_exponents_of(data)
     if exponents.why_not in (NOT_TOLD.why_not, NOT_CONVERGED.why_not):
         return ""
-    pairs = (("μ", exponents.friction), ("A_r/A_0", exponents.contact_fraction))
-    texts = [
-        f"d ln {symbol} / d ln λ_min = {value:z.2f}"
-        for symbol, value in pairs
-        if math.isfinite(value)
-    ]
+    powers = {"μ": exponents.friction, "A_r/A_0": exponents.contact_fraction}
+    changes = {symbol: power for symbol, power in powers.items() if math.isfinite(power)}
+    texts = [f"d ln {symbol} / d ln λ_min = {power:z.2f}" for symbol, power in changes.items()]
     if not texts:
         return f"The change with the cut-off is not known: {exponents.why_not}."
     text = f"Change with the cut-off, over its last octave: {', '.join(texts)}"

@@ -14,12 +14,8 @@ from gripscale.io.table import Column, Table, fixed, significant, whole_number
 from gripscale.model import with_adhesive
 from gripscale.questions.answer import variables
 from gripscale.questions.answer.reliance import is_measured
+from gripscale.questions.chain import findings
 from gripscale.questions.chain.charts import contact_sheet
-from gripscale.questions.chain.findings import (
-    conditions_notes,
-    exponent_sentence,
-    prediction_sentence,
-)
 from gripscale.questions.chain.view import PredictionView
 from gripscale.questions.inputs.page import numbers
 from gripscale.report.elements import Element, Section, Text
@@ -64,6 +60,7 @@ LEGEND = (
     "area: contact length over wavelength, and A_r/A_0 down to the wave; μ: of the wave, summed "
     "down to it, and of the wave from the energy lost; |E*| and tan δ at 2πv/λ."
 )
+_TITLE = f"{variables.OF_THE_PAPER[0].upper()}{variables.OF_THE_PAPER[1:]}"
 _STAR = "* the wave, or a harmonic of it, excites the rubber beyond the measured frequencies:"
 
 
@@ -84,8 +81,8 @@ def prediction_table(data: xr.Dataset, title: str) -> Table:
     `data` is the answer of any model; of one without waves only the totals are shown.
     """
     view = PredictionView(data)
-    notes = [totals(data), *filter(None, [exponent_sentence(data)])]
-    beyond = prediction_sentence(view)
+    notes = [totals(data), *filter(None, [findings.exponent_sentence(data)])]
+    beyond = findings.prediction_sentence(view)
     if not view.waves:
         return Table("waves", [], title, [*notes, *filter(None, [beyond])])
     ends = [filled(view, Column(f"{end}_stretch")).values for end in ("min", "max")]
@@ -107,7 +104,7 @@ def prediction_table(data: xr.Dataset, title: str) -> Table:
         notes.append(f"{_STAR} {beyond}")
         marks = ["*" if flag else "" for flag in view.column("outside_band")]
         columns = [replace(c, marks=marks) if c.name == "loss_factor" else c for c in columns]
-    notes += conditions_notes(view)
+    notes += findings.conditions_notes(view)
     return Table("waves", columns, title, notes, keys=2, bad=~view.converged)
 
 
@@ -133,9 +130,8 @@ def totals(data: xr.Dataset) -> str:
 def heat_table(data: xr.Dataset) -> Table:
     """Return how warm the rubber is on each wave of a chain solved with heat, and what warms it."""
     view = PredictionView(data)
-    columns = (filled(view, column) for column in (_WAVELENGTH, *_HEAT))
-    caption = "Temperature of the rubber on each wave"
-    return Table("heat", [numbers("wave", view.waves, "#"), *columns], caption)
+    columns = [numbers("wave", view.waves, "#"), *(filled(view, c) for c in (_WAVELENGTH, *_HEAT))]
+    return Table("heat", columns, "Temperature of the rubber on each wave")
 
 
 def chain_tables(chain: xr.Dataset) -> list[Table]:
@@ -149,9 +145,8 @@ def waves_in_brief(chain: xr.Dataset) -> Table:
     view = PredictionView(chain)
     dropped = ("slope", "friction_from_dissipation")
     kept = (replace(column, group="") for column in OF_WAVES if column.name not in dropped)
-    columns = [filled(view, column) for column in kept]
-    title = f"{variables.OF_THE_PAPER[0].upper()}{variables.OF_THE_PAPER[1:]}"
-    return Table("waves", [numbers("wave", view.waves, "#"), *columns], title, bad=~view.converged)
+    columns = [numbers("wave", view.waves, "#"), *(filled(view, column) for column in kept)]
+    return Table("waves", columns, _TITLE, bad=~view.converged)
 
 
 def judgement(chain: xr.Dataset, answer: xr.Dataset) -> str:
@@ -177,17 +172,15 @@ def judgement(chain: xr.Dataset, answer: xr.Dataset) -> str:
 def chain_section(chain: xr.Dataset, answer: xr.Dataset) -> Section:
     """Return the chapter of the chain; beside the answer of a measured surface a comparison."""
     view = PredictionView(chain, PredictionView(chain).title.lower())
-    title, judge = "Contact and friction, wave by wave", None
+    title = "Contact and friction, wave by wave"
+    judge: dict[str, xr.Dataset] = {}
     elements: list[Element] = []
     if is_measured(answer):
-        title, judge = (
-            f"{variables.OF_THE_PAPER[0].upper()}{variables.OF_THE_PAPER[1:]}, for comparison",
-            answer,
-        )
+        title, judge = f"{_TITLE}, for comparison", {variables.JUDGE: answer}
         elements.append(Text(judgement(chain, answer)))
     waves, *heat = chain_tables(chain)
     elements += [replace(waves, name="chain"), *heat]
     if view.waves:
-        models = {view.name: chain, **({} if judge is None else {variables.JUDGE: judge})}
-        elements += panels_on_page(panel for panel in contact_sheet(models).panels if panel.marks)
+        panels = contact_sheet({view.name: chain} | judge).panels
+        elements += panels_on_page(panel for panel in panels if panel.marks)
     return Section("chain", title, elements)

@@ -1,7 +1,7 @@
 """A model's Dataset as tables, figures and pages read it; what a model has not is left out.
 
-Everything over waves (dimension `scale`) is there only for a chain. Numbers of waves that did not
-converge are kept in the Dataset, and hidden by `usable`.
+Only a chain has waves (dimension `scale`). Numbers of those that did not converge are in the
+Dataset, and hidden by `usable`.
 """
 
 from __future__ import annotations
@@ -30,19 +30,14 @@ class PredictionView:
     name: str = ""
 
     @property
-    def speed(self) -> float:
-        """Sliding speed [m/s]."""
-        return float(self.data["nominal_speed"])
-
-    @property
     def moving(self) -> bool:
         """Whether it slides: rubber at rest has no friction to show."""
-        return self.speed > 0.0
+        return float(self.data["nominal_speed"]) > 0.0
 
     @property
     def title(self) -> str:
         """What tables and figures call it."""
-        speed = self.display_unit("speed").text(self.speed)
+        speed = self.display_unit("speed").text(float(self.data["nominal_speed"]))
         return f"Dynamic, {speed}" if self.moving else "Static"
 
     def display_unit(self, name: str) -> DisplayUnit:
@@ -69,8 +64,7 @@ class PredictionView:
         """Whether each wave may be used."""
         if "status" not in self.data:
             return np.zeros(self.waves, dtype=bool)
-        states = self.data["status"].values
-        return np.array([str(state) == CONVERGED for state in states], dtype=bool)
+        return np.asarray(self.data["status"].values == CONVERGED, dtype=bool)
 
     def why(self, i: int) -> str:
         """Return the status of wave `i`, and how much of its pressure was reached."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -41,15 +41,6 @@ def flawed(comparison: xr.Dataset) -> NDArray[np.bool_]:
 def varied(comparison: xr.Dataset) -> str:
     """Return the axis of a comparison, or an empty text if nothing was varied."""
     return next((str(dim) for dim in comparison.total_friction.dims if dim != "model"), "")
-
-
-def worth_drawing(comparison: xr.Dataset) -> NDArray[np.bool_]:
-    """Return for each octave whether a model has friction or lost area down to it."""
-    friction, area = comparison.running_friction, comparison.running_contact_fraction
-    if not friction.size:  # maps and windows at finite strain have no octaves
-        return np.zeros(0, dtype=np.bool_)
-    begun = np.abs(friction) > SEEN * np.abs(friction).max("wavelength")
-    return np.asarray((begun | (area < 1.0 - SEEN)).any("model").values)
 
 
 def on_the_surface(comparison: xr.Dataset) -> xr.Dataset:
@@ -88,7 +79,7 @@ class Row:
     uncertainty: float = math.nan
     before: float = math.nan  # where the bar begins; NaN for none
     factor: float = math.nan
-    samples: tuple[float, ...] = ()
+    samples: Sequence[float] = ()
     marker: str = "o"
     colour: str = INK
     filled: bool = True
@@ -109,7 +100,7 @@ class Row:
 
 
 def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
-    """Yield the lines of one panel; both panels have the same."""
+    """Yield the lines of one panel, the same in both: models, factors and answer, measurements."""
     comparison, most = on_the_surface(comparison), UPPER_LIMITS.get(name, math.inf)
     totals = comparison[f"total_{name}"].values.tolist()
     values = dict(zip(comparison.model.values, totals, strict=True))
@@ -117,49 +108,37 @@ def rows_of(comparison: xr.Dataset, name: str) -> Iterator[Row]:
         solved = comparison.isel(model=at)
         theory, judge = str(solved.group.item()) == "theory", member == DirectContact.name
         samples = solved[f"sample_{name}"].values
-        star = STAR if style.predictions_beyond(solved) else ""
         yield Row(
-            f"{solved.label.item()}{star}",
+            f"{solved.label.item()}{STAR if style.predictions_beyond(solved) else ''}",
             values[member],
             float(solved[f"{name}_uncertainty"]),
             math.nan if theory else values.get(str(solved.follows.item()), math.nan),
             float(solved[f"{name}_factor"]),
-            tuple(samples[np.isfinite(samples)].tolist()) if int(solved.samples) > 1 else (),
+            samples[np.isfinite(samples)].tolist() if int(solved.samples) > 1 else (),
             marker="D" if judge else "s" if theory else "o",
             colour=GREY if theory else ORANGE if judge else INK,
             filled=not bad,
             note="failed" if math.isnan(values[member]) and not theory else "none",
             most=most,
         )
-    for row in _best(comparison, name, values.get(DirectContact.name, math.nan)):
-        yield replace(row, most=most)
-    for series in measured_series(comparison):
-        point = series.at(float(comparison.nominal_speed)) if name == "friction" else None
-        if point is None:
-            note = "not at this speed" if name == "friction" else "–"
-            yield Row(series.label, math.nan, note=note)
-        else:
-            friction, spread = point
-            yield Row(series.label, friction, spread / friction, marker="P", colour=INK)
-
-
-def _best(comparison: xr.Dataset, name: str, value: float) -> Iterator[Row]:
-    """Yield the factors of the answer, and the answer itself where it has any."""
     factors = comparison[f"answer_{name}_factor"].values
-    if not math.isfinite(float(comparison[f"answer_{name}"])):
-        return
-    for at, factor in enumerate(factors):
+    answer, value = answer_number(comparison, name), values.get(DirectContact.name, math.nan)
+    for at, factor in enumerate(factors if math.isfinite(answer.value) else ()):
         label = f"× {comparison.factor_label.values[at]}"
         if not math.isfinite(factor):
             yield Row(label, math.nan, note="not included")
             continue
         sigma = float(comparison[f"answer_{name}_factor_uncertainty"][at])
-        yield Row(label, value * factor, sigma, value, factor)
+        yield Row(label, value * factor, sigma, value, factor, most=most)
         value *= factor
-    if np.isfinite(factors).any():
-        answer = answer_number(comparison, name)
+    if math.isfinite(answer.value) and np.isfinite(factors).any():
         width = math.log(answer.value / answer.low) if answer.value > 0.0 else math.nan
-        yield Row(BEST, answer.value, width, marker="*", colour=ORANGE)
+        yield Row(BEST, answer.value, width, marker="*", colour=ORANGE, most=most)
+    for series in measured_series(comparison):
+        point = series.at(float(comparison.nominal_speed)) if name == "friction" else None
+        friction, spread = point or (math.nan, math.nan)
+        note = "not at this speed" if name == "friction" else "–"
+        yield Row(series.label, friction, spread / friction, marker="P", note=note)
 
 
 # Largest over smallest number of an axis, at least: less has no numbers of a log axis in it.
@@ -170,13 +149,11 @@ HALF = 0.27  # half the height of a bar, in rows
 def comparison_figure(comparison: xr.Dataset) -> Figure:
     """Draw area and friction of each model and the factor from the model it follows.
 
-    Below the direct contact, which judges the others, stand the theories, the factors of the best
-    estimate and the estimate itself, and what was measured at this speed. Dots are the samples. A
-    model with failed samples is open.
+    Dots are the samples. A model with failed samples is open.
     """
     panels = [_ladder_panel(comparison, name) for name in _quantities(comparison)]
     labels = list((panels[0].y.ticks or {}).values())
-    star = any(label.endswith(view.STAR) for label in labels)
+    star = any(label.endswith(STAR) for label in labels)
     return Sheet(
         panels,
         height=0.95 + 0.33 * len(labels),
@@ -196,9 +173,8 @@ def _quantities(comparison: xr.Dataset) -> list[str]:
 def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
     rows = list(rows_of(comparison, name))
     numbers = [end for row in rows for end in row.numbers if end > 0.0] or [0.1, 1.0]
-    low, high = min(numbers), max(numbers)
-    widen = max(_LEAST_RANGE * low / high, 1.0) ** 0.5
-    low, high = low / widen, high * widen
+    widen = max(_LEAST_RANGE * min(numbers) / max(numbers), 1.0) ** 0.5
+    low, high = min(numbers) / widen, max(numbers) * widen
     room = (high / low) ** 0.13
     theories = int((comparison.group == "theory").sum())
     models = on_the_surface(comparison).sizes["model"]
@@ -208,16 +184,11 @@ def _ladder_panel(comparison: xr.Dataset, name: str) -> Panel:
         if math.isfinite(follower.before) and follower.before == row.value:
             marks.append(Series([row.value] * 2, [at, at + 1 - HALF], GREY, width=0.7, order=1.0))
     marks += [mark for at, row in enumerate(rows) for mark in _row_marks(at, row)]
-    labels = zip(comparison.model.values, comparison.label.values, strict=True)
-    strong = {BEST} | {f"{label}{end}" for member, label in labels if member == DirectContact.name
-                       for end in ("", view.STAR)}  # fmt: skip
-    return Panel(
-        PlotAxis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3),
-        PlotAxis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=frozenset(strong),
-             ticks={float(at): row.label for at, row in enumerate(rows)}),
-        marks,
-        legend="none",
-    )  # fmt: skip
+    strong = frozenset(row.label for row in rows if row.colour == ORANGE)
+    ticks = {float(at): row.label for at, row in enumerate(rows)}
+    x = PlotAxis(f"{AXIS_TITLES[name]} [-]", log=True, low=low / room, high=high * room**3)
+    y = PlotAxis("", low=len(rows) - 0.4, high=-0.6, grid=False, bold=strong, ticks=ticks)
+    return Panel(x, y, marks, legend="none")
 
 
 def _row_marks(at: int, row: Row) -> Iterator[Mark]:
@@ -242,19 +213,27 @@ def _row_marks(at: int, row: Row) -> Iterator[Mark]:
     yield chart.Note(max(row.numbers), at, text, offset=(5.0, 0.0))
 
 
-def _wavelength_panel(comparison: xr.Dataset, name: str) -> Panel:
-    """Describe area or friction of each model down to each wavelength.
+def _wavelength_panels(comparison: xr.Dataset) -> list[Panel]:
+    """Describe area and friction of each model down to each wavelength; nothing without octaves.
 
-    Friction of the direct contacts goes on below the smallest wave of the surface: the edges of the
-    contact do that. Their area is that of the contact without the shorter waves.
+    Friction of the direct contacts goes on below the smallest wave, by the edges of the contact.
     """
     data = by_label(on_the_surface(comparison))
-    data = data.isel(wavelength=worth_drawing(data))
+    if not data.running_friction.size:  # of maps and windows at finite strain
+        return []
+    friction = np.abs(data.running_friction)
+    begun = friction > SEEN * friction.max("wavelength")
+    begun |= data.running_contact_fraction < 1.0 - SEEN
+    data = data.isel(wavelength=begun.any("model").values)
     flags = xr.DataArray(False)
     if FLAG in data:
         flags = data[FLAG].copy(data=style.down_to(data[FLAG] == 1))
-    panel = view.panel(data, f"running_{name}", "wavelength", flags=flags)
-    return replace(panel, y=replace(panel.y, label=f"{AXIS_TITLES[name]},\nlonger waves [-]"))
+    panels = []
+    for name in _quantities(data) if data.sizes["wavelength"] else ():
+        panel = view.panel(data, f"running_{name}", "wavelength", flags=flags)
+        label = f"{AXIS_TITLES[name]},\nlonger waves [-]"
+        panels.append(replace(panel, y=replace(panel.y, label=label)))
+    return panels
 
 
 def comparison_axis_figure(comparison: xr.Dataset) -> Figure:
@@ -272,23 +251,23 @@ def _axis_panel(comparison: xr.Dataset, name: str) -> Panel:
     data = data.assign(spread_low=low, spread_high=high)
     data[total].attrs["interval"] = "spread_low spread_high"
     panel = view.panel(data, total, axis)
-    marks, x = list(panel.marks), view.plot_axis(comparison[axis])[1]
+    marks, abscissa, x = list(panel.marks), panel.x, view.plot_axis(comparison[axis])[1]
     if np.isfinite(comparison[f"answer_{name}_factor"]).any():
         answer = believed(comparison, name)
-        values, *ends = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))
-        marks.append(Series(x, values, INK, BEST, "", marker="*", size=8.0, order=4.0,
-                            low=ends[0], high=ends[1]))  # fmt: skip
+        values, low, high = (comparison[f"{answer}{end}"].values for end in ("", "_low", "_high"))
+        marks.append(Series(x, values, INK, BEST, "", marker="*", size=8.0, order=4.0, low=low,
+                            high=high))  # fmt: skip
     if name == "friction" and (adhesive := with_adhesive(data)) is not None:
         curves = view.panel(data.assign(adhesive=adhesive), "adhesive", axis).marks
         look: dict[str, Any] = {"label": "with the area term", "dash": "dashdot", "marker": ""}
         marks += [replace(mark, width=0.9, **look) for mark in curves if isinstance(mark, Series)]
-    abscissa = panel.x
     if axis == "speed" and name == "friction":
         points = list(measured_points(comparison, view.shown_unit(comparison[axis])))
         marks += points
         ends = [*x, *(speed for series in points for speed in np.asarray(series.x))]
-        low, high = float(min(ends)), float(max(ends))
-        abscissa = replace(abscissa, log=low > 0.0 and high > 8.0 * low, low=low, high=high)
+        least, most = float(min(ends)), float(max(ends))
+        log = least > 0.0 and most > 8.0 * least
+        abscissa = replace(abscissa, log=log, low=least, high=most)
     return Panel(abscissa, replace(panel.y, label=f"{AXIS_TITLES[name]} [-]"), marks)
 
 
@@ -299,16 +278,14 @@ LEAST_WIDTH = 4.5  # width below which the legend has no room [inch]
 
 def at_measured_figure(data: xr.Dataset, labels: dict[str, str]) -> Figure:
     """Draw measured friction with its spread, and the total of every model at the same points."""
-    names = [str(name) for name in data.model.values]
-    colours = style.colours(len(names), ordered=False)
+    colours = style.colours(data.sizes["model"], ordered=False)
 
     def models(series: MeasuredSeries, speed_unit: DisplayUnit) -> Iterator[Mark]:
-        for name, colour in zip(names, colours, strict=True):
+        for name, colour in zip(data.model.values.tolist(), colours, strict=True):
             values = data.friction.sel(model=name).values[series.rows]
             if np.isfinite(values).any():
-                label = labels.get(name, name)
-                yield Series(speed_unit.of(series.speed), values, colour, label, width=1.2,
-                             marker="o", size=3.5)  # fmt: skip
+                yield Series(speed_unit.of(series.speed), values, colour, labels.get(name, name),
+                             width=1.2, marker="o", size=3.5)  # fmt: skip
 
     return measured_sheet(data, models, head=1.2).on_paper()
 
@@ -321,16 +298,14 @@ def measured_sheet(
     `head` is the height of the legend [inch].
     """
     speed_unit = display_unit_of(data.attrs, "speed")
+    x = PlotAxis(f"sliding speed $v$ [{speed_unit.unit}]", log=True)
+    y = PlotAxis(f"{AXIS_TITLES['friction']} [-]", low=0.0)
     panels = []
     series = zip(measured_series(data), measured_points(data, speed_unit), strict=True)
-    for _, (values, points) in zip(range(MOST_PANELS), series, strict=False):
+    for values, points in islice(series, MOST_PANELS):
         points = replace(points, marker="o", size=4.5, label="measured")
-        panels.append(Panel(
-            PlotAxis(f"sliding speed $v$ [{speed_unit.unit}]", log=True),
-            PlotAxis(f"{AXIS_TITLES['friction']} [-]", low=0.0),
-            [*marks_of(values, speed_unit), points],
-            title=values.state,
-        ))  # fmt: skip
+        marks = [*marks_of(values, speed_unit), points]
+        panels.append(Panel(x, y, marks, title=values.state))
     columns = min(len(panels), MOST_COLUMNS)
     return Sheet(
         panels,
@@ -346,13 +321,12 @@ def measured_sheet(
 def comparison_pictures(data: xr.Dataset) -> Iterator[Picture]:
     """Yield the figures of a comparison: its ladder and wavelengths, or all over its axis."""
     if axis := varied(data):
-        yield Picture(
-            f"over_{axis}",
-            comparison_axis_figure(data),
+        caption = (
             f"Area and friction of every model over {axis.replace('_', ' ')}; bands are the "
-            "standard deviation over its samples, dashed is beyond the measured band.",
-            "Two panels with a curve for each model.",
+            "standard deviation over its samples, dashed is beyond the measured band."
         )
+        alt = "Two panels with a curve for each model."
+        yield Picture(f"over_{axis}", comparison_axis_figure(data), caption, alt)
         return
     yield Picture(
         "comparison",
@@ -362,8 +336,7 @@ def comparison_pictures(data: xr.Dataset) -> Iterator[Picture]:
         "friction partly beyond the measured band.",
         "Area and friction of each model, with the step from the one before.",
     )
-    if worth_drawing(on_the_surface(data)).any():
-        panels = [_wavelength_panel(data, name) for name in _quantities(data)]
+    if panels := _wavelength_panels(data):
         yield Picture(
             "by_wavelength",
             Sheet(panels, height=3.5).on_paper(),

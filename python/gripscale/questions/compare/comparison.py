@@ -16,7 +16,7 @@ from gripscale import model
 from gripscale.case import Case
 from gripscale.chain.chain import Chain
 from gripscale.conditions import Conditions
-from gripscale.core import Array, Described, InputError, checks, labelled
+from gripscale.core import Described, InputError, checks, labelled
 from gripscale.experiment.design import Design, Point, surface_numbers
 from gripscale.experiment.measured_friction import MeasuredFriction, measured_variables
 from gripscale.experiment.solve import Bench, OnTask, Progress
@@ -66,49 +66,6 @@ class SolvedLadder(Described):
         """Everything as a labelled Dataset over the axis and `model`."""
         return comparison_dataset(self)
 
-    @property
-    def best(self) -> xr.Dataset:
-        """The answer with its factors: of the direct contact, or of waves stated by hand."""
-        if self.case.surface.measured is None:
-            chain = self.samples.isel(model=0, sample=0, drop=True)
-            names = ["friction", "contact_fraction", "adhesive_friction"]
-            return estimate_of_waves(chain[names].where(reduce.converged(chain)))
-        conditions = self.case.conditions
-        contacts = [
-            Contact(s.rubber, s.surface, s.load, s.conditions, self.case.below_measurement)
-            for s in self.setups
-        ]
-        best = estimates.answer_of_samples(
-            self.samples, self.factors, conditions=conditions, contacts=contacts
-        )
-        return estimates.with_large_strain(best, self.samples, self.factors, conditions)
-
-    @property
-    def octaves(self) -> Array:
-        """Octaves of wavelength that hold the curves of all samples [m]; empty without curves."""
-        if "curve_wavelength" not in self.samples:
-            return np.empty(0)
-        smallest = min(setup.surface.cutoff_wavelength for setup in self.setups)
-        ends = reduce.usable(self.samples, "curve_wavelength")
-        return reduce.octaves(float(ends.max()), float(ends.min()), smallest)
-
-    def steps(self, name: str) -> list[xr.DataArray]:
-        """Return how well the mean of a number is known, and its factor from the model before.
-
-        Over `model`: the relative uncertainty of the mean, the factor, and that of the factor; NaN
-        for a model that follows none.
-        """
-        rows = []
-        for at, member in enumerate(self.models):
-            samples = self.samples.isel(model=at, drop=True)
-            factor = sigma = reduce.usable(samples, name).mean("sample") * np.nan
-            if member.follows in self.samples["model"].values:
-                before = self.samples.sel(model=member.follows, drop=True)
-                factor, error = reduce.ratio(samples, before, name)
-                sigma = error.sigma
-            rows.append((reduce.relative_uncertainty(samples, name), factor, sigma))
-        return [xr.concat(parts, "model") for parts in zip(*rows, strict=True)]
-
 
 # Inputs a comparison can be made over: numbers of the load and of the surface.
 COMPARED_OVER = ("speed", "pressure", "temperature", "smallest_wavelength", "cut_off")
@@ -126,9 +83,8 @@ def comparison_setups(
 
     Arguments and errors are those of `compare`.
     """
-    tasks = {"": case.task()}
+    tasks, axis = {"": case.task()}, None
     rubbers: Sequence[MeasuredRubber] = [case.measured_rubber]
-    axis: Axis | None = None
     if vary is not None:
         study = Study(case, vary, model=Chain.name)
         axis = study.axes[0]
@@ -142,21 +98,17 @@ def comparison_setups(
         tasks = {point.label: point.task for point in study.points}
         rubbers = study.measured_rubbers
     setups: dict[str, ComparisonSetup] = {}
-    water = None if case.conditions is None else case.conditions.water  # which the chain leaves out
     for label, task in tasks.items():
         chain = checks.instance("model", task.model, Chain)
         conditions = chain.conditions
-        if water is not None:
-            conditions = replace(conditions or Conditions(), water=water)
+        if case.conditions is not None and case.conditions.water is not None:  # not in the chain
+            conditions = replace(conditions or Conditions(), water=case.conditions.water)
+        dry = conditions and conditions.dry
         setup = setups[label] = ComparisonSetup(
             task.rubber,
             task.surface,
             task.load,
-            Chain(
-                chain.solver,
-                pressure_classes=chain.pressure_classes,
-                conditions=conditions and conditions.dry,
-            ),
+            Chain(chain.solver, pressure_classes=chain.pressure_classes, conditions=dry),
             checks.whole("seeds", seeds, least=1, most=MOST_SEEDS),
             checks.positive("tolerance", tolerance),
             case.klueppel_heinrich,
@@ -170,12 +122,11 @@ def comparison_setups(
 
 
 def telling_new(bench: Bench) -> Bench:
-    """Return the bench that tells of the tasks only that it solves, not of those in its store."""
-    on_task = bench.on_task
+    """Return the bench that reports progress of newly solved tasks only."""
 
     def tell(progress: Progress) -> None:
-        if on_task is not None and not progress.stored:
-            on_task(progress)
+        if bench.on_task is not None and not progress.stored:
+            bench.on_task(progress)
 
     return replace(bench, on_task=tell)
 
@@ -199,10 +150,8 @@ def ladder_design(
                 index = (at, number) if axis is None else (load, at, number)
                 points.append(Point(index, name, task))
     sizes = {"model": len(draws), "sample": most}
-    coords = {
-        "model": [member.name for member in draws],
-        "subject": (("model", "sample"), subjects),
-    }
+    names = [member.name for member in draws]
+    coords = {"model": names, "subject": (("model", "sample"), subjects)}
     outer = {} if axis is None else {axis.name: len(setups)}
     # the windows come last on the ladder and take the longest: they start first
     return Design(outer | sizes, points[::-1], coords), list(draws)
@@ -226,9 +175,8 @@ def windows_left(comparison: SolvedLadder, accuracy: float) -> bool:
         interval = f"{name}_half_width"
         left_open = best.get(f"{LARGE_STRAIN}{interval}", best[f"answer_{interval}"])
         whole = np.fmax(accuracy, left_open.fillna(0.0))
-        if bool((error.freedom < FEWEST_WINDOWS - 1).any()) or bool(
-            (half_width(error) > whole / 3.0).any()
-        ):
+        wide = (error.freedom < FEWEST_WINDOWS - 1) | (half_width(error) > whole / 3.0)
+        if bool(wide.any()):
             return True
     return False
 
@@ -249,22 +197,14 @@ def at_measured(
 
     The result is that of `gripscale.questions.residuals`, with the area term of the case's
     conditions; None where no friction was measured or no model predicts. Of several samples of a
-    model the means; beside the direct contact the `answer` of the case, which has its factors on
-    friction and area. Raises `InputError` or `FileError` as `Bench.solve`.
-
-    Parameters
-    ----------
-    ladder : SolvedLadder
-        Under one load, with what was measured.
-    store : path
-        Folder of the finished predictions.
-    workers, client, on_task
-        As for `gripscale.experiment.Bench`.
+    model the means; beside the direct contact the `answer` of the case. `store` is the folder of
+    the predictions; other arguments and errors are those of `gripscale.experiment.Bench`.
     """
     measured, setup = ladder.measured, ladder.setups[0]
     if measured is None:
         return None
     designs: dict[str, list[Design]] = {}
+    tasks: dict[str, Task] = {}
     for member in ladder.models:
         specs = member.draws(setup) if member.name in PREDICTING else []
         for number, (predicting, surface, _) in enumerate(specs, start=1):
@@ -272,11 +212,9 @@ def at_measured(
             met = setup.rubber_for(predicting)
             design = friction.measured_design(measured, predicting, met, surface, setup.load, label)
             designs.setdefault(member.name, []).append(design)
+            tasks |= design.tasks
     if not designs:
         return None
-    tasks = {
-        key: task for parts in designs.values() for d in parts for key, task in d.tasks.items()
-    }
     bench = Bench(Store(store), workers, client, on_task)
     answers = bench.solve(tasks, surface_numbers)
     predicted = {
@@ -288,6 +226,38 @@ def at_measured(
     law = None if setup.conditions is None else setup.conditions.shear_stress
     data = friction.residuals(measured, predicted, law)
     return data.assign_attrs(ladder.case.attributes, measured_source=measured.source)
+
+
+def _answer(ladder: SolvedLadder) -> xr.Dataset:
+    """Return the answer with its factors: of the direct contact, or of waves stated by hand."""
+    case, samples, factors = ladder.case, ladder.samples, ladder.factors
+    if case.surface.measured is None:
+        chain = samples.isel(model=0, sample=0, drop=True)
+        names = ["friction", "contact_fraction", "adhesive_friction"]
+        return estimate_of_waves(chain[names].where(reduce.converged(chain)))
+    contacts = [
+        Contact(s.rubber, s.surface, s.load, s.conditions, case.below_measurement)
+        for s in ladder.setups
+    ]
+    about: dict[str, Any] = {"conditions": case.conditions}
+    best = estimates.answer_of_samples(samples, factors, contacts=contacts, **about)
+    return estimates.with_large_strain(best, samples, factors, **about)
+
+
+def _steps(ladder: SolvedLadder, name: str) -> list[xr.DataArray]:
+    """Return the relative uncertainty of a mean, its factor on the model before, and that of it.
+
+    Over `model`; the last two are NaN for a model that follows none.
+    """
+    rows = []
+    for at, member in enumerate(ladder.models):
+        samples = ladder.samples.isel(model=at, drop=True)
+        factor = sigma = reduce.usable(samples, name).mean("sample") * np.nan
+        if member.follows in ladder.samples["model"].values:
+            before = ladder.samples.sel(model=member.follows, drop=True)
+            factor, (sigma, _) = reduce.ratio(samples, before, name)
+        rows.append((reduce.relative_uncertainty(samples, name), factor, sigma))
+    return [xr.concat(parts, "model") for parts in zip(*rows, strict=True)]
 
 
 def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
@@ -308,35 +278,38 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     for name in reduce.SAMPLED_QUANTITIES:
         text = f"{model.TOTALS[f'total_{name}']}, mean of the samples"
         add(f"total_{name}", reduce.mean(samples, name), text)
-    cut_offs = [resolved_wavelength(setup.surface) for setup in setups]
-    text = "shortest wavelength of the roughness"
-    add("cutoff_wavelength", by_load(cut_offs), text, "m")
-    wavelength = comparison.octaves
+    cut_offs = by_load([resolved_wavelength(setup.surface) for setup in setups])
+    add("cutoff_wavelength", cut_offs, "shortest wavelength of the roughness", "m")
+    wavelength = np.empty(0)  # octaves that hold the curves of all samples
+    if "curve_wavelength" in samples:
+        smallest = min(setup.surface.cutoff_wavelength for setup in setups)
+        ends = reduce.usable(samples, "curve_wavelength")
+        wavelength = reduce.octaves(float(ends.max()), float(ends.min()), smallest)
     about = "relative standard uncertainty of the"
     for name, text in _WORDS.items():
         values = reduce.usable(samples, name)
         add(f"{name}_spread", reduce.spread(values), f"standard deviation of the {text}")
         error = reduce.mean(samples, f"{name}_error")
         add(f"{name}_error", error, f"error of the {text} as the model estimates it")
-        of_mean, factor, of_factor = comparison.steps(name)
+        of_mean, factor, of_factor = _steps(comparison, name)
         add(f"{name}_uncertainty", of_mean, f"{about} mean {text}")
         add(f"{name}_factor", factor, f"{text} over that of the model it follows")
         add(f"{name}_factor_uncertainty", of_factor, f"{about} factor on the {text}")
         add(f"sample_{name}", values, f"{text} by sample")
-        curves = reduce.running(samples, name, wavelength)
-        add(f"running_{name}", curves, f"{text} down to the wavelength")
-    best = comparison.best
+        running = reduce.running(samples, name, wavelength)
+        add(f"running_{name}", running, f"{text} down to the wavelength")
+    best = _answer(comparison)
     for name in ANSWER_NUMBERS | LARGE_STRAIN_NUMBERS:
         if name in best and "slope" not in best[name].dims:
             add(name, best[name], best[name].attrs["long_name"])
     adhesive = reduce.mean(samples, "adhesive_friction")
     if adhesive.notnull().any():
         add(model.ADHESIVE_FRICTION, adhesive, "friction coefficient of the area term")
-    beyond, exponents = reduce.outside_band(samples), reduce.cut_off_exponents(samples)
+    basis = reduce.outside_band(samples).assign(reduce.cut_off_exponents(samples))
     for name, (_, text) in (model.OUTSIDE_BAND | model.CUT_OFF_EXPONENTS).items():
-        add(name, (beyond if name in beyond else exponents)[name], text)
+        add(name, basis[name], text)
     text = "why an exponent of the cut-off is not known"
-    add(model.WHY_NO_EXPONENT, exponents[model.WHY_NO_EXPONENT], text)
+    add(model.WHY_NO_EXPONENT, basis[model.WHY_NO_EXPONENT], text)
     excited = [
         setup.rubber.outside_band(2.0 * np.pi * setup.load.speed / wavelength).astype(np.int8)
         for setup in setups
@@ -350,9 +323,8 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
     add("status_word", reduce.status_word(samples), "word of the status")
     add("seconds", samples.seconds.sum("sample"), "time its samples took", "s")
     loads = [setup.load for setup in setups]
-    pressures, speeds = by_load([x.pressure for x in loads]), by_load([x.speed for x in loads])
-    add("nominal_pressure", pressures, "nominal pressure", "Pa")
-    add("nominal_speed", speeds, "sliding speed", "m/s")
+    add("nominal_pressure", by_load([x.pressure for x in loads]), "nominal pressure", "Pa")
+    add("nominal_speed", by_load([x.speed for x in loads]), "sliding speed", "m/s")
     words = {
         "label": "the model in words",
         "group": "what it can be asked for with",
@@ -363,9 +335,9 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         column = np.array([getattr(member, name) for member in comparison.models], dtype=object)
         add(name, xr.DataArray(column, dims="model"), text)
     add("factor_label", best.factor_label, "factors of the answer")
-    measured = comparison.measured
+    measured, case = comparison.measured, comparison.case
     data |= {} if measured is None else measured_variables(measured)
-    coords = {} if axis is None else coordinates([axis], comparison.case.units)
+    coords = {} if axis is None else coordinates([axis], case.units)
     text = "lower end of the octave"
     coords["wavelength"] = labelled("wavelength", wavelength, "m", text, _SOURCE)
     subjects: list[Doubtful] = [setups[0].surface, *comparison.rubbers]
@@ -375,10 +347,8 @@ def comparison_dataset(comparison: SolvedLadder) -> xr.Dataset:
         {"model": [member.name for member in comparison.models], **coords},
         {
             "title": "Contact and friction by model",
-            **comparison.case.attributes,
-            **model.input_doubts(
-                subjects, loads, comparison.case.units, comparison.case.softening_doubts
-            ),
+            **case.attributes,
+            **model.input_doubts(subjects, loads, case.units, case.softening_doubts),
             "conditions": json.dumps(conditions and conditions.to_dict()),
             "seeds": setups[0].seeds,
             "tolerance": setups[0].tolerance,

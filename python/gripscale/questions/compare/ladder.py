@@ -1,8 +1,6 @@
 """The ladder: from the chain to the profile as measured, one assumption given up on each model.
 
-A new model is a function that draws its samples, entered at its place by `_compared`. What two
-models on the same surfaces say of an assumption may become a factor of the answer
-(`gripscale.questions.answer.estimate`).
+A new model is a function that draws its samples, entered at its place by `_compared`.
 """
 
 from __future__ import annotations
@@ -154,13 +152,8 @@ WAVES_OF_UPPER_HALF, CLASSES = 4, 8
 POINTS_OF_A_CLASS = 256
 
 
-@_compared(
-    "chain_upper",
-    "chain of the upper half, pressure in classes",
-    "waves",
-    "heights that touch, pressure as it is distributed",
-    "chain_half_plane",
-)
+@_compared("chain_upper", "chain of the upper half, pressure in classes", "waves",
+           "heights that touch, pressure as it is distributed", "chain_half_plane")  # fmt: skip
 def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     surface = setup.surface
     upper_already = surface.counted.get("top_height_fraction", 1.0) < 1.0
@@ -180,7 +173,6 @@ def _chain_upper(setup: ComparisonSetup) -> Sequence[SampleSpec]:
 def _of_upper_half(
     lines: tuple[Profile, ...], max_lag: float | None, cut_off: float
 ) -> SineStack | None:
-    """Return waves of the upper half of the heights; None where they cannot be fitted."""
     try:
         upper = height_difference(lines, top_height_fraction=0.5, max_lag=max_lag)
         return fit_sines(upper, scales=WAVES_OF_UPPER_HALF, cut_off=cut_off)
@@ -189,18 +181,11 @@ def _of_upper_half(
 
 
 LENGTH_OF_SINES = 10  # period of a surface of sines over its largest wave
-
-
 _of_sines = lru_cache(maxsize=16)(surface_of_sines)  # drawn once for all loads
 
 
-@_compared(
-    "sines",
-    "direct contact, sine waves of the chain",
-    "waves",
-    "all scales together",
-    "chain_half_plane",
-)
+@_compared("sines", "direct contact, sine waves of the chain", "waves", "all scales together",
+           "chain_half_plane")  # fmt: skip
 def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     sines, length = setup.surface.sines, LENGTH_OF_SINES * float(setup.surface.sines.wavelength[0])
     lines = (_of_sines(sines, length, seed) for seed in range(setup.seeds))
@@ -209,26 +194,24 @@ def _sines(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return [SampleSpec(in_full, with_single_measurement(setup.surface, x)) for x in lines]
 
 
-@_compared(
-    DIRECT, "direct contact, measured surface", "measured", "the surface as measured", "sines"
-)
+@_compared(DIRECT, "direct contact, measured surface", "measured", "the surface as measured",
+           "sines")  # fmt: skip
 def _direct(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    return [SampleSpec(setup.direct, part, name) for name, part in each_measured(setup.surface)]
+    return _of_each(setup, setup.direct)
 
 
-@_compared(
-    ContinuedContact.name,
-    "direct contact, continued below the measurement",
-    _BELOW,
-    "roughness below the measurement",
-    DIRECT,
-)
+def _of_each(setup: ComparisonSetup, model: Model) -> Sequence[SampleSpec]:
+    """Return a model on each profile or map."""
+    return [SampleSpec(model, part, name) for name, part in each_measured(setup.surface)]
+
+
+@_compared(ContinuedContact.name, "direct contact, continued below the measurement", _BELOW,
+           "roughness below the measurement", DIRECT)  # fmt: skip
 def _continued(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     measured = setup.surface.measured
     if setup.continuation is None or (measured is not None and measured.map is not None):
         return []
-    profiles = each_measured(setup.surface)
-    return [SampleSpec(setup.continuation, part, name) for name, part in profiles]
+    return _of_each(setup, setup.continuation)
 
 
 @lru_cache(maxsize=16)
@@ -251,10 +234,7 @@ def _persson(setup: ComparisonSetup) -> Sequence[SampleSpec]:
 
 @_compared("klueppel_heinrich", "Klüppel & Heinrich", "theory", follows=DIRECT)
 def _klueppel_heinrich(setup: ComparisonSetup) -> Sequence[SampleSpec]:
-    theory = setup.klueppel_heinrich
-    if theory is None:
-        return []
-    return [SampleSpec(theory, part, name) for name, part in each_measured(setup.surface)]
+    return [] if setup.klueppel_heinrich is None else _of_each(setup, setup.klueppel_heinrich)
 
 
 # Windows of a profile in the block: length over the largest sine wave, waves that are kept at most
@@ -285,10 +265,7 @@ def _on_windows(
 
 @lru_cache(maxsize=4)
 def _windows(lines: tuple[Profile, ...], length: float) -> list[Profile]:
-    """Return windows of the profiles.
-
-    The first, the middle, the quarters, ...: the first few are spread over the profiles as all are.
-    """
+    """Return windows of which the first few are spread over the profiles as all are."""
     spread = spread_windows(lines, length, MOST_WINDOWS)
     bits = max(len(spread) - 1, 1).bit_length()
     halving = [int(f"{number:0{bits}b}"[::-1], 2) for number in range(len(spread))]
@@ -301,8 +278,7 @@ def _windows_half_plane(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return _on_windows(setup, DirectContact(tolerance=0.2 * setup.tolerance, periodic=True))
 
 
-@_compared(
-    "windows_finite_strain", "finite-strain windows", WINDOWS, "finite strain", "windows_half_plane"
-)
+@_compared("windows_finite_strain", "finite-strain windows", WINDOWS, "finite strain",
+           "windows_half_plane")  # fmt: skip
 def _windows_block(setup: ComparisonSetup) -> Sequence[SampleSpec]:
     return _on_windows(setup, BlockOnProfile(periodic=True))

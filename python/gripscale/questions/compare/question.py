@@ -22,53 +22,29 @@ from gripscale.case import Case
 from gripscale.charts.draw import Picture
 from gripscale.core import InputError
 from gripscale.core.finding import Finding, Severity, Topic, from_json, ranked, to_json
+from gripscale.experiment import measured_friction
 from gripscale.experiment.design import solve_design
-from gripscale.experiment.measured_friction import (
-    FRICTION_DOUBTS,
-    MeasuredFriction,
-    friction_doubts,
-)
 from gripscale.experiment.solve import OnTask, bench_in
 from gripscale.io.table import Column, Table, digits, fixed, least_to_most, percent, significant
 from gripscale.model import INPUT_DOUBTS, input_doubts_of
 from gripscale.questions import view
+from gripscale.questions.answer import findings as of_answer
+from gripscale.questions.answer import variables
 from gripscale.questions.answer.direct_contact import continuation_factors, continued_curve
 from gripscale.questions.answer.estimate import DIRECT, Factor, large_strain_answer
-from gripscale.questions.answer.findings import answer_notices, measured_at_load, no_answer_notices
 from gripscale.questions.answer.intervals import LEVEL
 from gripscale.questions.answer.page import answer_cards, answer_lines
 from gripscale.questions.answer.reliance import estimated_names, is_measured, no_answer
 from gripscale.questions.answer.samples import sample_numbers
-from gripscale.questions.answer.variables import (
-    HEADINGS,
-    SYMBOLS,
-    answer_number,
-    believed,
-    has_answer,
-    is_estimated,
-)
+from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, answer_number, has_answer
 from gripscale.questions.calibration.question import residual_table
 from gripscale.questions.chain.findings import comparison_notices
-from gripscale.questions.compare.charts import (
-    at_measured_figure,
-    by_label,
-    comparison_pictures,
-    flawed,
-    varied,
-)
-from gripscale.questions.compare.comparison import (
-    OnStage,
-    SolvedLadder,
-    comparison_setups,
-    ladder_design,
-    telling_new,
-    windows_left,
-)
+from gripscale.questions.compare import charts
+from gripscale.questions.compare import comparison as ladders
 from gripscale.questions.compare.ladder import chosen
 from gripscale.questions.cut_off.curve import continuation_doubts
 from gripscale.questions.inputs.record import signed_percent
 from gripscale.questions.result import Result
-from gripscale.questions.view import shown_unit
 from gripscale.report.elements import Card, Page, Section, case_title
 from gripscale.report.failures import explained, failures_in, first_of
 from gripscale.rubber.extrapolation import WORTH_SAYING
@@ -81,72 +57,65 @@ _NOTE = (
 )
 
 
-def comparison_table(comparison: xr.Dataset) -> Table:
+def comparison_table(data: xr.Dataset) -> Table:
     """Return area and friction of each model of the ladder, with all that qualifies them.
 
-    Spread and error are relative to the number, the factor is from the model before. `comparison`
-    has no axis but `model`.
+    Spread and error are relative to the number, the factor is from the model before. `data` has no
+    axis but `model`.
     """
-
-    def per_cent(value: float) -> str:
-        return "0" if value < TINY else significant(value, 2)
-
-    beyond = comparison[model.FRICTION_OUTSIDE_BAND].values
-    good, count = comparison.converged_samples.values, comparison.samples.values
-    samples = [str(n) if k == n else f"{k}/{n}" for k, n in zip(good, count, strict=True)]
+    beyond = data[model.FRICTION_OUTSIDE_BAND].values
     marks = [" *" if share > WORTH_SAYING else "" for share in beyond]
-    columns = [Column("model", comparison.label.values, marks=marks)]
+    columns = [Column("model", data.label.values, marks=marks)]
     for name, symbol in SYMBOLS.items():
-        value, group = comparison[f"total_{name}"].values, HEADINGS[name]
+        value, group = data[f"total_{name}"].values, HEADINGS[name]
         columns.append(Column(f"total_{name}", value, symbol, group=group))
         if name == "friction":
-            lost = comparison.total_friction_from_dissipation.values
+            lost = data.total_friction_from_dissipation.values
             columns.append(Column("friction_from_dissipation", lost, "μ", "losses", group=group))
-            both = model.with_adhesive(comparison)
-            if both is not None:
-                total = both.values
-                columns.append(Column("with_area_term", total, "μ", "+ area term", group=group))
+            if (both := model.with_adhesive(data)) is not None:
+                column = Column("with_area_term", both.values, "μ", "+ area term", group=group)
+                columns.append(column)
         for part in ("spread", "error"):
-            column = f"{name}_{part}"
-            share = comparison[column].values / np.where(value == 0.0, np.nan, value)
-            columns.append(Column(column, share, part, "%", 0.01, format=per_cent, group=group))
-        factors = comparison[f"{name}_factor"].values
-        columns.append(Column(f"{name}_factor", factors, "×", group=group))
+            share = data[f"{name}_{part}"].values / np.where(value == 0.0, np.nan, value)
+            key = f"{name}_{part}"
+            columns.append(Column(key, share, part, "%", 0.01, format=_two_digits, group=group))
+        columns.append(Column(f"{name}_factor", data[f"{name}_factor"].values, "×", group=group))
+    pairs = zip(data.converged_samples.values, data.samples.values, strict=True)
+    samples = [str(n) if k == n else f"{k}/{n}" for k, n in pairs]
     columns.append(Column("samples", samples, "n", words=False))
     for name, symbol in zip(model.CUT_OFF_EXPONENTS, SYMBOLS.values(), strict=True):
-        missing = np.full(len(samples), np.nan)
-        values = comparison[name].values if name in comparison else missing
+        values = data[name].values if name in data else np.full(len(samples), np.nan)
         columns.append(Column(name, values, symbol, group="exponents", format=fixed(2)))
-    columns.append(
-        Column("friction_outside_band", beyond, "μ", "beyond", group="band", format=percent)
-    )
-    far = Column("", unit="decades", group="band", format=digits(2))
+    far = Column("friction_outside_band", beyond, "μ", "beyond", group="band", format=percent)
+    columns.append(far)
     for end in ("below", "above"):
-        decades = comparison[f"total_decades_{end}_band"].values
-        columns.append(far.of(decades, name=f"decades_{end}_band", heading=end))
-    strong = [i for i, name in enumerate(comparison.model.values) if str(name) == DIRECT]
-    return Table(
-        "ladder", columns, "The ladder of models", [_NOTE], bad=flawed(comparison), strong=strong
-    )
+        decades = data[f"total_decades_{end}_band"].values
+        about = {"unit": "decades", "heading": end, "format": digits(2)}
+        columns.append(far.of(decades, name=f"decades_{end}_band", **about))
+    strong = np.flatnonzero(data.model.values == DIRECT).tolist()
+    bad = charts.flawed(data)
+    return Table("ladder", columns, "The ladder of models", [_NOTE], bad=bad, strong=strong)
 
 
-def axis_table(comparison: xr.Dataset, axis: str, name: str) -> Table:
+def _two_digits(value: float) -> str:
+    return "0" if value < TINY else significant(value, 2)
+
+
+def axis_table(data: xr.Dataset, axis: str, name: str) -> Table:
     """Return `contact_fraction` or `friction` of each model over the axis that was varied."""
-    data = comparison.transpose(axis, ...)
-    failed = flawed(data)
-    beyond = data[model.FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
-    words, unit = axis.replace("_", " "), shown_unit(comparison[axis])
+    data = data.transpose(axis, ...)
+    failed, beyond = charts.flawed(data), data[model.FRICTION_OUTSIDE_BAND].values > WORTH_SAYING
+    words, unit = axis.replace("_", " "), view.shown_unit(data[axis])
     look = unit.unit, unit.divisor, unit.zero, "{:.3g}".format
     columns = [Column(axis, data[axis].values, words, *look)]
-    for at, member in enumerate(data.model.values):
+    if variables.is_estimated(data, name) and is_measured(data):
+        texts = [str(answer_number(data.isel({axis: i}), name)) for i in range(data.sizes[axis])]
+        columns.append(Column("answer", texts, "answer (90 %)", words=False))
+    for at, member in enumerate(data.model.values.tolist()):
         flags = zip(failed[:, at], beyond[:, at], strict=True)
         marks = [("!" if bad else "") + ("*" if far else "") for bad, far in flags]
-        values = data[f"total_{name}"].values[:, at]
-        heading = str(member).replace("_", " ")
-        columns.append(Column(str(member), values, heading, marks=marks, bad=failed[:, at]))
-    if is_estimated(data, name) and is_measured(data):
-        texts = [str(answer_number(data.isel({axis: i}), name)) for i in range(data.sizes[axis])]
-        columns.insert(1, Column("answer", texts, "answer (90 %)", words=False))
+        values, heading = data[f"total_{name}"].values[:, at], member.replace("_", " ")
+        columns.append(Column(member, values, heading, marks=marks, bad=failed[:, at]))
     caption = f"{HEADINGS[name].capitalize()} {SYMBOLS[name]} over {words}"
     return Table(f"over-{axis}-{name}", columns, caption)
 
@@ -158,9 +127,9 @@ _MODELS_WITH = {
 }
 
 
-def temperature_only(comparison: xr.Dataset) -> Iterator[str]:
+def temperature_only(data: xr.Dataset) -> Iterator[str]:
     """Yield which models leave effects out, where strain or heat change the rubber."""
-    asked = json.loads(comparison.attrs.get("conditions", "null")) or {}
+    asked = json.loads(data.attrs.get("conditions", "null")) or {}
     if asked.get("water") is not None:
         yield "Water: in the direct contacts of maps. All other models are dry."
     effects = [text for name, text in _MODELS_WITH.items() if asked.get(name) is not None]
@@ -179,15 +148,15 @@ def with_half_widths(answer: xr.Dataset) -> str:
     return ", ".join(texts)
 
 
-def large_strain_lines(comparison: xr.Dataset) -> Iterator[str]:
+def large_strain_lines(data: xr.Dataset) -> Iterator[str]:
     """Yield what the answer becomes with large strain solved, where it was."""
-    large = large_strain_answer(comparison)
+    large = large_strain_answer(data)
     if large is None or not has_answer(large):
         return
     texts = []
     for name in estimated_names(large):
         number = answer_number(large, name)
-        change = signed_percent(number.value / answer_number(comparison, name).value - 1.0)
+        change = signed_percent(number.value / answer_number(data, name).value - 1.0)
         texts.append(f"{SYMBOLS[name]} = {number}, {change}")
     yield f"With large strain solved on windows: {'; '.join(texts)}."
 
@@ -196,7 +165,7 @@ class Comparison(Result):
     """The models side by side over the inputs of a case, under one load or over one input."""
 
     kind = "comparison"
-    ladder: SolvedLadder | None = None
+    ladder: ladders.SolvedLadder | None = None
     """The models with all samples; None of a result that was loaded from a file."""
     at_measured: xr.Dataset | None = None
     """What models say at measured speeds, temperatures and pressures, as `residuals`."""
@@ -206,7 +175,7 @@ class Comparison(Result):
     @property
     def axis(self) -> str:
         """Name of the varied input; empty under one load."""
-        return varied(self.data)
+        return charts.varied(self.data)
 
     @property
     def file(self) -> str:
@@ -218,26 +187,26 @@ class Comparison(Result):
         if not self.axis:
             lead, *basis = answer_lines(data)
             return (lead, *(f"  {line}" for line in large_strain_lines(data)), *basis)
-        names = [name for name in reversed(SYMBOLS) if is_estimated(data, name)]
-        ranges = [f"{SYMBOLS[n]} = {least_to_most(data[believed(data, n)])}" for n in names]
-        text = ", ".join(ranges) or "none"
-        return (f"Answer: {text} over the {self.axis.replace('_', ' ')}",)
+        ranges = [
+            f"{SYMBOLS[name]} = {least_to_most(data[f'answer_{name}'])}"
+            for name in reversed(SYMBOLS)
+            if variables.is_estimated(data, name)
+        ]
+        return (f"Answer: {', '.join(ranges) or 'none'} over the {self.axis.replace('_', ' ')}",)
 
     @property
     def findings(self) -> Sequence[Finding]:
-        doubts = from_json(str(self.data.attrs.get(FRICTION_DOUBTS, "")))
+        doubts = from_json(str(self.data.attrs.get(measured_friction.FRICTION_DOUBTS, "")))
+        failed = [  # the answer may stand without them
+            Finding(Severity.WARNING, f"{where}: {explained(failure)}", topic=Topic.SOLUTION)
+            for where, solved in view.points(charts.by_label(self.data))
+            for failure in failures_in(solved, "status")
+        ]
         if self.axis:
-            return (*self._failed, *doubts, *comparison_notices(self.data))
+            return (*failed, *doubts, *comparison_notices(self.data))
         of_others = [finding for other in self.others for finding in other.findings]
-        return tuple(ranked([*self._failed, *doubts, *answer_notices(self.data), *of_others]))
-
-    @property
-    def _failed(self) -> Iterator[Finding]:
-        """Models with samples that did not converge; the answer may stand without them."""
-        for where, solved in view.points(by_label(self.data)):
-            for failure in failures_in(solved, "status"):
-                text = f"{where}: {explained(failure)}"
-                yield Finding(Severity.WARNING, text, topic=Topic.SOLUTION)
+        notices = of_answer.answer_notices(self.data)
+        return tuple(ranked([*failed, *doubts, *notices, *of_others]))
 
     @property
     def failure(self) -> str:
@@ -274,20 +243,19 @@ class Comparison(Result):
         return comparison_table(self.data)
 
     def pictures(self) -> Iterator[Picture]:
-        yield from comparison_pictures(self.data)
+        yield from charts.comparison_pictures(self.data)
         if self.at_measured is not None:
-            data = self.data
-            labels = dict(zip(data.model.values.tolist(), data.label.values.tolist(), strict=True))
+            labels = dict(zip(self.data.model.values, self.data.label.values, strict=True))
             yield Picture(
                 "at_measured",
-                at_measured_figure(self.at_measured, labels),
+                charts.at_measured_figure(self.at_measured, labels),
                 "Measured friction with its spread, and what each model says at the same points.",
                 "A panel for each measured series with a curve for each model.",
             )
 
     def page_content(self) -> Page:
         page = super().page_content()
-        alerts = () if self.axis else no_answer_notices(self.data)
+        alerts = () if self.axis else of_answer.no_answer_notices(self.data)
         return replace(page, notices=[*alerts, *page.notices])
 
     def chapters(self) -> Iterator[Section]:
@@ -303,22 +271,21 @@ def compare(
     seeds: int = 3,
     tolerance: float = 0.05,
     models: Sequence[str] = (),
-    measured: MeasuredFriction | None = None,
+    measured: measured_friction.MeasuredFriction | None = None,
     factors: Sequence[Factor] = (),
     accuracy: float = 0.1,
     folder: str | Path | None = None,
     workers: int | None = None,
     client: Any = None,
     on_task: OnTask | None = None,
-    on_stage: OnStage | None = None,
+    on_stage: ladders.OnStage | None = None,
 ) -> Comparison:
     """Put the models side by side over the inputs of a case.
 
-    The result is over `model`, and what is varied; without a measured profile it has only the chain
-    and its own waves at once. A sample that did not converge counts in no mean, and its model says
-    so. Raises `InputError` or `FileError` if an input cannot be used by a model, a result cannot be
-    written, the case refuses extrapolation and a wave excites the rubber beyond the measured band,
-    or other than one input of numbers is varied.
+    The result is over `model`, and what is varied. A sample that did not converge counts in no
+    mean, and its model says so. Raises `InputError` or `FileError` if an input cannot be used by a
+    model, a result cannot be written, the case refuses extrapolation that a wave needs, or other
+    than one input of numbers is varied.
 
         >>> gs.compare(case, models=["theory"]).to_dataset().model.values.tolist()
         ['persson']
@@ -340,8 +307,8 @@ def compare(
     factors : sequence of Factor
         Factors of the answer known from elsewhere; under one load only.
     accuracy : float
-        Half width of the 90 % interval wanted, relative: windows are solved at finite strain until
-        their factor is known to a third of it, or of what the rest of the estimate leaves open.
+        Half width of the 90 % interval wanted, relative; windows are solved until their factor is
+        known to a third of it, or of what the rest of the estimate leaves open.
     folder : path, optional
         Keeps each prediction as soon as it is there: what was interrupted resumes.
     workers, client, on_task
@@ -349,18 +316,16 @@ def compare(
     on_stage : callable, optional
         Called with the `SolvedLadder` as it stands, while more samples are solved.
     """
-    doubtful: list[Finding] = []
     curve = None if vary is not None else continued_curve(case, case.load, folder)
-    if curve is not None:
-        doubtful = list(continuation_doubts(curve))
+    doubtful = [] if curve is None else list(continuation_doubts(curve))
     factors = [*continuation_factors(case, curve), *factors]
-    setups, axis, rubbers = comparison_setups(case, vary, seeds, tolerance)
+    setups, axis, rubbers = ladders.comparison_setups(case, vary, seeds, tolerance)
     wanted = chosen(models)
     answering = [m for m in wanted if m.name == DIRECT] if vary is None else []
     asked, *stages = [answering, wanted] if answering and answering != wanted else [wanted]
     with bench_in(folder, workers, client, on_task) as bench:
         while True:
-            design, members = ladder_design(setups, asked, axis)
+            design, members = ladders.ladder_design(setups, asked, axis)
             if not members and not stages:
                 raise InputError(
                     f"no model of {', '.join(models)} applies to this case; windows and maps "
@@ -370,28 +335,27 @@ def compare(
                 each = list(setups.values())
                 numbers = partial(sample_numbers, conditions=each[0].conditions)
                 samples = solve_design(design, bench, numbers)
-                ladder = SolvedLadder(
-                    case, each, members, samples, axis, measured or case.friction, factors, rubbers
+                friction = measured or case.friction
+                ladder = ladders.SolvedLadder(
+                    case, each, members, samples, axis, friction, factors, rubbers
                 )
                 if on_stage is not None:
                     on_stage(ladder)
-                bench = telling_new(bench)
+                bench = ladders.telling_new(bench)
             if stages:
                 asked = stages.pop(0)
-            elif windows_left(ladder, accuracy):
-                setups = {
-                    label: replace(setup, windows=setup.windows + 1)
-                    for label, setup in setups.items()
-                }
+            elif ladders.windows_left(ladder, accuracy):
+                more = ladder.setups[0].windows + 1
+                setups = {label: replace(setup, windows=more) for label, setup in setups.items()}
             else:
                 break
     data = ladder.data
-    if doubts := friction_doubts(ladder.measured, case.load.speed):
-        data = data.assign_attrs({FRICTION_DOUBTS: to_json(doubts)})
+    if doubts := measured_friction.friction_doubts(ladder.measured, case.load.speed):
+        data = data.assign_attrs({measured_friction.FRICTION_DOUBTS: to_json(doubts)})
     if doubtful:
         data = data.assign_attrs({INPUT_DOUBTS: to_json([*input_doubts_of(data), *doubtful])})
     if vary is None:
-        data = data.assign(measured_at_load(case, ladder.measured))
+        data = data.assign(of_answer.measured_at_load(case, ladder.measured))
     result = Comparison(data)
     result.ladder = ladder
     return result

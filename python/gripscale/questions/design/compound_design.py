@@ -1,11 +1,9 @@
 """Design of a compound: more friction on a measured road for a given rolling resistance.
 
 A point of the trade-off curve is the admissible compound with the most friction
-(`compound_search`) whose rolling resistance (`rolling`) is at most `level` times today's. The
-levels rise, and each is sought from today's compound and from the point before, which it admits
-too: ln mu need not be concave, and the better of the two ends counts. Friction and gain of a point
-are those of contacts solved anew, to the tolerance of a comparison (`compound_gain`). A level
-without more friction than the one below is no point: the compound below is admissible there, too.
+(`compound_search`) whose rolling resistance is at most `level` times today's. The levels rise; each
+is sought from today's compound and from the point before, which it admits too, and the better end
+counts. Friction and gain of a point are those of contacts solved anew (`goal_friction`).
 """
 
 from __future__ import annotations
@@ -27,22 +25,16 @@ from gripscale.experiment.task import Task
 from gripscale.half_space.model import DirectContact
 from gripscale.half_space.result import RoughContact
 from gripscale.questions.answer.variables import believed
-from gripscale.questions.design import compound_limits
-from gripscale.questions.design.compound_search import (
-    LARGEST_FACTOR,
-    LEAST_GAP,
-    PER_DECADE,
-    ROLLING_LEVEL,
-    DesignProblem,
-    best_change,
-    nearest_design,
-)
+from gripscale.questions.design import compound_limits, compound_search
+from gripscale.questions.design.compound_search import ROLLING_LEVEL, DesignProblem, nearest_design
 from gripscale.questions.design.goal_friction import DESIGN_TOLERANCE, Gain, SolvedCompound, gain
 from gripscale.questions.vary.friction_ratio import series_error
 from gripscale.questions.vary.inputs import at_temperature, model_of
 from gripscale.questions.vary.ranking import at_one_temperature
 from gripscale.rubber import Rubber
 
+LIMITED = "share of the moduli at a bound or as far from a neighbour as they may be"
+WORTH = "gain of ln mu by a tenth more room, to first order"
 # Attribute of a design: levels that are left out because a lower one has as much friction.
 FRUITLESS = "levels_without_more_friction"
 # The loss factor that is the rule of thumb for wet grip.
@@ -72,10 +64,11 @@ def todays_compound(
     low, high = np.transpose([_excited(contact) for contact in contacts])
     times = np.concatenate([[math.inf], rubber.relaxation_times])
     limits = [str(point) for point in problem.admissible().points]
+    factors = compound_search.LARGEST_FACTOR, compound_search.PER_DECADE
     names = {
         "goal": [str(goal) for goal in problem.friction.goals],
         "limit": limits,
-        "widened": [LARGEST_FACTOR, PER_DECADE, *limits, ROLLING_LEVEL],
+        "widened": [*factors, *limits, ROLLING_LEVEL],
     }
     kelvin = rubber.reference_temperature
     numbers: Quantities = {
@@ -150,7 +143,6 @@ def _of_compound(
 
 
 def _of_gain(result: Gain) -> Quantities:
-    """Return a gain and its interval with their meanings."""
     low, high = result.interval
     return {
         "gain": (math.expm1(result.log_ratio), "relative gain of friction"),
@@ -166,7 +158,7 @@ def solved_point(
     friction, admissible = problem.friction, problem.admissible(level)
     starts = [problem.unchanged]
     starts += [np.asarray(point.modulus_ratio.values, dtype=float) for point in before]
-    optima = [best_change(friction, admissible, start) for start in starts]
+    optima = [compound_search.best_change(friction, admissible, start) for start in starts]
     best = max(optima, key=lambda optimum: optimum.log_friction)
     optimum = nearest_design(friction, admissible, best)
     rubber = compound_limits.changed(problem.rubber, optimum.ratio)
@@ -178,10 +170,11 @@ def solved_point(
     searched, sought = (math.expm1(end.log_friction - least) for end in (optimum, best))
     rolling = compound_limits.rolling_ratio(problem.rolling, rubber, problem.rubber)
     limited_ratio = [point.ratio(rubber, problem.rubber) for point in admissible.points]
+    reached = worth[ROLLING_LEVEL] > compound_search.LEAST_GAP
     numbers = {
         "rolling_level": (level, "largest rolling resistance over today's"),
         "rolling_ratio": (rolling, "rolling resistance over today's, the worst of its band"),
-        "rolling_reached": (worth[ROLLING_LEVEL] > LEAST_GAP, "whether the level limits friction"),
+        "rolling_reached": (reached, "whether the level limits friction"),
         **_of_gain(result),
         "gain_searched": (searched, "gain on the grid of the search"),
         "gain_optimum": (sought, "the same of the optimum, which the design stays near"),
@@ -190,19 +183,11 @@ def solved_point(
         "gain_grid_error": (result.grid, "largest error from the grids"),
         "gain_rubber_error": (result.rubber, "standard error from the measurement of the rubber"),
         "gap": (optimum.gap, "what any admissible change could still gain, to first order"),
-        "limited_share": (
-            float(admissible.at_bound(optimum.ratio).mean()),
-            "share of the moduli at a bound or as far from a neighbour as they may be",
-        ),
+        "limited_share": (float(admissible.at_bound(optimum.ratio).mean()), LIMITED),
         **_of_compound(problem, rubber, compound.contacts),
         "modulus_ratio": (optimum.ratio, "modulus over today's, E_inf first", "1", "term"),
         "limited_ratio": (np.array(limited_ratio), "limited modulus over today's", "1", "limit"),
-        "limit_worth": (
-            np.array(list(worth.values())),
-            "gain of ln mu by a tenth more room, to first order",
-            "1",
-            "widened",
-        ),
+        "limit_worth": (np.array([*worth.values()]), WORTH, "1", "widened"),
     }
     return xr.Dataset(variables(numbers))
 
@@ -261,15 +246,3 @@ def other_compounds(
         parts.append(xr.Dataset(variables(numbers, "compound_")))
     names = np.array(list(rubbers), dtype=object)
     return xr.concat(parts, "compound").assign_coords(compound=("compound", names)), notes
-
-
-def rising_levels(levels: Sequence[float], problem: DesignProblem) -> list[float]:
-    """Return the levels that the limits admit, rising: each admits the optimum of the last."""
-    least = problem.least_level()
-    reachable = sorted({float(level) for level in levels if level > least})
-    if not reachable:
-        raise InputError(
-            f"levels must include one above {least:.3g}, the least rolling resistance over "
-            f"today's that the limits admit; got {', '.join(f'{level:g}' for level in levels)}"
-        )
-    return reachable

@@ -1,26 +1,9 @@
 """Admissible changes of a compound: its Prony moduli within bounds that keep it a rubber.
 
 The unknowns are r = E_i/E_i,0, each modulus of the Prony series (E_inf first) over that of today.
-With moduli above zero every series is admissible: E(t) is positive and falls. The modulus at any
-frequency is linear in r,
-
-    E'(w) = sum r_i E'_i,0(w),    E''(w) = sum r_i E''_i,0(w),
-
-and so all limits are linear in r too, and the admissible changes are a convex polytope:
-
-    1/f <= r_i <= f                                        each modulus, f = `largest_factor`
-    r_i <= s^d r_k,  r_k <= s^d r_i                        neighbours d decades apart, s a decade
-    low E'_0(w) <= E'(w) <= high E'_0(w)                   storage modulus
-    low t_0 E'(w) <= E''(w) <= high t_0 E'(w)              loss factor, t_0 = E''_0/E'_0
-    sum r_i E_i,0 <= sum E_i,0                             no stiffer glass than today's
-
-A loss compliance J'' = E''/|E*|^2 of at most c is not linear: E* then lies outside a circle of
-radius 1/2c about i/2c. The tangent where tan(delta) is t keeps it there,
-
-    sin(2 delta) E'(w) - cos(2 delta) E''(w) >= sin(delta)^2/c,    tan(delta) = t = high t_0.
-
-Rolling resistance is tan(delta), the loss at a stated strain, and J'', that at a stated force, over
-a band of frequencies and temperatures; the worst of them counts (docs/compound-design.md).
+All limits are linear in r but that on a loss compliance, whose tangent is taken: the admissible
+changes are a convex polytope (docs/derivations.md). Rolling resistance is tan(delta) and loss
+compliance over a band of frequencies and temperatures; the worst counts (docs/compound-design.md).
 """
 
 from __future__ import annotations
@@ -43,6 +26,7 @@ from gripscale.rubber.shift import EDGE
 
 LIMITED_QUANTITIES = ("storage_modulus", "loss_factor", "loss_compliance")
 _SYMBOLS = dict(zip(LIMITED_QUANTITIES, ("E'", "tan δ", "J''"), strict=True))
+MEASURED_AT = "the temperature measured"  # where a rubber has no temperature shift
 HANDLING = ZERO_CELSIUS + 20.0  # temperature of the storage modulus that is kept by default [K]
 # Distance from a limit, relative to today's moduli, within which it counts as reached.
 _AT_LIMIT = 1e-4
@@ -56,8 +40,7 @@ class PointLimit(Checked):
     quantity : "storage_modulus", "loss_factor" or "loss_compliance"
         E', tan(delta) = E''/E' or J'' = E''/|E*|^2.
     low, high : float
-        Range over today's value [-]; `low` may be zero, of a compliance it must, and `high`
-        infinite.
+        Range over today's value [-]; `low` of a compliance is zero, `high` may be infinite.
     frequency : float
         Frequency [Hz].
     temperature : float, optional
@@ -83,7 +66,7 @@ class PointLimit(Checked):
     @property
     def condition(self) -> str:
         """Frequency and temperature in words."""
-        where = _in_words(self.temperature)
+        where = MEASURED_AT if self.temperature is None else celsius(self.temperature)
         if self.wanted is not None:
             where += f" (the shift ends there, not at {celsius(self.wanted)})"
         return f"{self.frequency:g} Hz and {where}"
@@ -118,10 +101,6 @@ class PointLimit(Checked):
         return f"{symbol} at {self.condition}, {self.low:g} to {self.high:g} times today's"
 
 
-def _in_words(kelvin: float | None) -> str:
-    return "the temperature measured" if kelvin is None else celsius(kelvin)
-
-
 def _factor(name: str, value: float) -> float:
     factor = checks.positive(name, value)
     if not 1.0 < factor <= 1e3:
@@ -150,21 +129,16 @@ class CompoundLimits(Checked):
 
 def require_shift(rubber: Rubber, kelvin: float | None, what: str) -> None:
     """Raise `InputError` if the rubber cannot be had at a temperature [K] for `what`."""
-    if kelvin is None:
-        return
-    if rubber.shift is not None:
+    if kelvin is not None and rubber.shift is not None:
         low, high = rubber.shift.limits
         if not low - EDGE <= kelvin <= high + EDGE:
             raise InputError(rubber.shift.beyond_limits(f"the temperature of {what}", kelvin))
-        return
-    measured = rubber.reference_temperature
-    if measured is not None and math.isclose(measured, kelvin, abs_tol=0.5):
-        return
-    raise InputError(
-        f"{what} at {kelvin - ZERO_CELSIUS:.4g} C needs a rubber with a temperature shift; got "
-        f"none with {rubber.name or 'this rubber'}: state shift in [rubber], or take the "
-        "temperature of the measurement"
-    )
+    elif kelvin is not None and not abs((rubber.reference_temperature or 0.0) - kelvin) <= 0.5:
+        raise InputError(
+            f"{what} at {kelvin - ZERO_CELSIUS:.4g} C needs a rubber with a temperature shift; got "
+            f"none with {rubber.name or 'this rubber'}: state shift in [rubber], or take the "
+            "temperature of the measurement"
+        )
 
 
 def rubber_at(rubber: Rubber, kelvin: float | None) -> Rubber:
@@ -180,17 +154,14 @@ def rubber_at(rubber: Rubber, kelvin: float | None) -> Rubber:
 
 
 def changed(rubber: Rubber, ratio: Array, name: str = "") -> Rubber:
-    """Return the rubber with its moduli multiplied by `ratio` [-], shape (terms + 1,), E_inf first.
-
-    What today's series leaves open does not hold for another one and is dropped.
-    """
+    """Return the rubber with its moduli times `ratio` [-], shape (terms + 1,), E_inf first."""
     with warnings.catch_warnings():  # its glass is no stiffer than that of the rubber
         warnings.simplefilter("ignore", RubberWarning)
         return replace(
             rubber,
             equilibrium_modulus=rubber.equilibrium_modulus * float(ratio[0]),
             moduli=rubber.moduli * ratio[1:],
-            admissible=None,
+            admissible=None,  # that of today's series does not hold for another one
             name=name or rubber.name,
         )
 
@@ -295,14 +266,6 @@ class AdmissibleChanges:
         """Whether any change is admissible."""
         return self.best(np.zeros(1 + self.rubber.moduli.size)) is not None
 
-    def require_some(self) -> None:
-        """Raise `InputError` if nothing is admissible."""
-        if not self.possible:
-            raise InputError(
-                "the limits must leave an admissible change; got limits on the moduli that "
-                "contradict one another within the largest factors"
-            )
-
     def best(self, gradient: Array) -> Array | None:
         """Return the admissible r with the largest gradient . r, None if nothing is admissible."""
         from scipy.optimize import linprog
@@ -349,8 +312,8 @@ def rolling_ratio(band: Sequence[PointLimit], rubber: Rubber, today: Rubber) -> 
 def band_in_words(band: Sequence[PointLimit]) -> str:
     """Return the conditions of a band, such as "10 to 50 Hz and 40 to 70 °C"."""
     kelvins = sorted(point.temperature for point in band if point.temperature is not None)
-    where = _in_words(kelvins[0] if kelvins else None)
+    where = celsius(kelvins[-1]) if kelvins else MEASURED_AT
     if len(set(kelvins)) > 1:
-        where = f"{kelvins[0] - ZERO_CELSIUS:g} to {celsius(kelvins[-1])}"
+        where = f"{kelvins[0] - ZERO_CELSIUS:g} to {where}"
     beyond = " (the shift ends there)" if any(point.wanted for point in band) else ""
     return f"{FREQUENCIES[0]:g} to {FREQUENCIES[-1]:g} Hz and {where}{beyond}"

@@ -2,22 +2,15 @@
 
     maximise sum_k W_k ln mu_k(r)    within the polytope of admissible r (`compound_limits`)
 
-The objective is smooth in r, its gradient g comes from one adjoint solution a contact
-(`goal_friction`), and all limits are linear. So the linear programme
-
-    gap = max g . (s - r)  over all admissible s
-
-says how much more any admissible change could gain in ln mu, to first order. Steps to the best
-corner of the polytope find the optimum where the limits decide (M. Frank & P. Wolfe, Nav. Res.
-Logist. Q. 3 (1956) 95), sequential quadratic programming elsewhere (scipy's SLSQP; D. Kraft,
-DFVLR-FB 88-28 (1988)). The design is the change nearest to today's compound, with the least sum of
-ln(r_i)^2, among those that give away 0.1 % of the friction of the optimum.
+Steps to the best corner of the polytope find the optimum where the limits decide (M. Frank & P.
+Wolfe, Nav. Res. Logist. Q. 3 (1956) 95), sequential quadratic programming elsewhere (scipy's SLSQP;
+D. Kraft, DFVLR-FB 88-28 (1988)).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -25,12 +18,8 @@ import numpy as np
 
 from gripscale.case import Case
 from gripscale.core import Array, InputError, worker_count
-from gripscale.questions.design.compound_limits import (
-    AdmissibleChanges,
-    CompoundLimits,
-    PointLimit,
-    rolling_band,
-)
+from gripscale.questions.design import compound_limits
+from gripscale.questions.design.compound_limits import AdmissibleChanges, CompoundLimits, PointLimit
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction
 from gripscale.questions.vary.inputs import surface_of
 from gripscale.rubber import Rubber
@@ -59,10 +48,8 @@ class DesignProblem:
 
     friction: GoalFriction
     limits: CompoundLimits
-    # What stands for rolling resistance (`rolling`); each upper end is today's.
-    rolling: tuple[PointLimit, ...]
-    # The roads of the goals by their names.
-    roads: Mapping[str, Surface] = field(default_factory=dict)
+    rolling: tuple[PointLimit, ...]  # `rolling_band`
+    roads: Mapping[str, Surface] = field(default_factory=dict)  # of the goals, by their names
 
     @property
     def rubber(self) -> Rubber:
@@ -82,9 +69,13 @@ class DesignProblem:
     def least_level(self) -> float:
         """Return the least rolling resistance over today's [-] that the limits admit.
 
-        The admissible levels are all above it: the interval that holds it is halved.
+        The interval that holds it is halved. Raises `InputError` if no change is admissible.
         """
-        self.admissible().require_some()
+        if not self.admissible().possible:
+            raise InputError(
+                "the limits must leave an admissible change; got limits on the moduli that "
+                "contradict one another within the largest factors"
+            )
         low, high = 0.0, 1.0
         while not self.admissible(high).possible:
             low, high = high, 2.0 * high
@@ -96,14 +87,16 @@ class DesignProblem:
     def worth_of_limits(self, level: float, slope: Array) -> dict[str, float]:
         """Return what a tenth more room gives in ln mu [-], by what is limited, to first order.
 
-        `slope` is the gradient at the optimum of the level. A range of moduli gets a tenth wider at
-        both ends, a factor or the level a tenth larger.
+        `slope` is the gradient at the optimum of the level. A range of moduli gets wider at both
+        ends.
         """
         limits, narrow = self.limits, self.admissible(level)
         larger = replace(limits, largest_factor=WIDER * limits.largest_factor)
         steeper = replace(limits, factor_per_decade=WIDER * limits.factor_per_decade)
-        wider = {LARGEST_FACTOR: replace(narrow, limits=larger)}
-        wider[PER_DECADE] = replace(narrow, limits=steeper)
+        wider = {
+            LARGEST_FACTOR: replace(narrow, limits=larger),
+            PER_DECADE: replace(narrow, limits=steeper),
+        }
         for i, point in enumerate(narrow.points):
             room = replace(point, low=point.low / WIDER, high=point.high * WIDER)
             ranges = (*narrow.points[:i], room, *narrow.points[i + 1 :])
@@ -126,7 +119,10 @@ def _most(admissible: AdmissibleChanges, slope: Array) -> float:
 
 @dataclass(frozen=True)
 class CompoundOptimum:
-    """The best admissible change at one level."""
+    """The best admissible change at one level.
+
+    The gap is max g . (s - r) over all admissible s, with g the gradient of ln mu at r.
+    """
 
     ratio: Array  # moduli over today's [-], E_inf first
     log_friction: float  # weighted mean of ln mu on the grid of the search [-]
@@ -138,9 +134,6 @@ def best_change(
     friction: GoalFriction, admissible: AdmissibleChanges, start: Array
 ) -> CompoundOptimum:
     """Return the admissible change with the largest friction, sought from `start`."""
-    from scipy.optimize import minimize
-
-    admissible.require_some()
     optimum = _corner_steps(friction, admissible, start)
     if optimum.gap <= LEAST_GAP:
         return optimum
@@ -149,9 +142,7 @@ def best_change(
         value, slope = friction.log_friction(ratio)
         return -value, -slope
 
-    settings = _programme(admissible, *admissible.rows)
-    solved = minimize(negative, optimum.ratio, jac=True, **settings)
-    inside = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
+    inside = _descent(negative, optimum.ratio, admissible, *admissible.rows)
     further = _corner_steps(friction, admissible, inside)
     return max(optimum, further, key=lambda end: end.log_friction)
 
@@ -159,13 +150,11 @@ def best_change(
 def nearest_design(
     friction: GoalFriction, admissible: AdmissibleChanges, optimum: CompoundOptimum
 ) -> CompoundOptimum:
-    """Return the change nearest to today's with almost the friction of the optimum.
+    """Return the change with the least sum of ln(r_i)^2 and almost the friction of the optimum.
 
     Friction falls faster than to first order away from the optimum: the step is halved until it
-    does not give away more than it may. The gap is what is given away, and that of the optimum.
+    does not give away more than `GIVEN_AWAY`, which counts in its gap.
     """
-    from scipy.optimize import minimize
-
     matrix, most = admissible.rows
     matrix = np.vstack([matrix, -optimum.slope])
     most = np.append(most, GIVEN_AWAY - float(optimum.slope @ optimum.ratio))
@@ -174,9 +163,7 @@ def nearest_design(
         logarithm = np.log(ratio)
         return float(logarithm @ logarithm), 2.0 * logarithm / ratio
 
-    settings = _programme(admissible, matrix, most)
-    solved = minimize(distance, optimum.ratio, jac=True, **settings)
-    ratio = np.asarray(np.clip(solved.x, *admissible.bounds), dtype=float)
+    ratio = _descent(distance, optimum.ratio, admissible, matrix, most)
     if admissible.violation(ratio) > _ROUNDING:
         return optimum
     for _ in range(MOST_HALVINGS):
@@ -187,18 +174,23 @@ def nearest_design(
     return optimum
 
 
-def _programme(admissible: AdmissibleChanges, matrix: Array, most: Array) -> dict[str, Any]:
-    """Return the arguments of scipy's SLSQP for matrix . r <= most and the bounds."""
+Objective = Callable[[Array], tuple[float, Array]]
 
-    def margin(ratio: Array) -> Array:
-        return np.asarray(most - matrix @ ratio)
 
-    return {
-        "method": "SLSQP",
-        "bounds": [admissible.bounds] * matrix.shape[1],
-        "constraints": {"type": "ineq", "fun": margin, "jac": lambda _: -matrix},
+def _descent(function: Objective, start: Array, limits: AdmissibleChanges, *rows: Array) -> Array:
+    """Return where SLSQP ends on a function with its gradient, where matrix . r <= most."""
+    from scipy.optimize import minimize
+
+    matrix, most = rows
+    settings: dict[str, Any] = {
+        "bounds": [limits.bounds] * matrix.shape[1],
+        "constraints": {
+            "type": "ineq", "fun": lambda r: most - matrix @ r, "jac": lambda _: -matrix
+        },
         "options": {"ftol": PRECISION, "maxiter": MOST_STEPS},
-    }
+    }  # fmt: skip
+    solved = minimize(function, start, jac=True, method="SLSQP", **settings)
+    return np.asarray(np.clip(solved.x, *limits.bounds), dtype=float)
 
 
 def _corner_steps(
@@ -250,5 +242,6 @@ def design_problem(
     wanted = list(goals) or [default_goal(case)]
     named = {goal.road: (surfaces or {}).get(goal.road, goal.road) for goal in wanted}
     roads = {name: surface_of(road, case) for name, road in named.items()}
+    band = compound_limits.rolling_band(rubber)
     friction = GoalFriction.of(rubber, wanted, roads, worker_count(workers), case.load.thickness)
-    return DesignProblem(friction, limits or CompoundLimits(), rolling_band(rubber), roads)
+    return DesignProblem(friction, limits or CompoundLimits(), band, roads)

@@ -1,25 +1,9 @@
 """Friction of a compound at the goals of a design, and its derivatives by the Prony moduli.
 
 A goal is a speed, a temperature, a pressure and a road. Its friction is that of the direct contact
-from the energy lost, averaged over the profiles of the road by their lengths. With the derivative
-of the friction by the modulus M of each wave (`gripscale.half_space.sensitivity`) and r_i the
-modulus E_i of the Prony series over that of today,
-
-    dM/M = g dE*/E*,    dE*/dr_i = E_i/r_i i w tau_i/(1 + i w tau_i),
-
-so that one adjoint solution a contact gives the derivatives by all moduli. Contacts are solved on a
-grid with four points in the smallest wave, each from that of the compound before: the friction is a
-few per cent low there, its derivative within one per cent.
-
-How much friction one compound has over another on the same road is
-
-    G = sum_k W_k ln(mu_k / mu_k,0),    gain = exp(G) - 1
-
-over the goals with weights W_k, of direct contacts by the energy lost. Both compounds slide on the
-same pieces of the same profiles (`gripscale.questions.vary.friction_ratio`). The design multiplies
-E*(w) by a function of frequency, whatever series fits today's measurement: series k changes G by
-the difference of its effects on both. Another compound was measured by itself, and both errors
-count.
+from the energy lost, averaged over the profiles of the road by their lengths. A gain is exp(G) - 1,
+with G the mean of ln mu over the goals by weight, of one compound less that of another
+(docs/derivations.md).
 """
 
 from __future__ import annotations
@@ -42,19 +26,8 @@ from gripscale.half_space.result import RoughContact
 from gripscale.half_space.sampling_error import PIECE, friction_residuals, pieces_that_carry
 from gripscale.half_space.sensitivity import FrictionAdjoint, relative_change
 from gripscale.half_space.solve import solve_rough_contact
-from gripscale.questions.design.compound_limits import (
-    changed,
-    modulus_parts,
-    require_shift,
-    rubber_at,
-)
-from gripscale.questions.vary.friction_ratio import (
-    FrictionRatio,
-    coarse_friction,
-    grid_error,
-    scatter_of_pieces,
-    series_changes,
-)
+from gripscale.questions.design import compound_limits
+from gripscale.questions.vary import friction_ratio
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Profile, Surface
 
@@ -108,7 +81,11 @@ class MeasuredPart:
 
 @dataclass
 class GoalFriction:
-    """Friction at all goals, solved for one compound after the other."""
+    """Friction at all goals, solved for one compound after the other.
+
+    Contacts have a grid with four points in the smallest wave, each solved from that of the
+    compound before: the friction is a few per cent low there, its derivative within one per cent.
+    """
 
     rubber: Rubber  # today's
     goals: Sequence[CompoundGoal]
@@ -128,14 +105,13 @@ class GoalFriction:
         workers: int = 1,
         thickness: float | None = None,
     ) -> GoalFriction:
-        """Return the friction of a compound at `goals` on `roads` by their names.
+        """Return the friction at `goals` on `roads` by their names.
 
-        Raises `InputError` if a road has no measurement, or a goal a temperature to which the
-        rubber has no shift.
+        Raises `InputError` if a road has no measurement, or the rubber no shift to a goal.
         """
         parts = []
         for index, goal in enumerate(checks.instances("goals", list(goals), CompoundGoal)):
-            require_shift(rubber, goal.temperature, "a goal")
+            compound_limits.require_shift(rubber, goal.temperature, "a goal")
             road = roads[checks.one_of("road", goal.road, roads)]
             if road.measured is None:
                 why = f"got sine waves stated by hand with {goal.road}"
@@ -160,11 +136,10 @@ class GoalFriction:
 
         Raises `ConvergenceError` if one cannot be used.
         """
-        bodies = [rubber_at(rubber, goal.temperature) for goal in self.goals]
+        bodies = [compound_limits.rubber_at(rubber, goal.temperature) for goal in self.goals]
 
         def solve(index: int, _: object) -> RoughContact:
-            part = self.parts[index]
-            goal = self.goals[part.goal]
+            part, goal = self.parts[index], self.goals[self.parts[index].goal]
             contact = solve_rough_contact(
                 bodies[part.goal],
                 part.surface,
@@ -197,16 +172,16 @@ class GoalFriction:
         """
         key = np.asarray(ratio, dtype=float).tobytes()
         if key not in self._solved:
-            solved = self.contacts(changed(self.rubber, ratio))
+            solved = self.contacts(compound_limits.changed(self.rubber, ratio))
 
             def slope(index: int, _: object) -> Array:
                 """Return d mu / d r_i of one part, all terms of E* at once."""
-                contact, goal = solved[index], self.goals[self.parts[index].goal]
+                contact, kelvin = solved[index], self.goals[self.parts[index].goal].temperature
                 adjoint = FrictionAdjoint.of(contact, tolerance=GRADIENT_TOLERANCE)
                 if index not in self._terms:  # the same for all compounds: their grid is
-                    grid, body = contact.grid, rubber_at(self.rubber, goal.temperature)
+                    grid, body = contact.grid, compound_limits.rubber_at(self.rubber, kelvin)
                     omega = contact.speed * np.broadcast_to(grid.along, grid.spectrum_shape)
-                    storage, loss = modulus_parts(body, np.abs(omega))
+                    storage, loss = compound_limits.modulus_parts(body, np.abs(omega))
                     self._terms[index] = storage + 1j * np.sign(omega)[..., None] * loss
                 _, relative = relative_change(contact)
                 changes = np.moveaxis(relative[..., None] * self._terms[index], -1, 0)
@@ -248,10 +223,11 @@ class SolvedCompound:
     def of(cls, friction: GoalFriction, rubber: Rubber, measured: Rubber) -> SolvedCompound:
         """Solve a compound: `measured` itself, or a design that multiplies its modulus."""
         contacts = friction.contacts(rubber)
-        slopes = [
-            series_changes(contact, rubber_at(measured, friction.goals[part.goal].temperature))
-            for part, contact in zip(friction.parts, contacts, strict=True)
-        ]
+        slopes = []
+        for part, contact in zip(friction.parts, contacts, strict=True):
+            kelvin = friction.goals[part.goal].temperature
+            body = compound_limits.rubber_at(measured, kelvin)
+            slopes.append(friction_ratio.series_changes(contact, body))
         series = np.asarray(_shares(friction, contacts) @ np.array(slopes))
         return cls(friction.contacts(rubber, tolerance=DESIGN_TOLERANCE), series)
 
@@ -272,7 +248,7 @@ class Gain:
     def interval(self) -> tuple[float, float]:
         """Interval of the gain, exp(G) - 1, that holds it 9 times in 10; NaN if not known."""
         sampling, grid = (self.sampling, self.freedom), self.grid / math.sqrt(3.0)
-        ratio = FrictionRatio.of_sources(self.log_ratio, sampling, grid, self.rubber)
+        ratio = friction_ratio.FrictionRatio.of_sources(self.log_ratio, sampling, grid, self.rubber)
         low, high = ratio.interval
         return low - 1.0, high - 1.0
 
@@ -285,37 +261,26 @@ def gain(
 ) -> Gain:
     """Return the gain of the compound of contacts `after` over that of contacts `before`.
 
-    Both are those of `SolvedCompound`; `rubber` is the standard error of G from the measurement of
-    the rubber (`series_error`).
+    `rubber` is the standard error of G from the measurement of the rubber (`series_error`).
     """
-    weights = friction.weights
 
-    def log_ratio(measure: Callable[[RoughContact], float]) -> float:
+    def log_ratio(name: str) -> float:
         """Return G of a friction of the contacts."""
-        low, high = (
-            friction.averaged([measure(contact) for contact in c]) for c in (before, after)
-        )
-        return float(weights @ np.log(high / low))
+        measure = measures.get(name, attrgetter(name))
+        low, high = (friction.averaged([measure(c) for c in each]) for each in (before, after))
+        return float(friction.weights @ np.log(high / low))
 
     def at_twice_the_cut_off(contact: RoughContact) -> float:
         octave = float(2.0**contact.cut_off_exponents.friction)
         return contact.friction_from_dissipation * octave
 
-    frictions = {"coarse_friction": coarse_friction}
-    grid = grid_error(lambda name: log_ratio(frictions.get(name, attrgetter(name))))
-    total = log_ratio(attrgetter("friction_from_dissipation"))
-    doubled = log_ratio(at_twice_the_cut_off)
-    return Gain(total, doubled, *_sampling(friction, before, after), grid, rubber)
-
-
-def _sampling(
-    friction: GoalFriction, before: Sequence[RoughContact], after: Sequence[RoughContact]
-) -> tuple[float, float]:
-    """Return the standard error of G from the pieces of the profiles, and its freedom.
-
-    Goals on one profile have the same pieces; profiles are independent.
-    """
+    measures: dict[str, Callable[[RoughContact], float]] = {
+        "coarse_friction": friction_ratio.coarse_friction, "doubled": at_twice_the_cut_off
+    }  # fmt: skip
+    total, doubled = log_ratio("friction_from_dissipation"), log_ratio("doubled")
+    grid = friction_ratio.grid_error(log_ratio)
     pairs = [(contacts, _shares(friction, contacts)) for contacts in (before, after)]
+    # goals on one profile have the same pieces; profiles are independent
     differences: dict[int, Array | float] = {}
     carrying: dict[int, float] = {}
     for i, part in enumerate(friction.parts):
@@ -323,4 +288,6 @@ def _sampling(
         low, high = (share[i] * friction_residuals(solved[i], piece) for solved, share in pairs)
         differences[road] = differences.get(road, 0.0) + (high - low)
         carrying[road] = min(carrying.get(road, math.inf), pieces_that_carry(before[i], piece))
-    return scatter_of_pieces([*map(np.asarray, differences.values())], [*carrying.values()])
+    pieces = [*map(np.asarray, differences.values())]
+    sampling = friction_ratio.scatter_of_pieces(pieces, [*carrying.values()])
+    return Gain(total, doubled, *sampling, grid, rubber)

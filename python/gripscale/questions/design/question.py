@@ -10,6 +10,7 @@ import json
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,13 +28,8 @@ from gripscale.experiment.design import variable_attributes
 from gripscale.experiment.solve import OnTask
 from gripscale.io.folders import make_folder, write_text
 from gripscale.io.table import Column, Table, change, fixed, percent, significant
-from gripscale.questions.design import compound_design
-from gripscale.questions.design.compound_limits import (
-    LIMITED_QUANTITIES,
-    CompoundLimits,
-    PointLimit,
-    changed,
-)
+from gripscale.questions.design import compound_design, compound_limits
+from gripscale.questions.design.compound_limits import CompoundLimits, PointLimit
 from gripscale.questions.design.compound_search import PRECISION, design_problem
 from gripscale.questions.design.goal_friction import CompoundGoal, SolvedCompound
 from gripscale.questions.inputs import record
@@ -61,14 +57,10 @@ def answering_point(data: xr.Dataset) -> int:
 
 
 def design_figure(data: xr.Dataset) -> Figure:
-    """Draw the trade-off curve of a design, and moduli, loss factor and change of some points.
-
-    `data` is that of `gripscale.design`.
-    """
+    """Draw the trade-off curve of a design, and moduli, loss factor and change of some points."""
     ratio, answer = data.rolling_ratio.values, answering_point(data)
     colours = {0: BLUE, data.sizes["point"] - 1: ORANGE, answer: GREEN}
-    # The answer, and ends apart from it.
-    drawn = {
+    drawn = {  # the answer, and ends apart from it
         at: colours[at]
         for at in sorted(colours)
         if at == answer or abs(ratio[at] - ratio[answer]) > _APART
@@ -94,19 +86,14 @@ def _trade_off_panel(data: xr.Dataset, drawn: dict[int, str]) -> Panel:
             Series([rolling[at]], [gain[at]], colour, label, "", marker="o", size=6.0, order=3.0)
         )
     names = data.compound.values.tolist() if "compound" in data.dims else ()
+    numbers = [f"compound_{key}" for key in ("rolling_ratio", "gain", "gain_low", "gain_high")]
     for at, (name, colour) in enumerate(zip(names, cycle(COMPOUND_COLOURS), strict=False)):
-        x, y, low, high = (
-            PERCENT * data[f"compound_{key}"].values[[at]]
-            for key in ("rolling_ratio", "gain", "gain_low", "gain_high")
-        )
+        x, y, low, high = (PERCENT * data[number].values[[at]] for number in numbers)
         marks.append(
             Series(x - PERCENT, y, colour, name, "", marker="D", size=5.0, low=low, high=high)
         )
-    return Panel(
-        PlotAxis("change of rolling resistance [%]"),
-        PlotAxis("friction gained [%]", margin=0.1),
-        marks,
-    )
+    ordinate = PlotAxis("friction gained [%]", margin=0.1)
+    return Panel(PlotAxis("change of rolling resistance [%]"), ordinate, marks)
 
 
 def _master_curve_panels(data: xr.Dataset, drawn: dict[int, str]) -> list[Panel]:
@@ -147,30 +134,27 @@ class CompoundDesign(Result):
         chosen = data.isel(point=answering_point(data))
         now, then = data.today_answer_friction.values, chosen.answer_friction.values
         goals = [f" at {goal}" for goal in data.goal.values] if now.size > 1 else [""]
-        pairs = ", ".join(
-            f"{old:.3f} now → {new:.3f}{at}" for old, new, at in zip(now, then, goals, strict=True)
-        )
+        rows = zip(now, then, goals, strict=True)
+        pairs = ", ".join(f"{old:.3f} now → {new:.3f}{at}" for old, new, at in rows)
         without = f"; without {attrs['left_out']} of the case" if attrs.get("left_out") else ""
         lines = [f"Answer: friction {pairs} with the design {_trade(chosen)}{without}."]
         least = rolling_at_todays_friction(data)
         if math.isfinite(least):
             lines.append(f"  Or the same friction with rolling resistance {change(least - 1.0)}.")
-        elif float(data.gain[0]) >= 0.0 and data.sizes["point"] > 1:
-            lines.append(f"  Or friction {_trade(data.isel(point=0))}.")
-        if json.loads(attrs.get(compound_design.FRUITLESS, "[]"))[-1:] > [
-            float(data.rolling_level[-1])
-        ]:
+        fruitless = json.loads(attrs.get(compound_design.FRUITLESS, "[]"))
+        if fruitless and fruitless[-1] > data.rolling_level[-1]:
             last = change(float(data.rolling_ratio[-1]) - 1.0)
             lines.append(f"  More rolling resistance than {last} gives no more friction.")
         worth = zip(chosen.widened.values, np.expm1(chosen.limit_worth.values), strict=True)
         relaxed = "; ".join(f"{name}, {change(float(gain))}" for name, gain in worth)
+        sources = {
+            "pieces of the surface": float(chosen.gain_sampling_error),
+            "grids": float(chosen.gain_grid_error) / math.sqrt(3.0),
+            "measurement of the rubber": float(chosen.gain_rubber_error),
+        }
         errors = ", ".join(
             f"{words} {percent(error) if math.isfinite(error) else 'not known'}"
-            for words, error in (
-                ("pieces of the surface", float(chosen.gain_sampling_error)),
-                ("grids", float(chosen.gain_grid_error) / math.sqrt(3.0)),
-                ("measurement of the rubber", float(chosen.gain_rubber_error)),
-            )
+            for words, error in sources.items()
         )
         return (
             *lines,
@@ -209,7 +193,6 @@ class CompoundDesign(Result):
             columns.append(Column("wet_loss_factor", data.wet_loss_factor.values, "tan δ wet"))
             wet = data.attrs.get("wet_condition", "10 Hz and 0 °C")
             notes.append(f"tan δ wet: at {wet}, the rule of thumb for wet grip")
-
         columns += [
             Column("limited_share", data.limited_share.values, "at a limit", format=percent),
             Column("gap", data.gap.values, "left to gain", format=change),
@@ -218,14 +201,12 @@ class CompoundDesign(Result):
         return Table("design", columns, title, notes)
 
     def pictures(self) -> Iterator[Picture]:
-        yield Picture(
-            "design",
-            design_figure(self.data),
+        caption = (
             "Friction gained against rolling resistance, and the master curves of some points "
-            "beside today's.",
-            "A curve of friction over rolling resistance with points of compounds, and three "
-            "panels of curves over the frequency.",
+            "beside today's."
         )
+        alt = "A curve of friction over rolling resistance, and three panels over the frequency."
+        yield Picture("design", design_figure(self.data), caption, alt)
 
 
 def _gain_columns(data: xr.Dataset, of: str, heading: str) -> list[Column]:
@@ -282,9 +263,8 @@ def design(
 
     The result is over `point`, by rising level: `gain` with `gain_low` and `gain_high` (90 %),
     friction, moduli and master curve; over `compound` the other compounds; today's values without
-    either. Raises `InputError`, `FileError` or `ConvergenceError` if the case, a goal or a limit
-    cannot be used, a temperature needs a shift that the rubber does not have, or today's compound
-    has no friction.
+    either. Raises `InputError`, `FileError` or `ConvergenceError` if the case, a goal, a limit or a
+    temperature cannot be used, or today's compound has no friction.
 
         >>> print(gs.design(case, levels=[1.0]).lines[0])
         Answer: friction 0.036 now → 0.056 with the design at the same rolling resistance: +57.4 %.
@@ -298,10 +278,9 @@ def design(
     limits : CompoundLimits, optional
         How far the compound may be changed.
     levels : sequence of float, optional
-        Largest rolling resistances over today's [-]: tan(delta) and loss compliance at 10 and 50 Hz
-        and 40 to 70 C, the worst of them. By default today's, four down to the least that the
-        limits admit, and 1.15 and 1.3. A level below the least is left out, and one that gives no
-        more friction than a lower one.
+        Largest rolling resistances over today's [-]. By default today's, four down to the least
+        that the limits admit, and 1.15 and 1.3. A level below the least is left out, and one that
+        gives no more friction than a lower one.
     rubbers : mapping, optional
         Other compounds by name, to be compared with the curve.
     roads : mapping, optional
@@ -317,17 +296,22 @@ def design(
     """
     problem = design_problem(case, goals, limits, workers, roads)
     wanted = [checks.positive("level", level) for level in levels] or problem.default_levels()
-    named = rubbers or {}
+    least = problem.least_level()
+    rising = sorted({float(level) for level in wanted if level > least})
+    if not rising:
+        raise InputError(
+            f"levels must include one above {least:.3g}, the least rolling resistance over "
+            f"today's that the limits admit; got {', '.join(f'{level:g}' for level in wanted)}"
+        )
     now = compound_design.todays_answers(case, problem, folder, on_task)
     problem.friction.log_friction(problem.unchanged)  # all contacts start from these
     reference = SolvedCompound.of(problem.friction, problem.rubber, problem.rubber)
-    compounds = {name: measured_rubber_of(value, case) for name, value in named.items()}
-    rubbers_by_name = {name: each.rubber for name, each in compounds.items()}
-    others, notes = compound_design.other_compounds(problem, reference, rubbers_by_name)
+    named = {name: measured_rubber_of(value, case) for name, value in (rubbers or {}).items()}
+    compounds = {name: each.rubber for name, each in named.items()}
+    others, notes = compound_design.other_compounds(problem, reference, compounds)
     base = compound_design.todays_compound(problem, reference.contacts, now).merge(others)
     base = base.assign_attrs(
         case.attributes,
-        kind=CompoundDesign.kind,
         rubber_parameters=json.dumps(problem.rubber.to_dict()),
         notes="\n".join(notes),
         left_out=compound_design.left_out(case),
@@ -336,12 +320,10 @@ def design(
         replace(case.load, speed=goal.speed, pressure=goal.pressure)
         for goal in problem.friction.goals
     ]
-    of_compounds = [doubt(text) for text in reading_notes(named.values())]
-    of_compounds += [d.about(name) for name, each in compounds.items() for d in each.doubts]
-    points: list[xr.Dataset] = []
-    fruitless: set[float] = set()
-    rising = compound_design.rising_levels(wanted, problem)
-    for level in rising:
+    of_compounds = [doubt(text) for text in reading_notes((rubbers or {}).values())]
+    of_compounds += [d.about(name) for name, each in named.items() for d in each.doubts]
+    points, fruitless = list[xr.Dataset](), set[float]()
+    for level in rising:  # each admits the optimum of the last
         point = compound_design.solved_point(problem, reference, level, points[-1:])
         answers = base.today_answer_friction * (point.friction / base.today_friction)
         text = "friction of the answer with the design"
@@ -370,14 +352,12 @@ def parse_goal(text: str, default: CompoundGoal) -> CompoundGoal:
     What it does not state is that of `default`. Raises `InputError` if it cannot be understood.
     """
     values: dict[str, Any] = {name: getattr(default, name) for name in GOAL_QUANTITIES}
+    readers: dict[str, Callable[[str], Any]] = {"weight": float, "road": str}
     example = "speed=3 m/s, temperature=20 C, pressure=2 bar, weight=1, road=case"
     for name, value in values_by_name(text.split(","), "goal", example).items():
-        checks.one_of("goal", name, (*GOAL_QUANTITIES, "weight", "road"))
-        if name == "road":
-            values[name] = value
-            continue
+        checks.one_of("goal", name, (*GOAL_QUANTITIES, *readers))
         try:
-            values[name] = float(value) if name == "weight" else parse_quantity(value, name)
+            values[name] = readers.get(name, partial(parse_quantity, kind=name))(value)
         except ValueError as error:
             raise InputError(f"goal {name} = {value!r}: {error}") from error
     return CompoundGoal(**values)
@@ -390,11 +370,10 @@ def parse_limit(text: str) -> PointLimit:
     """
     parts = [part.strip() for part in text.split(",")]
     low, sign, high = parts[-1].partition(":")
-    if len(parts) not in (3, 4) or not sign or parts[0] not in LIMITED_QUANTITIES:
-        raise InputError(
-            f'limit must be such as "{LIMITED_QUANTITIES[0]}, 10 Hz, 20 C, 0.9:1.1"; '
-            f"got {checks.short_repr(text)}"
-        )
+    quantities = compound_limits.LIMITED_QUANTITIES
+    if len(parts) not in (3, 4) or not sign or parts[0] not in quantities:
+        example = f'"{quantities[0]}, 10 Hz, 20 C, 0.9:1.1"'
+        raise InputError(f"limit must be such as {example}; got {checks.short_repr(text)}")
     try:
         hertz = float(parts[1].removesuffix("Hz"))
         kelvin = parse_quantity(parts[2], "temperature") if len(parts) == 4 else None
@@ -418,7 +397,7 @@ def designed_rubber(data: xr.Dataset, point: int) -> Rubber:
     today = Rubber.from_dict(json.loads(data.attrs["rubber_parameters"]))
     chosen = data.isel(point=point)
     name = f"target_{round(100.0 * float(chosen.rolling_ratio)):03d}"
-    return changed(today, np.asarray(chosen.modulus_ratio.values), name=name)
+    return compound_limits.changed(today, np.asarray(chosen.modulus_ratio.values), name=name)
 
 
 def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
@@ -432,15 +411,11 @@ def write_targets(data: xr.Dataset, folder: str | Path) -> list[Path]:
     paths = []
     for at in range(data.sizes["point"]):
         rubber, point = designed_rubber(data, at), data.isel(point=at)
-        curve = MasterCurve(
-            point.frequency.values,
-            point.storage.values,
-            point.loss.values,
-            rubber.reference_temperature,
-            rubber.name,
-            f"design of gripscale, not measured; from {data.attrs['rubber']}",
-        )
-        paths.append(write_master_curve(target / f"{rubber.name}.csv", curve))
+        frequency, storage, loss = point.frequency.values, point.storage.values, point.loss.values
+        source = f"design of gripscale, not measured; from {data.attrs['rubber']}"
+        kelvin = rubber.reference_temperature
+        curve = MasterCurve(frequency, storage, loss, kelvin, rubber.name, source)
         text = json.dumps(rubber.to_dict(), indent=1)
+        paths.append(write_master_curve(target / f"{rubber.name}.csv", curve))
         paths.append(write_text(target / f"{rubber.name}.json", text))
     return paths

@@ -1,12 +1,16 @@
-"""Windows as models: the same surfaces for both, and the solvers' own answers."""
+"""Windows as models: the same surfaces for both, no more of them than narrow the estimate."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import gripscale as gs
 from gripscale.chain import Chain
@@ -16,7 +20,8 @@ from gripscale.half_space import BlockOnProfile, surface_of_sines
 from gripscale.half_space.model import DirectContact
 from gripscale.model import Load
 from gripscale.questions.answer.samples import sample_numbers
-from gripscale.questions.compare.ladder import LADDER, ComparisonSetup, chosen
+from gripscale.questions.compare.comparison import windows_left
+from gripscale.questions.compare.ladder import LADDER, MOST_WINDOWS, ComparisonSetup, chosen
 from gripscale.rubber import Rubber
 from gripscale.surface import HeightMap, Measured, SineStack, Surface, self_affine_profile
 from gripscale.theory import HalfPlane
@@ -29,6 +34,7 @@ SURFACE = Surface(STACK, "", measured=Measured.of([LINE]))
 LOAD = Load(5e4, 0.1, 0.1, math.inf)
 ROAD = self_affine_profile(0.8, 5e-3, 1e-3, 0.3, 1e-4, seed=4)
 MEASURED = Measured.of([ROAD])
+Make = Callable[..., xr.Dataset]
 SUBJECT = ComparisonSetup(RUBBER, Surface(STACK, "", measured=MEASURED), LOAD, Chain(HalfPlane()))
 
 
@@ -78,3 +84,57 @@ def test_a_map_is_one_sample_of_the_direct_contact() -> None:
     assert draw.subject == "mine"
     assert draw.surface.measured is not None
     assert draw.surface.measured.map is measured
+
+
+FAILED = dict.fromkeys(("prediction_status", "prediction_status_word"), "profile too rough")
+
+
+@pytest.fixture
+def left(solved: Make, together: Make) -> Callable[..., bool]:
+    """Ask whether windows are left to solve, their ratios to small strain being given."""
+
+    def ask(*ratios: float | None, wanted: int = 3, half_width: float = 0.2) -> bool:
+        names = [f"window {number}" for number in range(len(ratios))]
+        small = solved(*((0.05, 0.1, name) for name in names))
+        rows = [
+            FAILED | {"subject": name} if ratio is None else (0.05 * ratio, 0.1 * ratio, name)
+            for ratio, name in zip(ratios, names, strict=True)
+        ]
+        samples = together(windows_half_plane=small, windows_finite_strain=solved(*rows))
+        ends = ("answer_friction_half_width", "answer_contact_fraction_half_width")
+        widths = dict.fromkeys(ends, half_width)
+        comparison: Any = SimpleNamespace(
+            samples=samples, setups=[SimpleNamespace(windows=wanted)], data=xr.Dataset(widths)
+        )
+        return windows_left(comparison, 0.1)
+
+    return ask
+
+
+@pytest.mark.parametrize(
+    ("ratios", "options", "more"),
+    [
+        ([0.98, 0.98, 0.97], {}, False),
+        ([0.98, None, 0.97], {}, True),
+        ([0.98, None, 0.97, 0.98], {"wanted": 4}, False),
+        ([0.9, 1.0, 0.8], {}, True),
+        ([0.9, 1.0, 0.8], {"half_width": 0.6}, False),
+        ([0.9, 1.0, 0.8], {"wanted": 4}, False),
+    ],
+    ids=["agree", "failed", "replaced", "scatter", "hidden by the rest", "no more there"],
+)
+def test_more_windows_are_solved_while_they_narrow_the_estimate(
+    left: Callable[..., bool], ratios: list[float | None], options: dict[str, Any], more: bool
+) -> None:
+    assert left(*ratios, **options) is more
+
+
+def test_the_first_windows_are_spread_over_the_profile() -> None:
+    (member, _), length = chosen(["windows"]), SUBJECT.lines[0].length
+    every = member.draws(replace(SUBJECT, windows=MOST_WINDOWS))
+    starts = [float(spec.subject.split()[-2]) for spec in every]
+    assert len(starts) == MOST_WINDOWS
+    assert len(set(starts)) == MOST_WINDOWS
+    for count in (2, 4, 8):
+        gaps = np.diff(sorted(starts[:count]))
+        assert gaps.min() > 0.8 * length / count * (1.0 - 1.0 / MOST_WINDOWS)
