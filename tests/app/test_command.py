@@ -14,36 +14,31 @@ from gripscale.cli import app
 from gripscale.core.errors import InputError
 
 
-def refused(tmp_path: Path, *arguments: str) -> str:
-    """Return what the command says on stderr when it refuses."""
-    folder = ["--folder", str(tmp_path / "visits"), "--no-browser"]
-    result = CliRunner().invoke(app, ["app", *arguments, *folder])
-    assert result.exit_code == 2
-    assert result.stderr.startswith("error: ")
-    assert result.stderr.count("\n") == 1
-    return result.stderr
-
-
-def test_a_port_that_is_none(tmp_path: Path) -> None:
-    assert "from 0 to 65535; got 70000" in refused(tmp_path, "--port", "70000")
-
-
-def test_a_port_that_is_taken(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--port", "70000"], "from 0 to 65535; got 70000"),
+        (["--port", "TAKEN"], "port TAKEN of 127.0.0.1 cannot be used"),
+        (["no.toml"], "does not exist"),
+        (["--folder", "file"], "is not a folder"),
+    ],
+)
+def test_what_cannot_be_served(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], sentence: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("")
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
-        port = other.getsockname()[1]
-        assert f"port {port} of 127.0.0.1 cannot be used" in refused(tmp_path, "--port", str(port))
-
-
-def test_a_case_that_is_not_there(tmp_path: Path) -> None:
-    assert "does not exist" in refused(tmp_path, str(tmp_path / "no.toml"))
-    assert not (tmp_path / "visits").exists()
-
-
-def test_a_folder_that_is_a_file(tmp_path: Path) -> None:
-    (tmp_path / "visits").write_text("")
-    assert "is not a folder" in refused(tmp_path)
+        taken = str(other.getsockname()[1])
+        words = ["app", "--no-browser", "--folder", "visits", *arguments]
+        result = CliRunner().invoke(app, [word.replace("TAKEN", taken) for word in words])
+    assert result.exit_code == 2
+    assert result.stderr.startswith("error: ")
+    assert result.stderr.count("\n") == 1
+    assert sentence.replace("TAKEN", taken) in result.stderr
+    assert not list(tmp_path.glob("visits/*"))
 
 
 def test_what_to_install_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

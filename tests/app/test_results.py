@@ -9,10 +9,8 @@ from types import SimpleNamespace
 import pytest
 
 from gripscale.app.run_tabs import compared_runs
-from gripscale.questions import page_of_folder
-from gripscale.questions.answer.answer import Answer
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
-from gripscale.report.elements import Element, Text
+from gripscale.questions.page_of_folder import read_result
 from tests.run_case import run_case
 
 from .conftest import CASE
@@ -29,18 +27,6 @@ def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place / "out"
 
 
-def results_elements(folder: Path) -> list[Element]:
-    """Return everything below the head of the page of a run."""
-    sections = page_of_folder.read_result(folder).page_content().sections
-    return [element for section in sections for element in section.elements]
-
-
-def read_answer(folder: Path) -> Answer:
-    result = page_of_folder.read_result(folder)
-    assert isinstance(result, Answer)
-    return result
-
-
 def test_runs_are_compared_by_their_answers(ran: Path) -> None:
     text = (ran / "case.toml").read_text()
     faster = text.replace('speed = "', 'speed = "1')
@@ -50,20 +36,13 @@ def test_runs_are_compared_by_their_answers(ran: Path) -> None:
     ]
     table = compared_runs(SimpleNamespace(all=runs))
     columns = {column.name: list(column.values) for column in table.columns}
-    assert columns["answer"] == [read_answer(ran).lines[0]] * 2
+    assert columns["answer"] == [read_result(ran).lines[0]] * 2
     assert columns["changes"][0] == ""
     assert columns["changes"][1].startswith("load.speed = 1")
 
 
 def test_a_fit_before_any_run_has_no_diamonds(ran: Path) -> None:
-    result = read_answer(ran)
+    result = read_result(ran)
     for excited, drawn in ((None, False), (result.chain, True)):
         moduli, factor, *_ = rubber_charts(result.inputs, excited)
         assert ["Diamonds" in chart.caption for chart in (moduli, factor)] == [drawn, drawn]
-
-
-def test_the_chain_is_judged_by_what_is_stored(ran: Path) -> None:
-    texts = [one.text for one in results_elements(ran) if isinstance(one, Text)]
-    judged = [text for text in texts if text.startswith("For comparison, the paper's chain")]
-    assert len(judged) == 1
-    assert "times that of the answer" in judged[0]

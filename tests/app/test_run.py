@@ -17,6 +17,8 @@ from gripscale.core.errors import InputError
 from gripscale.questions.registry import Form
 from tests.samples import ROOT
 
+from .conftest import CASE
+
 SLOW = """\
 [[surface.sines]]
 wavelength = "10 mm"
@@ -81,81 +83,56 @@ def test_a_failed_run_says_its_sentence(runs: Runs) -> None:
     state.set(("surface", "scales"), 2)
     run = ended(runs.start())
     assert run.state == "failed"
-    assert (
-        state.visit.short(run.failure())
-        == "inputs/no.txt: cannot be read (no such file); see `gripscale keys surface`"
-    )
-
-
-def test_what_decides_the_grip_is_run_and_shown(tmp_path: Path, small: Path) -> None:
-    """Another command than `run`: its answer, tables and figures are those of its page."""
-    state = CaseState(VisitFolder.new(tmp_path))
-    text = (small / "case.toml").read_text().replace("../elsewhere/", "")
-    (small / "alone.toml").write_text(text)
-    state.set_text(state.text_of(small / "alone.toml"))
-    runs = Runs(state)
-    run = ended(runs.start(by_name("sensitivity")))
-    assert run.state == "finished", run.log()
-    assert "has finished" in run_status(run).text
-    page = run.page()
-    assert page == run.folder / "report.html"
-    text = page.read_text(encoding="utf-8")
-    assert "Answer: 1 % more E″" in text
-    assert "the per cent of friction for a per cent of" in text, "below the figure"
-    again = runs.start(by_name("sensitivity"))
-    assert again is run
-    assert len(runs.all) == 1, "what is finished is not repeated"
-
-
-def test_roads_are_compared_to_the_end(tmp_path: Path, small: Path) -> None:
-    """The road of the case is named by its case, the other by its file."""
-    state = CaseState(VisitFolder.new(tmp_path))
-    text = (small / "case.toml").read_text().replace("../elsewhere/", "")
-    (small / "roads.toml").write_text(text)
-    state.set_text(state.text_of(small / "roads.toml"))
-    other = state.visit.store("other.txt", (small / "road.txt").read_bytes())
-    run = ended(Runs(state).start(by_name("compare-surfaces"), {}, [other]))
-    assert run.state == "finished", run.log()
-    text = run.page().read_text(encoding="utf-8")
-    assert "<dt>μ of case-1</dt>" in text
-    assert "over other 0.0160 (50 %: no significant difference)" in text
-    assert "Answer: friction μ ranks case-1 0." in text
-    assert "table-texture" in text
-
-
-@pytest.mark.verification
-def test_the_area_term_of_stated_waves_is_fitted_to_the_end(tmp_path: Path) -> None:
-    """Waves have no profile for a direct contact: the chain predicts, without being asked for."""
-    state = CaseState(VisitFolder.new(tmp_path))
-    state.set_text(state.text_of(ROOT / "examples/measured_friction/case.toml"))
-    command = by_name("calibrate")
-    run = ended(Runs(state).start(command))
-    assert run.state == "finished", run.log()
-    text = run.page().read_text(encoding="utf-8")
-    assert text.index("<dt>shear stress τ_0</dt>") < text.index("<dt>width factor c</dt>")
-    assert "Answer: area term with shear stress τ_0 = 0.346 MPa" in text
-    assert all(
-        option.value in dict(option.choices).values() for option in command.fields if option.choices
-    )
-
-
-def test_a_command_that_printed_nothing_is_starting(tmp_path: Path) -> None:
-    run = AppRun("run-1", tmp_path / "case-1.toml", tmp_path / "run-1", "", by_name("study"))
-    assert run.how_far() == "starting"
+    said = state.visit.short(run.failure())
+    assert said.startswith("inputs/no.txt: cannot be read (no such file)")
 
 
 def by_name(name: str) -> Form:
     return next(command for command in COMMANDS if command.command == name)
 
 
+@pytest.mark.parametrize(
+    ("command", "case", "others", "words"),
+    [
+        ("sensitivity", "", 0, ["Answer: 1 % more E″", "the per cent of friction for a per cent"]),
+        (
+            "compare-surfaces", "", 1,
+            ["<dt>μ of case-1</dt>", "over other ", "Answer: friction μ ranks case-1 0.",
+             "table-texture"],
+        ),
+        pytest.param(  # stated waves have no profile for a direct contact: the chain predicts
+            "calibrate", "examples/measured_friction/case.toml", 0,
+            ["<dt>shear stress τ_0</dt>", "Answer: area term with shear stress τ_0 = 0.346 MPa"],
+            marks=pytest.mark.verification,
+        ),
+    ],
+)  # fmt: skip
+def test_other_commands_than_run_are_run_once_and_shown(
+    tmp_path: Path, small: Path, command: str, case: str, others: int, words: list[str]
+) -> None:
+    state = CaseState(VisitFolder.new(tmp_path))
+    (small / "alone.toml").write_text(CASE.replace("../elsewhere/", ""))
+    state.set_text(state.text_of(ROOT / case if case else small / "alone.toml"))
+    road = (small / "road.txt").read_bytes()
+    files = [state.visit.store("other.txt", road)] if others else []
+    runs = Runs(state)
+    run = ended(runs.start(by_name(command), {}, files))
+    assert run.state == "finished", run.log()
+    assert "has finished" in run_status(run).text
+    page = run.page().read_text(encoding="utf-8")
+    assert all(each in page for each in words)
+    assert runs.start(by_name(command), {}, files) is run, "what is finished is not repeated"
+
+
 def test_each_command_is_one_that_gripscale_has_with_its_options() -> None:
     """Words of the command lines, from what the commands print of themselves."""
     for command in COMMANDS:
-        help_text = (
-            CliRunner().invoke(app, [command.command, "--help"], env={"COLUMNS": "200"}).stdout
-        )
+        words = [command.command, "--help"]
+        help_text = CliRunner().invoke(app, words, env={"COLUMNS": "200"}).stdout
         assert help_text.startswith("Usage: "), command.command
         assert all(option.flag in help_text for option in command.fields), command.title
+        for option in command.fields:
+            assert not option.choices or option.value in dict(option.choices).values()
     speeds = by_name("study")
     assert speeds.arguments({"speeds": "1,2"}) == ["--vary", "speed=1,2"]
     assert speeds.arguments({"speeds": " "}) == []

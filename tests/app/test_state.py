@@ -52,11 +52,6 @@ def fields(form: pn.Column) -> dict[str, Any]:
     return {one.label.removesuffix(" *"): one for one in form.select(pn.widgets.Widget)}
 
 
-def opened(state: CaseState, uploads: dict[str, bytes]) -> None:
-    """Take uploads as the page does."""
-    state.set_text(state.open(uploads))
-
-
 @given(VALUES.filter(lambda value: not isinstance(value, str) or value.strip() == value != ""))
 def test_a_field_shows_every_value_so_that_it_is_read_back(value: Any) -> None:
     assert field_value(field_text(value)) == value
@@ -69,19 +64,13 @@ def test_a_value_put_into_the_text_is_stated_there_and_nothing_else_changes(valu
     assert case_tables(with_value(text, ("load", "speed"), "0.3 m/s")) == case_tables(CASE)
 
 
-def test_comments_stay_and_a_key_can_be_taken_out() -> None:
-    text = with_value(CASE, ("load", "speed"), "1 m/s")
-    assert text == CASE.replace('"0.3 m/s"', '"1 m/s"')
-    assert (
-        with_value(with_value(CASE, ("load", "load_time"), "1 s"), ("load", "load_time"), None)
-        == CASE
-    )
-    assert with_value(CASE, ("conditions", "heat", "density"), None) == CASE
-
-
-def test_a_table_that_is_not_there_is_made() -> None:
-    text = with_value(CASE, ("conditions", "heat", "density"), "1150 kg/m3")
-    assert tomllib.loads(text)["conditions"] == {"heat": {"density": "1150 kg/m3"}}
+def test_comments_stay_a_key_is_taken_out_and_a_missing_table_is_made() -> None:
+    assert with_value(CASE, ("load", "speed"), "1 m/s") == CASE.replace('"0.3 m/s"', '"1 m/s"')
+    time, density = ("load", "load_time"), ("conditions", "heat", "density")
+    assert with_value(with_value(CASE, time, "1 s"), time, None) == CASE
+    assert with_value(CASE, density, None) == CASE
+    made = tomllib.loads(with_value(CASE, density, "1150 kg/m3"))["conditions"]
+    assert made == {"heat": {"density": "1150 kg/m3"}}
 
 
 def test_every_key_of_a_case_has_a_field_or_a_place_to_drop_its_file(state: CaseState) -> None:
@@ -137,16 +126,15 @@ def test_what_is_typed_is_in_the_text_and_what_is_in_the_text_is_shown(state: Ca
 
 def test_a_list_of_any_length_is_one_field(state: CaseState) -> None:
     """A table of stresses has two speeds at least, not two at most."""
-    section = next(
-        s for s in sections() if s.name == "conditions.shear_stress" and s.kind == "table"
-    )
+    found = {(each.name, each.kind): each for each in sections()}
+    section = found["conditions.shear_stress", "table"]
     speed = next(key for key in section.keys if key.name == "speed")
-    path = ("conditions", "shear_stress")
-    state.set(path, {"kind": "table", "speed": [0.01, 0.1, 1.0], "stress_at": [1e6, 2e6, 1e6]})
+    path = ("conditions", "shear_stress", "speed")
+    state.set(path[:2], {"kind": "table", "speed": [0.01, 0.1, 1.0], "stress_at": [1e6, 2e6, 1e6]})
     widget = field(state, section, speed)
     assert field_value(widget.value) == [0.01, 0.1, 1.0]
     widget.value = "[0.01, 0.1, 2.0]"
-    assert state.get((*path, "speed")) == [0.01, 0.1, 2.0]
+    assert state.get(path) == [0.01, 0.1, 2.0]
 
 
 def test_a_refusal_is_the_one_problem_of_the_case_until_it_is_cured(state: CaseState) -> None:
@@ -198,7 +186,7 @@ def test_each_example_fills_every_form_and_no_form_changes_it(state: CaseState) 
 def test_a_case_is_opened_with_the_files_it_names(
     state: CaseState, dropped: dict[str, bytes]
 ) -> None:
-    opened(state, dropped)
+    state.set_text(state.open(dropped))
     assert validation_message(state) == ""
     assert state.get(("surface", "files")) == ["inputs/road.txt"]
     assert state.text == CASE.replace("../elsewhere/road", "inputs/road").replace(
@@ -210,21 +198,21 @@ def test_a_case_is_opened_with_the_files_it_names(
 def test_a_surface_and_a_rubber_dropped_together_make_a_case(
     state: CaseState, dropped: dict[str, bytes]
 ) -> None:
-    opened(state, {name: dropped[name] for name in ("dma.txt", "road.txt")})
+    state.set_text(state.open({name: dropped[name] for name in ("dma.txt", "road.txt")}))
     assert validation_message(state) == ""
     assert state.get(("surface", "files")) == ["inputs/road.txt"]
     assert state.get(("surface", "cut_off")) == "instrument"
     assert state.get(("rubber", "file")) == "inputs/dma.txt"
     assert "# Doubts, the most important first:" in state.text
     with pytest.raises(InputError, match="expected a file with a surface, too"):
-        opened(state, {"dma.txt": dropped["dma.txt"]})
+        state.open({"dma.txt": dropped["dma.txt"]})
 
 
 def test_two_cases_dropped_at_once_are_refused(state: CaseState) -> None:
     with pytest.raises(InputError, match=r"2 of the dropped files end in \.toml"):
-        opened(state, {"a.toml": b"", "b.TOML": b""})
+        state.open({"a.toml": b"", "b.TOML": b""})
     with pytest.raises(InputError, match=r"a\.toml cannot be read: it is not UTF-8 text"):
-        opened(state, {"a.toml": b"\xff"})
+        state.open({"a.toml": b"\xff"})
     assert state.text == CASE
 
 

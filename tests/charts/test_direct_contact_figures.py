@@ -7,18 +7,12 @@ import io
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from gripscale.charts.chart import CrossLine, Panel, Series
-from gripscale.charts.draw import Sheet
+from gripscale.charts.chart import CrossLine, Panel
 from gripscale.charts.paper import figure_file
 from gripscale.half_space.location import with_traces
-from gripscale.questions.answer.charts import (
-    height_figure,
-    named_traces,
-    trace_sheet,
-)
+from gripscale.questions.answer.charts import height_figure, named_traces, trace_sheet
 
 SUMMIT, HALF = 60e-3, 50e-6
 """Middle of the contact and half its length [m]."""
@@ -54,10 +48,6 @@ def ends_of(panel: Panel) -> tuple[float, float]:
     return panel.x.low, panel.x.high
 
 
-def labelled(panel: Panel, label: str) -> Series:
-    return next(m for m in panel.marks if isinstance(m, Series) and m.label == label)
-
-
 def test_the_stretch_has_its_contact_in_the_middle() -> None:
     sheet = trace_sheet(made_up_trace())
     close = sheet.panels[-1]
@@ -71,8 +61,10 @@ def test_the_stretch_has_its_contact_in_the_middle() -> None:
         shade = next(m for m in panel.marks if isinstance(m, CrossLine) and m.to is not None)
         assert (shade.at, shade.to) == pytest.approx((low, high), abs=0.02)
     # a stretch below a millimetre has the unit of the whole line
-    contact = np.asarray(labelled(close, "contact").y)
-    assert np.nanmax(contact) == pytest.approx(1.0, rel=1e-3)
+    contact = next(m for m in close.marks if getattr(m, "label", "") == "contact")
+    assert np.nanmax(np.asarray(contact.y)) == pytest.approx(1.0, rel=1e-3)
+    (text,) = (m.label for m in close.marks if "pressure" in getattr(m, "label", ""))
+    assert text == "pressure, 100 MPa is 0.05 mm high"
 
 
 def test_a_stretch_of_a_length_that_was_asked_for_keeps_it() -> None:
@@ -91,26 +83,13 @@ def test_a_stretch_ends_before_a_contact_of_thinned_points() -> None:
     assert high > touching.max() + 0.02
 
 
-def test_the_legend_names_a_pressure_and_its_height() -> None:
-    close = trace_sheet(made_up_trace()).panels[-1]
-    (text,) = (m.label for m in close.marks if "pressure" in getattr(m, "label", ""))
-    assert text == "pressure, 100 MPa is 0.05 mm high"
-
-
-def frames(figure: Figure) -> list[tuple[float, float]]:
-    figure_file(figure)
-    return [(axes.get_position().x0, axes.get_position().x1) for axes in figure.axes]
-
-
 def test_panels_to_scale_are_as_wide_as_the_others() -> None:
-    for figure in (height_figure(made_up_trace(), "road"), drawn(trace_sheet(made_up_trace()))):
-        ends = frames(figure)
+    trace = made_up_trace()
+    for figure in (height_figure(trace, "road"), trace_sheet(trace).on_paper()):
+        figure_file(figure)
+        ends = [(axes.get_position().x0, axes.get_position().x1) for axes in figure.axes]
         for end in ends[1:]:
             assert end == pytest.approx(ends[0], abs=1e-4)
-
-
-def drawn(sheet: Sheet) -> Figure:
-    return sheet.on_paper()
 
 
 def test_what_heights_are_worth_is_named_and_no_label_is_cut() -> None:
@@ -131,17 +110,12 @@ def test_what_heights_are_worth_is_named_and_no_label_is_cut() -> None:
         (["road", "lane"], ["road", "lane"]),
         (["road", "road"], ["profile 1", "profile 2"]),
         (["road", ""], ["profile 1", "profile 2"]),
+        (None, ["profile 1", "profile 2"]),
     ],
 )
-def test_traces_are_called_as_their_profiles(profiles: list[str], names: list[str]) -> None:
+def test_traces_are_called_as_their_profiles(profiles: list[str] | None, names: list[str]) -> None:
     data = with_traces(xr.Dataset(), [made_up_trace().drop_vars("by_height")] * 2)
-    inputs = xr.Dataset({"profile_name": ("profile", np.array(profiles))})
+    inputs = profiles and xr.Dataset({"profile_name": ("profile", np.array(profiles))})
     called = [name for name, _ in named_traces(data, inputs)]
     assert called == names
     assert all(type(name) is str for name in called)
-
-
-def test_traces_without_recorded_inputs_are_numbered() -> None:
-    data = with_traces(xr.Dataset(), [made_up_trace().drop_vars("by_height")] * 2)
-    for inputs in (None, xr.Dataset()):
-        assert [name for name, _ in named_traces(data, inputs)] == ["profile 1", "profile 2"]

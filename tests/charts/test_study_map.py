@@ -12,7 +12,6 @@ import xarray as xr
 
 from gripscale.model import TOTALS
 from gripscale.questions import Variation, friction_master_figure
-from gripscale.questions.vary.charts import study_pictures
 from gripscale.questions.vary.study import BEYOND_SHIFT, with_master_curve
 from gripscale.rubber import WLF, Rubber
 from tests.samples import DOCS
@@ -65,11 +64,6 @@ def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
         np.testing.assert_allclose(one.get_xdata(), study.reduced_speed.isel(temperature=i))
         np.testing.assert_allclose(one.get_ydata(), study.total_friction.isel(temperature=i))
     assert len({mpl.colors.to_hex(one.get_color()) for one in friction.lines}) == 3
-
-
-def test_both_are_among_the_figures_of_a_study(study: xr.Dataset) -> None:
-    names = {picture.name for picture in study_pictures(study)}
-    assert names == {"totals", "friction_master_curve"}
 
 
 def test_page_shows_celsius_and_reduced_speed(study: xr.Dataset, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ import openpyxl
 import pytest
 from typer.testing import Result
 
+from gripscale.questions.compare.comparison import COMPARED_OVER
 from gripscale.theory import HalfPlane
 from tests.samples import Shell
 
@@ -88,23 +89,6 @@ def test_file_in_place_of_the_output_folder(shell: Shell, changed: Callable[...,
     assert blocked.read_text() == "in the way"
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="the superuser may write anywhere")
-def test_output_folder_without_permission(shell: Shell, changed: Callable[..., Path]) -> None:
-    case = changed()
-    closed = case.parent / "closed"
-    closed.mkdir(mode=0o500)
-    refused(shell("run", case, "--output", closed / "results"), "no permission")
-
-
-def test_output_folder_without_permission_is_found_before_reading(
-    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    case = changed()
-    monkeypatch.setattr(os, "access", lambda *_: False)
-    (case.parent / "road.txt").unlink()
-    refused(shell("run", case), "no permission for")
-
-
 def two_sheets(folder: Path) -> list[object]:
     book = openpyxl.Workbook()
     for name in ("20 C", "40 C"):
@@ -115,6 +99,14 @@ def two_sheets(folder: Path) -> list[object]:
     return ["fit-rubber", folder / "dma.xlsx"]
 
 
+NOT_COMPARED = [
+    (["--vary", "rubber=case"], f"vary must be one of {', '.join(COMPARED_OVER)};"),
+    (["--vary", "speed=0.3"], "speed must have at least two values; got 0.3"),
+    (["--models", "persion"], "unknown model persion; did you mean persson?"),
+    (["--seeds", "0"], "seeds must be a whole number from 1 to 1000; got 0"),
+    (["--measured", "none.csv"], "none.csv: cannot be read (no such file)"),
+    (["--models", "klueppel_heinrich"], "no model of klueppel_heinrich applies to this case"),
+]
 MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
     (lambda at: ["run", at / "case"], "case does not exist"),
     (lambda at: ["run", at / "dma.txt"], "dma.txt is no case file (TOML); `gripscale"),
@@ -141,6 +133,10 @@ MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
      "must have a unit, such as"),
     (lambda at: ["study", at / "case.toml", "--vary", "rubber=case,dmo.txt"],
      "rubber dmo.txt is neit"),
+    (lambda at: ["calibrate", at / "case.toml"],
+     "[measured] friction must name a table of measured friction; got none"),
+    *((lambda at, words=words: ["compare", at / "case.toml", *words], sentence)
+      for words, sentence in NOT_COMPARED),
 ]  # fmt: skip
 
 

@@ -56,13 +56,6 @@ def test_anchors_are_those_of_the_site(page: str) -> None:
     assert len(site) > 1
 
 
-def test_headings_with_umlauts_twice_and_in_code() -> None:
-    text = "# Größe\n\n```toml\n# finer = 1\n```\n\n## Klüppel, Heinrich - `a_b`\n\n# Größe\n"
-    starts = anchors(text)
-    assert list(starts) == ["groe", "kluppel-heinrich-a_b", "groe_1"]
-    assert text[starts["groe_1"] :] == "# Größe\n"
-
-
 @pytest.mark.parametrize("anchor", ["kluppel-and-heinrich", "klüppel-and-heinrich"])
 def test_a_chapter_with_an_umlaut_is_shown(shell: Shell, anchor: str) -> None:
     assert shell("docs", f"theories#{anchor}").stdout.strip().startswith("Klüppel and Heinrich")

@@ -12,7 +12,6 @@ from gripscale.surface import self_affine_profile
 from tests.report.reading import Page
 from tests.samples import (
     HALF_PLANE,
-    MAXWELL,
     Shell,
     case_text,
     write_master_curve,
@@ -56,13 +55,6 @@ def mostly_gaps(case: Path) -> None:
     path.write_text("\n".join([title, *kept]))
 
 
-def narrow(case: Path) -> None:
-    """Measure the rubber up to 10 Hz: the waves excite it at 5 to 400 Hz."""
-    frequency = np.geomspace(1e-3, 10.0, 30)
-    modulus = MAXWELL.complex_modulus(2.0 * np.pi * frequency)
-    write_master_curve(case.with_name("dma.txt"), frequency, modulus)
-
-
 def at_rest(case: Path) -> None:
     """Take the speed away."""
     replaced(case, '"0.3 m/s"', '"0 m/s"')
@@ -73,7 +65,6 @@ def at_rest(case: Path) -> None:
     [
         (short, "Answer: none to rely on. The measured surface is too small"),
         (mostly_gaps, "Answer: none to rely on. 74 % of the contact lies on filled gaps"),
-        (narrow, "Answer: none to rely on. 87 % of the friction lies up to 1.8 decades above"),
         (at_rest, "Answer: no friction at rest; A_r/A_0 = "),
     ],
 )
@@ -107,15 +98,3 @@ def test_what_cannot_be_solved_is_an_error_before_all_else(shell: Shell, case: P
     assert (result.exit_code, result.stdout) == (2, "")
     assert "the pressure squeezes the rubber, a melt at rest, flat" in result.stderr
     assert "must be at least 1/10 of the pressure, 3e+04; got" in result.stderr
-
-
-@pytest.mark.parametrize("gap", ["NaN", ""])
-def test_a_profile_of_gaps_only_is_named(shell: Shell, case: Path, gap: str) -> None:
-    path = case.with_name("road.txt")
-    title, *rows = path.read_text().splitlines()
-    path.write_text("\n".join([title, *(f"{row.split()[0]}\t{gap}" for row in rows)]))
-    for command in ("run", "compare"):
-        result = shell(command, case)
-        assert result.exit_code == 2
-        assert "road.txt: expected " in result.stderr
-        assert ("all missing" if gap else "numbers in column 2, 'z'; got none") in result.stderr

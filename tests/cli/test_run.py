@@ -61,17 +61,11 @@ def test_figures_are_files_where_the_case_asks_for_them(
 
 def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -> None:
     result, target = done
+    assert "wave 3 of 3" not in result.output  # progress is for terminals
     assert "\x1b" not in result.output
     lines = [line for line in result.output.splitlines() if str(target) not in line]
     assert max(len(line) for line in lines if "case.toml" not in line) <= 100
     assert "…" not in result.output
-
-
-def test_output_says_what_was_read_fitted_and_solved(done: tuple[Result, Path]) -> None:
-    output = done[0].output
-    for words in ("dma on road", "The paper's chain of waves", "A_r/A_0"):
-        assert words in output
-    assert "wave 3 of 3" not in output  # progress is for terminals
 
 
 def test_a_run_prints_one_screen_and_the_rest_where_it_is_asked_for(
@@ -91,22 +85,6 @@ def test_a_run_prints_one_screen_and_the_rest_where_it_is_asked_for(
     for words in ("Dynamic, 0.3 m/s", "stretch", "3 sine waves from", "Maxwell elements", "spikes"):
         assert words in verbose
         assert words not in result.output
-
-
-def test_results_file_holds_the_chain_and_its_inputs(
-    done: tuple[Result, Path], inputs: Path
-) -> None:
-    data = netcdf.load_dataset(done[1] / "chain.nc")
-    assert data.sizes["scale"] == 3
-    np.testing.assert_allclose(
-        data.pressure_received[1:],
-        (data.pressure_received / data.contact_fraction)[:-1],
-        rtol=1e-12,
-    )
-    assert data.total_friction == pytest.approx(float(data.friction.sum()), rel=1e-12)
-    assert data.total_friction > 0.0
-    assert data.attrs["case"] == (inputs / "case.toml").read_text()
-    assert data.attrs["surface_source"].endswith("road.txt")
 
 
 def test_case_is_copied_but_for_the_names_of_its_files(
@@ -146,7 +124,6 @@ def test_a_chain_that_fails_leaves_the_answer_of_a_measured_surface(
     assert result.exit_code == 3
     assert result.stderr.count("\n") == 1
     assert "wave 1 of 2" in result.stderr
-    assert "iteration limit" in result.stderr
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -30,9 +31,16 @@ from tests.samples import Shell
 QUESTIONS = {
     "answer": ("run",),
     "comparison": ("compare", "--models", "chain_half_plane,direct"),
-    "study": ("study", "--vary", "speed=0.1,0.3"),
+    "study": ("study", "--vary", "speed=0.1,0.3", "--model", "chain"),
     "sensitivity": ("sensitivity", "--bands", "1"),
 }
+
+
+@pytest.fixture(scope="module")
+def case(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The case in a folder whose results are kept, so that nothing is solved twice."""
+    folder = shutil.copytree(inputs, tmp_path_factory.mktemp("kept") / "case")
+    return Path(folder) / "case.toml"
 
 
 def ask(shell: Shell, question: str, case: Path, *options: object) -> Any:
@@ -44,10 +52,7 @@ def ask(shell: Shell, question: str, case: Path, *options: object) -> Any:
 
 @pytest.mark.parametrize("question", QUESTIONS)
 @pytest.mark.usefixtures("undrawn")
-def test_json_is_the_result_and_nothing_else(
-    shell: Shell, changed: Callable[..., Path], question: str
-) -> None:
-    case = changed()
+def test_json_is_the_result_and_nothing_else(shell: Shell, case: Path, question: str) -> None:
     done = ask(shell, question, case, "--json")
     assert done.stderr == ""
     content = json.loads(done.stdout)
@@ -62,10 +67,7 @@ def test_json_is_the_result_and_nothing_else(
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_json_of_a_run_has_the_numbers_of_its_answer(
-    shell: Shell, changed: Callable[..., Path]
-) -> None:
-    case = changed()
+def test_json_of_a_run_has_the_numbers_of_its_answer(shell: Shell, case: Path) -> None:
     first = ask(shell, "answer", case, "--json").stdout
     again = ask(shell, "answer", case, "--json").stdout
     assert first == again
@@ -85,8 +87,7 @@ def test_json_of_a_run_has_the_numbers_of_its_answer(
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_quiet_prints_answer_and_all_findings(shell: Shell, changed: Callable[..., Path]) -> None:
-    case = changed()
+def test_quiet_prints_answer_and_all_findings(shell: Shell, case: Path) -> None:
     done = shell("run", case, "-q", columns=5000)
     result = gs.load(case.parent / "results" / "answer.nc")
     warnings = [*warning_lines(result.findings, widths=result.half_widths)]
@@ -117,10 +118,8 @@ class Numbers(gs.Answer):
         return Table("numbers", [Column("row", np.array([1, 2])), missing, ends])
 
 
-def test_missing_and_infinite_numbers_are_null(
-    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    result = Numbers(gs.answer(gs.read_case(changed())).data)
+def test_missing_and_infinite_numbers_are_null(inputs: Path) -> None:
+    result = Numbers(gs.answer(gs.read_case(inputs / "case.toml")).data)
     table = json.loads(result_as_json(result))["table"]
     assert table["units"] == {"row": "1", "friction": "1", "interval": "m"}
     assert table["rows"] == [

@@ -1,4 +1,4 @@
-"""Every relative link and figure in the Markdown pages exists."""
+"""Every relative link, figure and file named in the Markdown pages exists."""
 
 import re
 
@@ -8,25 +8,15 @@ from tests.samples import ROOT
 
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
 LINK = re.compile(r"\]\(([^)#]+)(?:#[^)]*)?\)")
-
-
-def test_the_pages_are_found():
-    names = {page.name for page in PAGES}
-    assert {"README.md", "method.md", "verification.md", "limits.md", "inputs.md"} <= names
+FILE = re.compile(r"`((?:rust|python|tests|benchmarks|examples|docs)/[\w./-]+)`")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_links_lead_somewhere(page):
-    for target in LINK.findall(page.read_text(encoding="utf-8")):
-        if "://" not in target:
-            assert (page.parent / target).exists(), f"{page.name} points to {target}"
-
-
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_files_named_in_the_text_exist(page):
+def test_links_and_names_of_files_lead_somewhere(page):
     text = page.read_text(encoding="utf-8")
-    for name in re.findall(r"`((?:rust|python|tests|benchmarks|examples|docs)/[\w./-]+)`", text):
-        assert (ROOT / name).exists(), f"{page.name} names {name}"
+    links = [page.parent / target for target in LINK.findall(text) if "://" not in target]
+    for path in [*links, *(ROOT / name for name in FILE.findall(text))]:
+        assert path.exists(), f"{page.name} points to {path}"
 
 
 def test_tests_of_the_page_on_verification_exist():

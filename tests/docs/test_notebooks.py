@@ -61,11 +61,3 @@ def test_a_page_has_code_without_outputs_unless_it_is_asked_for(
     assert text.startswith("# One wave in time")
     assert "```python\nsteady = gs.solve_scale(" in text
     assert "<div" not in text
-
-
-def test_a_cell_shows_what_it_prints_and_its_last_value() -> None:
-    names: dict[str, object] = {}
-    assert notebooks.run_cell("x = 1\nprint('a < b')\nx + 1", names, "cell") == (
-        "<pre>a &lt; b</pre><pre>2</pre>"
-    )
-    assert notebooks.run_cell("y = x", names, "cell") == ""

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 from gripscale.case_file import read_case
-from gripscale.cli import app
 from gripscale.half_space.model import DirectContact
-from gripscale.io import netcdf
 from gripscale.questions import Study
-from tests.samples import EXAMPLES, blank_figures
+from tests.samples import EXAMPLES
 
 EXAMPLE = EXAMPLES / "road_and_tread" / "case.toml"
 COARSE = """
@@ -39,18 +35,6 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("conditions") / "case.toml"
     path.write_text(text + COARSE, encoding="utf-8")
     return path
-
-
-def test_study_over_speed_and_temperature(case: Path) -> None:
-    asked = ["--vary", "speed=0.1:1:log2", "--vary", "temperature=20 C:60 C:lin2"]
-    with blank_figures():
-        done = CliRunner().invoke(app, ["study", str(case), *asked])
-    assert done.exit_code == 0, done.output
-    data = netcdf.load_dataset(case.parent / "results" / "study" / "study.nc")
-    assert (data.prediction_status == "converged").all()
-    assert (data.total_friction > 0.0).all()
-    # a rubber at 60 C, softer than at 20 C, touches more
-    assert (np.diff(data.total_contact_fraction.transpose("speed", "temperature")) > 0.0).all()
 
 
 def test_effects_in_chain_and_direct_contact(case: Path) -> None:

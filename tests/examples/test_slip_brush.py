@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from examples.slip_curve.brush import Brush, brush_force
-from gripscale.core.errors import InputError
 
 LENGTH, PRESSURE, STIFFNESS, ROAD = 0.1, 3e5, 1.5e8, 22.0
 BRUSH = Brush(LENGTH, PRESSURE, STIFFNESS)
@@ -75,36 +74,6 @@ def test_heat_of_a_locked_wheel() -> None:
     top = 4.0 / 3.0 * 0.75**1.5 - 16.0 / 15.0 * 0.75**2.5
     expected = 0.8 * ROAD * 6.0 * PRESSURE * top * math.sqrt(time / math.pi) / effusivity
     assert brush_force(warm, constant, 1.0, ROAD).warming == pytest.approx(expected, rel=5e-3)
-
-
-def test_heat_lowers_a_friction_that_falls_with_temperature() -> None:
-    """Friction and temperature agree: 1 - T/500 K with T of the force that it makes."""
-
-    def falling(speed, pressure, warming):
-        return 0.8 * (1.0 - warming / 500.0)
-
-    cold = brush_force(BRUSH, falling, SLIP, ROAD)
-    warm = brush_force(Brush(LENGTH, PRESSURE, STIFFNESS, 650.0), falling, SLIP, ROAD)
-    assert (warm.force <= cold.force * (1.0 + 1e-9)).all()
-    assert warm.force[5] == pytest.approx(
-        cold.force[5] * (1.0 - 0.5 * warm.warming[5] / 500.0), rel=0.05
-    )
-
-
-@pytest.mark.parametrize(
-    ("slip", "speed", "words"),
-    [
-        (0.0, 1.0, "slip must be above 0 and at most 1; got 0.0"),
-        (1.1, 1.0, "slip must be above 0 and at most 1; got 1.1"),
-        (0.1, 0.0, "speed must be above zero"),
-        (0.1, math.nan, "speed must be"),
-    ],
-)
-def test_absurd_slips_and_speeds_are_refused(slip: float, speed: float, words: str) -> None:
-    with pytest.raises(InputError, match=words):
-        brush_force(BRUSH, constant, slip, speed)
-    with pytest.raises(InputError, match="stiffness must be"):
-        Brush(LENGTH, PRESSURE, 0.0)
 
 
 @pytest.mark.parametrize(("power", "most"), [(0.1, 0.022), (0.2, 0.08)])

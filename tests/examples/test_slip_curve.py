@@ -79,6 +79,10 @@ def test_curves_lie_within_their_bands(curve: question.SlipCurve) -> None:
     assert (both.braking_distance < hysteresis.braking_distance).all()
     distance = curve.data.braking_distance
     assert (distance.sel(bound="low") < distance.sel(bound="high")).all()
+    # k L/(2 p_0) at small slip, less by half of sigma/sigma*, as in the closed form
+    force, slip = float(both.force.sel(bound="value")[0, 0, 0]), float(curve.data.slip[0])
+    stuck = question.STIFFNESS * 0.1 / (2.0 * 3e5) * slip / (1.0 - slip)
+    assert 0.7 * stuck < force < stuck
 
 
 def test_locked_wheel_has_the_friction_of_the_road_speed(curve: question.SlipCurve) -> None:
@@ -100,14 +104,6 @@ def test_locked_wheel_has_the_friction_of_the_road_speed(curve: question.SlipCur
     assert locked == pytest.approx(float((weight * friction).mean()), rel=3e-4)
 
 
-def test_slip_stiffness_is_that_of_the_bristles(curve: question.SlipCurve) -> None:
-    """k L/(2 p_0) at small slip, less by half of sigma/sigma*, as in the closed form."""
-    force = float(curve.data.force.isel(kind=1, bound=1, temperature=0, speed=0, slip=0))
-    slip = float(curve.data.slip[0])
-    stuck = question.STIFFNESS * 0.1 / (2.0 * 3e5) * slip / (1.0 - slip)
-    assert 0.7 * stuck < force < stuck
-
-
 def test_braking_distance_of_constant_friction() -> None:
     """(v_1^2 - v_2^2)/(2 g mu); the peak of a constant friction is its plateau.
 
@@ -126,14 +122,6 @@ def test_braking_distance_of_constant_friction() -> None:
     assert found.sel(bound="value", brake="locked") == pytest.approx(expected, rel=1e-6)
     assert found.sel(bound="low", brake="locked") == pytest.approx(0.5 * expected, rel=1e-6)
     assert found.sel(bound="value", brake="peak") == pytest.approx(expected, rel=2e-2)
-
-
-def test_road_without_an_interval_has_a_value() -> None:
-    """Ends that are not known stay unknown: the peak of the value does not."""
-    force = np.array([np.full(30, np.nan), np.linspace(0.1, 1.0, 30)])
-    peak, slip = question.peaks(SLIPS, force)
-    assert np.isnan([peak[0], slip[0]]).all()
-    assert (peak[1], slip[1]) == pytest.approx((1.0, 1.0))
 
 
 def test_table_is_read_between_its_points_and_kept_beyond() -> None:

@@ -18,22 +18,7 @@ from gripscale.io import netcdf
 from gripscale.rubber import WLF, Rubber, fit_prony, read_master_curve
 from gripscale.surface import SineStack
 from tests.export.readers import READERS, read_abaqus
-from tests.samples import MAXWELL, write_maxwell
-
-CASE = """\
-[surface]
-files = ["road.txt"]
-scales = 3
-[rubber]
-file = "dma.txt"
-terms = 6
-reference_temperature = "20 C"
-shift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }
-[load]
-pressure = "3 bar"
-speed = "0.3 m/s"
-footprint = "100 mm"
-"""
+from tests.samples import MAXWELL, case_text, write_maxwell
 
 
 def run(*arguments: object):
@@ -45,7 +30,12 @@ def inputs(tmp_path_factory) -> Path:
     """A folder with a measured rubber, a case of it, and the file of a rubber."""
     folder = tmp_path_factory.mktemp("inputs")
     write_maxwell(folder / "dma.txt")
-    (folder / "case.toml").write_text(CASE)
+    rubber = (
+        'file = "dma.txt"\nterms = 6\nreference_temperature = "20 C"\n'
+        'shift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }'
+    )
+    text = case_text('files = ["road.txt"]\nscales = 3', rubber)
+    (folder / "case.toml").write_text(text)
     (folder / "rubber.json").write_text(json.dumps(MAXWELL.to_dict()))
     (folder / "bad.json").write_text("{")
     return folder
@@ -59,9 +49,8 @@ def test_a_rubber_of_any_file(inputs, tmp_path, program, source):
     assert done.exit_code == 0, done.output
     assert "The material is" in done.stdout
     found = READERS[program](target.read_text())
-    if source == "rubber.json":
-        own = MAXWELL
-    else:
+    own = MAXWELL
+    if source != "rubber.json":
         terms = 6 if source == "case.toml" else None
         own = fit_prony(read_master_curve(inputs / "dma.txt"), terms=terms)
     omega = np.geomspace(1e-1, 1e6, 20)
@@ -88,6 +77,7 @@ def test_a_rubber_at_another_temperature_and_in_other_units(inputs, tmp_path):
     [
         ("dma.txt", ["--to", "nastran"], "to must be one of abaqus, ansys, febio"),
         ("dma.txt", ["--to", "febio", "--temperature", "40 C"], "shift is missing"),
+        ("dma.txt", ["--to", "abaqus", "--band", "1 Hz"], "band must be two frequencies such as"),
         ("case.toml", ["--to", "febio", "--temperature", "warm"], "expected a temperature such as"),
         ("dma.txt", ["--to", "ansys", "--name", "a"], "unknown option of ansys name"),
         ("none.json", ["--to", "ansys"], "none.json: cannot be read (no such file)"),

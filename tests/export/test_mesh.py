@@ -74,12 +74,19 @@ def test_the_stress_is_in_equilibrium(order, speed, load_time, energy):
     assert drag == pytest.approx(result.friction * load, abs=1e-7 * load)
 
 
-@pytest.mark.parametrize("order", [1, 2])
-def test_other_programs_open_the_file(waves, tmp_path, order):
+@pytest.fixture(scope="module")
+def meshes(waves, tmp_path_factory):
+    """What another program reads of their files."""
     meshio = pytest.importorskip("meshio", reason="needs gripscale[dev]")
-    result = waves[order]
-    write_mesh(result, tmp_path / "a.vtu")
-    mesh = meshio.read(tmp_path / "a.vtu")
+    folder = tmp_path_factory.mktemp("meshes")
+    for order, result in waves.items():
+        write_mesh(result, folder / f"{order}.vtu")
+    return {order: meshio.read(folder / f"{order}.vtu") for order in waves}
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_other_programs_open_the_file(waves, meshes, order):
+    result, mesh = waves[order], meshes[order]
     (cells,) = mesh.cells
     assert cells.type == {1: "quad", 2: "quad9"}[order]
     assert len(cells.data) == 32 * 6
@@ -102,12 +109,9 @@ def test_other_programs_open_the_file(waves, tmp_path, order):
 
 
 @pytest.mark.parametrize("order", [1, 2])
-def test_the_pressure_of_the_file_carries_the_load(waves, tmp_path, order):
+def test_the_pressure_of_the_file_carries_the_load(waves, meshes, order):
     """Trapezoids on linear edges, Simpson's rule on quadratic ones, as the kernel shares forces."""
-    meshio = pytest.importorskip("meshio", reason="needs gripscale[dev]")
-    result = waves[order]
-    write_mesh(result, tmp_path / "a.vtu")
-    mesh = meshio.read(tmp_path / "a.vtu")
+    mesh = meshes[order]
     first = mesh.cells[0].data[:32]
     edge = first[:, [0, 1]] if order == 1 else first[:, [0, 4, 1]]
     weight = np.array([0.5, 0.5]) if order == 1 else np.array([1.0, 4.0, 1.0]) / 6.0
@@ -116,15 +120,12 @@ def test_the_pressure_of_the_file_carries_the_load(waves, tmp_path, order):
     assert carried == pytest.approx(1e6 * 1e-2, rel=1e-9)
     away = np.setdiff1d(np.arange(len(mesh.points)), edge)
     assert not mesh.point_data["contact_pressure"][away].any()
-    assert mesh.field_data["friction"][0] == result.friction
+    assert mesh.field_data["friction"][0] == waves[order].friction
     assert mesh.field_data["pressure_received"][0] == 1e6
 
 
-def test_the_fields_of_the_file_mean_what_they_say(waves, tmp_path):
-    meshio = pytest.importorskip("meshio", reason="needs gripscale[dev]")
-    result = waves[1]
-    write_mesh(result, tmp_path / "a.vtu")
-    mesh = meshio.read(tmp_path / "a.vtu")
+def test_the_fields_of_the_file_mean_what_they_say(meshes):
+    mesh = meshes[1]
     stress = mesh.cell_data["stress"][0].reshape(-1, 3, 3)
     pressure, ratio = mesh.cell_data["pressure"][0], mesh.cell_data["volume_ratio"][0]
     np.testing.assert_allclose(stress, np.swapaxes(stress, 1, 2), rtol=0, atol=1e-9 * 1e6)
@@ -177,17 +178,17 @@ def test_a_wave_that_was_not_solved_has_a_mesh_without_stress(waves, tmp_path):
 
 def test_what_has_no_mesh_is_refused(waves, tmp_path):
     bare = replace(waves[1], deformed_mesh=None, model="half_plane")
-    with pytest.raises(InputError, match="finite-strain block, which has a mesh; got half_plane"):
-        write_mesh(bare, tmp_path / "a.vtu")
     other = replace(waves[1], details={**waves[1].details, "rows": 7})
-    with pytest.raises(InputError, match=r"deformed_mesh must be of \(8, 33\) nodes"):
-        write_mesh(other, tmp_path / "a.vtu")
-    with pytest.raises(InputError, match="result must be a ScaleResult; got int"):
-        write_mesh(3, tmp_path / "a.vtu")
-    with pytest.raises(InputError, match="prediction with meshes"):
-        wave_of(waves_to_dataset([bare]), 1)
-    with pytest.raises(InputError, match="wave must be a whole number from 1 to 2; got 3"):
-        wave_of(waves_to_dataset([waves[1], waves[2]]), 3)
+    both, target = waves_to_dataset([waves[1], waves[2]]), tmp_path / "a.vtu"
+    for sentence, refused in (
+        ("finite-strain block, which has a mesh; got half_plane", lambda: write_mesh(bare, target)),
+        (r"deformed_mesh must be of \(8, 33\) nodes", lambda: write_mesh(other, target)),
+        ("result must be a ScaleResult; got int", lambda: write_mesh(3, target)),
+        ("prediction with meshes", lambda: wave_of(waves_to_dataset([bare]), 1)),
+        ("wave must be a whole number from 1 to 2; got 3", lambda: wave_of(both, 3)),
+    ):
+        with pytest.raises(InputError, match=sentence):
+            refused()
     with pytest.raises(FileError, match="cannot be written"):
         write_mesh(waves[1], tmp_path / "none" / "a.vtu")
     assert not list(tmp_path.iterdir())

@@ -36,6 +36,8 @@ def test_the_misfit_is_that_within_the_band() -> None:
     assert reduction.rubber.valid_band == pytest.approx([2.0 * np.pi * end for end in BAND])
     assert f"Reduced to {len(reduction.rubber.moduli)} Maxwell elements" in reduction.rubber.source
     assert f"E' {reduction.storage:.2%}" in str(reduction)
+    for kept in ("bulk_modulus", "reference_temperature", "strain_energy"):
+        assert getattr(reduction.rubber, kept) == getattr(SBR, kept)
 
 
 def test_fewer_terms_miss_more_and_all_of_them_nothing() -> None:
@@ -44,14 +46,6 @@ def test_fewer_terms_miss_more_and_all_of_them_nothing() -> None:
     single = Rubber(2e6, [5e6], [1e-3])
     again = reduced(single, band=(1.0, 1e5), terms=41)
     assert max(again.storage, again.loss) < 0.01
-
-
-def test_what_the_rubber_is_besides_stays() -> None:
-    reduction = reduced(SBR, band=BAND)
-    assert reduction.rubber.bulk_modulus == SBR.bulk_modulus
-    assert reduction.rubber.reference_temperature == SBR.reference_temperature
-    assert reduction.rubber.strain_energy == SBR.strain_energy
-    assert len(reduction.rubber.moduli) < len(SBR.moduli)
 
 
 def test_what_cannot_be_reduced_is_refused() -> None:
@@ -73,6 +67,3 @@ def test_the_command_states_the_misfit(tmp_path: Path) -> None:
     words = "Reduced to 3 Maxwell elements for 1 to 1000 Hz; largest errors there"
     assert words in " ".join(outcome.output.split())
     assert words in " ".join(target.read_text().replace("**", "").split())
-    outcome = CliRunner().invoke(app, [*map(str, arguments), "--band", "1 Hz"])
-    assert outcome.exit_code == 2
-    assert "band must be two frequencies such as 1..1e6 Hz" in outcome.output

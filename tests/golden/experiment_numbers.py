@@ -15,8 +15,7 @@ import gripscale as gs
 from studies.isotropic_maps.map_factor import map_over_lines
 
 from .experiments import Experiments
-
-Values = dict[str, NDArray[Any]]
+from .instruction_set import Values
 
 NEW_NAMES = {
     "storage_factor": "storage_modulus_ratio",

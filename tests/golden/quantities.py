@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,22 +16,10 @@ Numbers = dict[str, NDArray[np.float64]]
 
 COUNTS = ("load_steps", "load_reached", "indentation", "columns", "rows")
 FIELDS = (
-    "wavelength",
-    "amplitude",
-    "pressure_received",
-    "speed",
-    "load_time",
-    "contact_fraction",
-    "contact_length",
-    "friction",
-    "friction_from_dissipation",
-    "friction_mismatch",
-    "newton_iterations",
-    "residual",
-    "min_stretch",
-    "max_stretch",
-    "contact_fraction_error",
-    "friction_error",
+    *("wavelength", "amplitude", "pressure_received", "speed", "load_time", "contact_fraction"),
+    *("contact_length", "friction", "friction_from_dissipation", "friction_mismatch"),
+    *("newton_iterations", "residual", "min_stretch", "max_stretch"),
+    *("contact_fraction_error", "friction_error"),
 )
 
 
@@ -89,17 +76,13 @@ def _chain(name: str, prediction: gs.ChainResult) -> Numbers:
         for field in FIELDS:
             out[f"{at}/{field}"] = np.array(getattr(scale, field))
         for field in COUNTS:
-            out[f"{at}/{field}"] = np.array(_count(scale, field))
+            out[f"{at}/{field}"] = np.array(scale.details.get(field, math.nan))
         out[f"{at}/x"], out[f"{at}/pressure"] = scale.x, scale.pressure
         if scale.deformed_mesh is not None:
             # Meshes are long: every fourth column of every second layer tells a change.
             for part, values in zip("xz", scale.deformed_mesh, strict=True):
                 out[f"{at}/mesh_{part}"] = values[::2, ::4]
     return out
-
-
-def _count(scale: Any, name: str) -> float:
-    return float(scale.details.get(name, math.nan))
 
 
 def _transient(rubber: gs.Rubber, sines: gs.SineStack) -> Numbers:
@@ -110,12 +93,7 @@ def _transient(rubber: gs.Rubber, sines: gs.SineStack) -> Numbers:
         gs.Stage(duration=0.5 * wavelength / 0.3, speed=-0.3, pressure=3e6),
     ]
     run = gs.solve_transient(
-        rubber,
-        wavelength=wavelength,
-        amplitude=amplitude,
-        stages=stages,
-        columns=32,
-        rows=8,
+        rubber, wavelength=wavelength, amplitude=amplitude, stages=stages, columns=32, rows=8
     )
     assert run.status == "converged"
     names = ("time", "distance", "speed", "pressure", "friction", "contact_fraction")

@@ -86,15 +86,12 @@ def failed_folder(run_folder: Path, tmp_path: Path) -> Path:
 @pytest.fixture(scope="session")
 def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A study over two speeds and two rubbers, one prediction of which failed."""
-    speed, rubber, scale = [0.03, 3.0], ["tread", "<b>SBR</b>"], [1, 2, 3]
-    shape = (2, 2, 3)
     axes, waves = ("speed", "rubber"), ("speed", "rubber", "scale")
-    area = np.linspace(0.2, 0.9, 12).reshape(shape)
+    area = np.linspace(0.2, 0.9, 12).reshape(2, 2, 3)
     area[1, 1, 2] = np.nan
     status = np.full((2, 2), "converged", dtype=object)
     status[1, 1] = "wave 3 of 3 did not converge: iteration limit"
-    word = np.full((2, 2), "converged", dtype=object)
-    word[1, 1] = "iteration limit"
+    word = np.where(status == "converged", "converged", "iteration limit").astype(object)
     running, friction = np.cumprod(area, axis=2), np.cumsum(0.1 * area, axis=2)
     data = xr.Dataset(
         {
@@ -102,19 +99,18 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "total_friction": (axes, friction[:, :, -1]),
             "prediction_status": (axes, status),
             "prediction_status_word": (axes, word),
-            "wavelength": (waves, np.broadcast_to([1e-2, 2e-3, 4e-4], shape)),
+            "wavelength": (waves, np.broadcast_to([1e-2, 2e-3, 4e-4], area.shape)),
             "contact_fraction": (waves, area),
             "running_contact_fraction": (waves, running),
             "running_friction": (waves, friction),
-            "friction_by_decade": ((*axes, "decade"), np.full((2, 2, 3), 0.1)),
         },
-        coords={
-            "speed": speed,
-            "rubber": np.array(rubber, dtype=object),
-            "scale": scale,
-            "decade": [0.1, 1.0, 10.0],
+        {
+            "speed": ("speed", [0.03, 3.0], {"units": "m/s", "long_name": "sliding speed"}),
+            "rubber": np.array(["tread", "<b>SBR</b>"], dtype=object),
+            "scale": [1, 2, 3],
         },
-        attrs={
+        {
+            "kind": "study",
             "title": "Study of <contact>",
             CASE_TITLE: "tread on <contact>",
             "case": CASE,
@@ -126,8 +122,6 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "version_gripscale": "0.1.0",
         },
     )
-    data["speed"].attrs |= {"units": "m/s", "long_name": "sliding speed"}
-    data.attrs["kind"] = "study"
     return netcdf.save(data, tmp_path_factory.mktemp("study") / "study.nc")
 
 

@@ -12,12 +12,7 @@ import xarray as xr
 from gripscale.core.finding import Finding, Severity, Topic, doubt, ranked, to_json
 from gripscale.questions.answer.estimate import LINES_TO_SURFACE
 from gripscale.questions.answer.findings import answer_notices, case_notices, no_answer_notices
-from gripscale.questions.answer.page import (
-    HYSTERESIS_ALONE,
-    answer_cards,
-    answer_lines,
-    basis_lines,
-)
+from gripscale.questions.answer.page import HYSTERESIS_ALONE, answer_cards, answer_lines
 from gripscale.questions.answer.reliance import no_answer
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.result import warning_lines
@@ -59,30 +54,6 @@ def answered(**changed: float) -> xr.Dataset:
     )
 
 
-def test_the_number_comes_first_then_what_it_rests_on() -> None:
-    first, *below = answer_lines(answered())
-    assert first == (
-        "Answer: hysteresis friction μ = 0.200 (0.160 to 0.250), A_r/A_0 = 0.0300 (0.0250 to "
-        "0.0360) (90 % intervals)"
-    )
-    text = " ".join(below)
-    assert "For 3 bar and 0.3 m/s, roughness down to 0.1 mm." in text
-    assert (
-        "Solved on your profiles at small strain (μ 0.211, area 0.0441), then corrected: profile "
-        "to surface: friction -5.0 %, area -32 %."
-    ) in text
-    assert (
-        "In the interval, standard errors of friction and area: sampling of the surface 3.0 % and "
-        "2.0 %; large strain 5.0 % and 3.0 %; profile to surface 11 % and 11 %."
-    ) in text
-    assert below[1] == f"  {HYSTERESIS_ALONE}"
-    assert (
-        "Not in the interval: errors of the inputs (`gripscale uncertainty`), and lay: with ridges "
-        "3:1 the area changes up to 1.5 times."
-    ) in text
-    assert [line.strip() for line in below] == list(basis_lines(answered()))
-
-
 def test_at_rest_there_is_an_area_only() -> None:
     first, *below = answer_lines(answered(nominal_speed=0.0, answer_friction=0.0))
     assert first.startswith("Answer: no friction at rest; A_r/A_0 = 0.0300 (")
@@ -107,19 +78,6 @@ def test_with_an_area_term_the_friction_is_the_sum_with_its_parts() -> None:
     friction, _ = answer_cards(data)
     assert (friction.value, friction.detail) == ("0.900", f"answer; {parts}")
     assert friction.interval == "0.700 to 1.20 (90 %)"
-
-
-def test_measured_friction_stands_beside_the_answer_and_is_the_first_finding() -> None:
-    """0.2 of 0.5 measured is 60 % too little; it stands before what changes more."""
-    data = answered(measured_friction_of_load=0.5, measured_spread_of_load=0.02)
-    data.measured_friction_of_load.attrs["state"] = "20 °C"
-    assert "  Measured: μ = 0.500 ± 0.020 at 20 °C." in list(answer_lines(data))
-    first, *_ = ranked([*answer_notices(data), Finding(Severity.ERROR, "no numbers")])
-    assert first.sentence == (
-        "The answer is 60 % below the measured friction, 0.500 ± 0.020 at 20 °C, which lies "
-        "outside its interval."
-    )
-    assert first.friction == pytest.approx(-0.6)
 
 
 def test_no_answer_says_why() -> None:
@@ -167,14 +125,8 @@ def test_warnings_stand_by_what_they_change() -> None:
     ).assign(cut_off_exponent_missing="")
     warnings = ranked(answer_notices(data))
     assert [round(warning.effect, 3) for warning in warnings] == [0.5, 0.414, 0.25, 0.06]
-    steep, octave, band, gaps = (warning.sentence for warning in warnings)
-    assert steep.startswith("50 % of the friction comes from slopes above 1")
-    assert octave == (
-        "If the roughness goes on as over its last octave, down to 0.05 mm, half the cut-off, the "
-        "friction changes by +41 % and the contact area by -16 %; `gripscale cut-off` computes it."
-    )
-    assert band.startswith("25 % of the friction lies up to 2.3 decades above the measured band.")
-    assert gaps == "6.0 % of the contact lies on filled gaps of the measurement."
+    words = ("slopes above 1", "last octave", "measured band", "filled gaps")
+    assert all(w in warning.sentence for w, warning in zip(words, warnings, strict=True))
 
 
 def test_two_frictions_that_disagree_are_warned_of() -> None:
@@ -254,10 +206,8 @@ def test_inputs_know_what_they_change() -> None:
     footprint, steep, _, roughness, *_ = notices = case_notices(data, record)
     assert footprint.sentence == "The footprint is short."
     assert "slopes above 1" in steep.sentence
-    assert roughness.sentence == (
-        "Roughness from 0.200 mm, where the measurement ends, to 0.100 mm is extrapolated: without "
-        "it the friction changes by -29 %."
-    )
+    assert "from 0.200 mm, where the measurement ends" in roughness.sentence
+    assert "friction changes by -29 %" in roughness.sentence
     effects = {round(notice.effect, 3): notice.sentence for notice in notices}
     assert "26 % of their height" in effects[round(10**0.1 - 1, 3)]
     assert notices[-1].sentence == "Surface: road: heights jump."

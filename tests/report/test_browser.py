@@ -20,6 +20,7 @@ from gripscale.report import write_page
 from gripscale.report.elements import Page, Section
 from tests.browsing import CURVES, Visit
 from tests.run_case import run_case
+from tests.samples import HALF_PLANE, case_text
 
 from .conftest import CASE
 
@@ -77,12 +78,6 @@ def visited(browser: Any, run_page: Path) -> Iterator[Visit]:
         yield opened(seen)
 
 
-def coloured(picture: bytes) -> int:
-    """Return how many pixels of `picture` have a colour: axes and letters are grey."""
-    pixels = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB")).astype(int)
-    return int((pixels.max(axis=2) - pixels.min(axis=2) > 60).sum())
-
-
 FRAMES = """plot => {
     const all = root => [...root.querySelectorAll('*')].flatMap(
         e => e.shadowRoot ? [e, ...all(e.shadowRoot)] : [e]);
@@ -122,15 +117,11 @@ def folded(browser: Any, run_page: Path) -> Iterator[Visit]:
         yield drawn(seen)
 
 
-def test_the_page_opens_with_two_figures(folded: Visit) -> None:
+def test_the_page_opens_with_two_figures_and_a_chapter_by_its_link(folded: Visit) -> None:
     """What else there is stands in chapters to be opened: the page is a few windows high."""
-    plots = folded.page.locator(".plot:visible")
-    assert plots.count() == 2
+    assert folded.page.locator(".plot:visible").count() == 2
     assert folded.page.locator("html").get_attribute("data-drawn") == "2"
     assert folded.page.evaluate("document.documentElement.scrollHeight") <= 6000
-
-
-def test_a_chapter_opens_by_its_link_and_draws_its_figures(folded: Visit) -> None:
     plot = folded.page.locator("#rubber .plot").first
     assert not plot.is_visible()
     folded.page.locator("nav a[href='#rubber']").click()
@@ -138,7 +129,7 @@ def test_a_chapter_opens_by_its_link_and_draws_its_figures(folded: Visit) -> Non
     assert folded.said == []
 
 
-BACK = """() => getComputedStyle(document.documentElement).backgroundColor"""
+BACK = "() => getComputedStyle(document.documentElement).backgroundColor"
 DARK, LIGHT = "rgb(25, 25, 25)", "rgb(255, 255, 255)"
 
 
@@ -165,23 +156,16 @@ def test_page_and_figures_are_dark_as_the_system_or_as_chosen(folded: Visit) -> 
     assert plot.evaluate("e => getComputedStyle(e).filter") == "none"
 
 
-def test_every_figure_is_drawn(visited: Visit) -> None:
+def test_every_figure_picture_and_table_is_drawn(visited: Visit) -> None:
+    """In silence, and without a network."""
     count = check_figures(visited)
     assert count >= 11
     assert visited.page.locator("html").get_attribute("data-drawn") == str(count)
-    for plot in visited.page.locator(".plot").all():
-        assert coloured(plot.screenshot()) > 150, f"{plot.get_attribute('id')} is not to be seen"
-
-
-def test_every_picture_is_decoded(visited: Visit) -> None:
     sizes = visited.page.eval_on_selector_all(
         "main img", "all => all.map(e => [e.complete, e.naturalWidth, e.clientHeight])"
     )
     assert len(sizes) == 13  # equations; all figures are charts
     assert all(complete and width > 30 and height > 10 for complete, width, height in sizes)
-
-
-def test_every_table_is_complete(visited: Visit) -> None:
     tables = visited.page.eval_on_selector_all(
         "table",
         """all => all.map(t => ({
@@ -197,9 +181,6 @@ def test_every_table_is_complete(visited: Visit) -> None:
         for row in table["rows"]:
             assert len(row) == table["heads"], table["caption"]
             assert all(row), table["caption"]
-
-
-def test_silence_and_no_network(visited: Visit) -> None:
     assert visited.said == []
     assert visited.asked == []
 
@@ -239,12 +220,6 @@ def test_case_can_be_copied(visited: Visit) -> None:
     assert button.inner_text() in ("Copied", "Selected: press Ctrl+C")
 
 
-@pytest.fixture(scope="module")
-def narrow(browser: Any, run_page: Path) -> Iterator[Visit]:
-    with visit(browser, run_page, 390) as seen:
-        yield opened(seen)
-
-
 def check_widths(seen: Visit, *widths: int) -> None:
     """Assert that nothing of the page goes beyond windows of `widths`."""
     for width in widths:
@@ -254,9 +229,10 @@ def check_widths(seen: Visit, *widths: int) -> None:
     assert seen.said == []
 
 
-def test_a_telephone_has_all_legends_and_nothing_overflows(narrow: Visit) -> None:
-    assert check_figures(narrow) >= 11
-    check_widths(narrow, 390, 800)
+def test_a_telephone_has_all_legends_and_nothing_overflows(browser: Any, run_page: Path) -> None:
+    with visit(browser, run_page, 390) as seen:
+        assert check_figures(opened(seen)) >= 11
+        check_widths(seen, 390, 800)
 
 
 def test_a_picture_fits_a_telephone_and_a_touch_makes_it_readable(
@@ -288,16 +264,11 @@ def test_print_keeps_figures_whole(visited: Visit) -> None:
 
 def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path) -> None:
     """One wave by hand, a rubber by name, the half-plane: no meshes, no stretches, no files."""
-    (tmp_path / "case.toml").write_text(
-        '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"\n'
-        '[rubber]\nname = "styrene_butadiene"\n'
-        '[load]\npressure = "3 bar"\nspeed = 0\nfootprint = "100 mm"\n'
-        '[solver]\nmodel = "half_plane"\npoints = 64\n'
-    )
+    wave = '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"'
+    (tmp_path / "case.toml").write_text(case_text(wave, solver=HALF_PLANE))
     run_case(tmp_path / "case.toml", tmp_path / "results")
     with visit(browser, write_report(tmp_path / "results")) as seen:
-        opened(seen)
-        assert check_figures(seen) >= 2
+        assert check_figures(opened(seen)) >= 2
         assert seen.said == []
         assert seen.asked == []
 
@@ -309,10 +280,4 @@ def test_comparison_is_drawn_and_fits_a_narrow_window(browser: Any, compared_fol
         assert len(pictures) == 3
         assert all(one.evaluate("e => e.complete && e.naturalWidth > 300") for one in pictures)
         assert seen.asked == []
-        value = seen.page.locator(".cards .value").first
-        interval = seen.page.locator(".cards .interval").first
-        assert float(value.inner_text()) > 0.0
-        assert interval.inner_text().endswith("(90 %)")
-        size = "e => parseFloat(getComputedStyle(e).fontSize)"
-        assert value.evaluate(size) >= 40.0 > interval.evaluate(size) >= 20.0
         check_widths(seen, 420)

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
-import xarray as xr
 
 from gripscale.cli.docs import anchors
 from gripscale.core.errors import ExtrapolationError, InputError
 from gripscale.core.status import Status
-from gripscale.model import status_words
 from gripscale.report.failures import Failure, chapter_words, explained
-
-DOCS = Path(__file__).parents[2] / "docs"
+from tests.samples import DOCS
 
 BEYOND = ExtrapolationError.see.removeprefix("docs/")
 
@@ -28,15 +23,10 @@ def test_chapters_are_there(chapter: str) -> None:
 
 
 @pytest.mark.parametrize("status", FAILURES)
-def test_a_status_carries_its_sentence_and_its_advice(status: Status) -> None:
+def test_a_failure_says_what_to_do_and_where_to_read(status: Status) -> None:
     assert status.sentence[0].isupper()
     assert status.sentence.endswith(".")
     assert status.advice.endswith(".")
-    assert Status(str(status)) is status
-
-
-@pytest.mark.parametrize("status", FAILURES)
-def test_a_failure_says_what_to_do_and_where_to_read(status: Status) -> None:
     text = f"wave 3 of 3 did not converge: {status} at 40 % of the pressure"
     see = f"See {chapter_words(status.chapter)}"
     assert explained(Failure(text, str(status))) == f"{text}. {status.advice} {see}"
@@ -46,11 +36,6 @@ def test_a_failure_says_what_to_do_and_where_to_read(status: Status) -> None:
 def test_a_failure_without_a_known_word_is_its_sentence(word: str) -> None:
     text = "wave 3 of 3 did not converge: iteration limit"
     assert explained(Failure(text, word)) == text
-
-
-def test_a_file_of_an_older_version_has_no_words() -> None:
-    data = xr.Dataset({"prediction_status": ("speed", ["converged", "time limit"])})
-    assert status_words(data).values.tolist() == ["", ""]
 
 
 def test_a_chapter_is_found_without_the_source() -> None:

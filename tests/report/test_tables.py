@@ -1,21 +1,24 @@
-"""The table a person reads: its numbers, its units, its width."""
+"""The table a person reads, in the terminal and on a page: its numbers, its units, its width."""
 
 from __future__ import annotations
 
-import subprocess
-import sys
+import math
+import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
+from rich.console import Console
 
 from gripscale.chain import ChainResult
 from gripscale.core.status import Status
-from gripscale.io.table import as_text, significant
+from gripscale.io.table import Column, Table, as_text, percent, significant
 from gripscale.model import TOTALS, Load, predicted_answer
 from gripscale.questions.chain.page import prediction_table, totals
 from gripscale.questions.chain.view import PredictionView
+from gripscale.report.elements import with_code
 from gripscale.rubber import Rubber
 from gripscale.wave import ScaleResult
 from tests.samples import THREE_SINES as SINES
@@ -80,23 +83,6 @@ def test_a_wave_fills_its_row() -> None:
     assert text.count("beyond the measured") == 1
 
 
-@pytest.mark.parametrize("width", [80, 100, 120])
-def test_nothing_is_cut_off(width: int) -> None:
-    text = as_text(prediction_table(solved(), "Dynamic"), width=width)
-    assert max(map(len, text.splitlines())) <= width
-    assert "…" not in text
-    for cell in ("0.600", "5.00", "0.125", "0.375", "0.188", "0.50-1.50", "converged"):
-        assert cell in text
-
-
-def test_hundred_columns_hold_one_table_and_eighty_two() -> None:
-    headings = [
-        as_text(prediction_table(solved(), "Dynamic"), width=width).count("#")
-        for width in (100, 80)
-    ]
-    assert headings == [1, 2]
-
-
 def test_nothing_at_rest_has_friction() -> None:
     text = as_text(prediction_table(solved(speed=0.0), "Static"), width=120)
     assert row(text, 1)[6] == "-"
@@ -135,15 +121,6 @@ def test_model_without_waves_shows_its_totals() -> None:
     assert totals(failed) == "No totals: no contact."
 
 
-def test_tables_need_no_drawing_library() -> None:
-    code = (
-        "import sys, gripscale.report, gripscale.io.table\n"
-        "print(sorted({'matplotlib', 'bokeh', 'jinja2', 'rich', 'openpyxl'} & set(sys.modules)))"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == "[]\n"
-
-
 def test_brackets_are_text_not_markup() -> None:
     assert as_text("lag [mm], [bold]", "x") == "lag [mm], [bold]\nx\n"
 
@@ -173,3 +150,80 @@ def test_loads_are_in_the_units_of_the_case() -> None:
     units = next(line.split() for line in table.splitlines() if "2πA/λ" in line)
     assert units[4:6] == ["bar", "MPa"]
     assert PredictionView(data).title == "Dynamic, 0.9 km/h"
+
+
+PRESSURE = Column("pressure", np.array([3e5, math.nan]), "p", "bar", 1e5, group="load")
+RANGE = Column("range", np.array([[-0.1, 0.2], [0.3, math.nan]]), group="result", bad=[True, False])
+SHARE = Column("share", [0.25, math.inf], format=percent, marks=["*", ""], group="result")
+TABLE = Table(
+    "loads",
+    [Column("model", ["<b>chain</b>", "direct"]), PRESSURE, RANGE, SHARE],
+    "Loads & ranges",
+    ["A note."],
+    strong=[1],
+)
+
+
+def test_terminal_shows_groups_units_and_marks() -> None:
+    lines = as_text(TABLE, width=80).splitlines()
+    assert lines[0] == "Loads & ranges"
+    assert lines[1].split() == ["load", "result"]
+    assert lines[2].split() == ["p"]
+    assert lines[3].split() == ["model", "bar", "range", "share"]
+    assert lines[5].split() == ["<b>chain</b>", "3.00", "-0.100", "to", "0.200", "25", "%*"]
+    assert lines[6].split() == ["direct", "-", "-", "∞"]
+    assert lines[5].index("%") == lines[6].index("∞"), "digits stand below digits"
+    assert lines[-1] == "A note."
+
+
+def test_a_table_that_is_too_wide_is_divided_between_groups() -> None:
+    lines = as_text(TABLE, width=38).splitlines()
+    heads = [line.split() for line in lines if line.startswith("model")]
+    assert heads == [["model", "bar"], ["model", "range", "share"]]
+    assert max(map(len, lines)) <= 38
+
+
+def test_a_table_without_groups_is_divided_between_columns() -> None:
+    model = Column("model", ["chain", "direct"])
+    parts = [Column(f"part {i}", np.array([1.0, 2.0])) for i in range(8)]
+    lines = as_text(Table("parts", [model, *parts]), width=30).splitlines()
+    heads = [line for line in lines if line.startswith("model")]
+    assert len(heads) == 3
+    assert " ".join(heads).count("part") == 8
+    assert max(map(len, lines)) <= 30
+
+
+def test_what_must_not_be_trusted_is_red() -> None:
+    console = Console(width=80, record=True, force_terminal=True, color_system="standard")
+    with console.capture() as capture:
+        console.print(TABLE)
+    red = [line for line in capture.get().splitlines() if "\x1b[1;31m" in line]
+    assert len(red) == 1
+    assert "-0.100 to 0.200" in red[0]
+
+
+def test_a_page_escapes_texts_and_sets_minus_signs() -> None:
+    page = TABLE.__html__()
+    assert "&lt;b&gt;chain&lt;/b&gt;" in page
+    assert "<b>" not in page
+    assert "−0.100 to 0.200" in page
+    assert page.count(' bad"') == 1
+    assert '<td class="">–</td>' in page
+    assert '<th scope="colgroup" colspan="2">result</th>' in page
+    assert page.count('<tr class="strong">') == 1
+
+
+def test_a_long_heading_breaks_into_few_lines_on_a_narrow_page() -> None:
+    """A heading of many words would be one word a line where a table is wider than the page."""
+    long = "low end of the 90 % interval, over that of the first, answer of the friction"
+    page = Table("t", [Column("low", np.array([1.0]), long)]).__html__()
+    head = re.search(r'<th scope="col" class="">(low[^<]*)</th>', page)
+    assert head is not None
+    assert " ".join(head[1].split()) == long
+    assert len(head[1].split(" ")) <= 6
+
+
+def test_commands_of_a_text_are_code_and_markup_is_not() -> None:
+    text, page = "<b> is; `gripscale run` runs", "&lt;b&gt; is; <code>gripscale run</code> runs"
+    assert with_code(text) == page
+    assert f'<p class="note">{page}</p>' in replace(TABLE, notes=[text]).__html__()

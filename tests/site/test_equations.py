@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.util
 import re
-from pathlib import Path
 from types import ModuleType
 from xml.etree import ElementTree
 
@@ -43,12 +42,3 @@ def test_lines_are_aligned_in_a_table(hooks: ModuleType) -> None:
 def test_what_is_not_known_is_refused(hooks: ModuleType, given: str) -> None:
     with pytest.raises(ValueError, match="cannot be made MathML"):
         hooks.equation(given)
-
-
-@pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.name)
-def test_every_equation_of_the_pages_is_one(hooks: ModuleType, page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    found = hooks.EQUATION.findall(text)
-    assert text.count("\n$$\n") == 2 * len(found)
-    for latex in found:
-        ElementTree.fromstring(hooks.equation(latex))

@@ -7,11 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import gripscale as gs
 from gripscale.core.errors import InputError
 from gripscale.core.status import Status
 from gripscale.half_space import surface_of_sines
-from gripscale.surface import SineStack
 from studies.finite_strain_pairs import solve_both_ways
 from tests.half_space.rough_cases import ZENER
 from tests.samples import GENTLE_SINES as GENTLE
@@ -35,15 +33,6 @@ def test_gentle_lines_touch_as_small_strain_says(pairs):
         assert 0.0 <= found.log_error < 0.02
 
 
-def test_gentler_lines_touch_more_as_small_strain_says(pairs):
-    """A tenth of heights and pressure, nearly the same contact: the correction must fade."""
-    stack = SineStack(GENTLE.wavelength, 0.1 * GENTLE.amplitude)
-    lines = [surface_of_sines(stack, 20e-3, seed) for seed in range(4)]
-    faint = solve_both_ways(ZENER, lines, pressure=5e3, speed=0.1)
-    deviation = faint.mean("contact_fraction") / faint.mean("contact_fraction", "half_space") - 1
-    assert abs(deviation) < 0.01
-
-
 def test_what_did_not_converge_does_not_count(pairs):
     first, *rest = pairs.pairs
     failed = replace(first, block=replace(first.block, status="iteration limit"))
@@ -59,30 +48,27 @@ def test_what_did_not_converge_does_not_count(pairs):
     assert data.attrs["friction_from_dissipation_correction"] == found.factor
 
 
-def test_few_pairs_have_no_interval(pairs):
+def test_few_pairs_and_empty_classes_have_no_interval(pairs):
     found = replace(pairs, pairs=pairs.pairs[:2]).correction("friction")
     assert np.isfinite(found.factor)
     assert np.isnan([found.low, found.high]).all()
+    classes, total = pairs.by_class("slope", [10.0]), pairs.correction("contact_fraction")
+    assert classes.contact_fraction_factor[0] == pytest.approx(total.factor, rel=1e-12)
+    assert classes.contact_fraction_factor_low[0] == pytest.approx(total.low, rel=1e-12)
+    assert np.isnan(classes.friction_factor[1])
 
 
-def test_workers_change_nothing(pairs):
-    lines = [pair.line for pair in pairs.pairs]
-    told = []
-    alone = solve_both_ways(ZENER, lines, workers=1, on_pair=told.append, **LOAD)
-    assert len(told) == len(lines)
-    for one, other in zip(alone.pairs, pairs.pairs, strict=True):
-        assert one.block.friction == other.block.friction
-        assert one.half_space.friction == other.half_space.friction
-
-
-def test_no_lines():
-    with pytest.raises(InputError, match="lines"):
-        solve_both_ways(ZENER, [], **LOAD)
-
-
-def test_bad_load_is_one_sentence(pairs):
-    with pytest.raises(gs.InputError, match="pressure"):
-        solve_both_ways(ZENER, [pairs.pairs[0].line], pressure=-1.0, speed=0.1)
+@pytest.mark.parametrize(
+    ("ask", "says"),
+    [
+        (lambda pairs: solve_both_ways(ZENER, [], **LOAD), "lines"),
+        (lambda pairs: pairs.by_class("height", [1.0]), "by must be"),
+        (lambda pairs: pairs.by_class("slope", [1.0, 0.5]), "edges must increase"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(pairs, ask, says):
+    with pytest.raises(InputError, match=says):
+        ask(pairs)
 
 
 def test_classes_add_up_to_the_whole(pairs):
@@ -97,18 +83,3 @@ def test_classes_add_up_to_the_whole(pairs):
     # crests are gentle and carry the load; friction comes from beside them
     steep = pairs.by_class("slope", [0.05]).isel({"class": 1, "model": 0})
     assert steep.friction / pairs.mean("friction") > steep.load_share
-
-
-def test_the_whole_in_one_class_has_the_factor_of_all(pairs):
-    classes = pairs.by_class("slope", [10.0])
-    total = pairs.correction("contact_fraction")
-    assert classes.contact_fraction_factor[0] == pytest.approx(total.factor, rel=1e-12)
-    assert classes.contact_fraction_factor_low[0] == pytest.approx(total.low, rel=1e-12)
-    assert np.isnan(classes.friction_factor[1])
-
-
-def test_classes_are_refused_by_name(pairs):
-    with pytest.raises(InputError, match="by must be"):
-        pairs.by_class("height", [1.0])
-    with pytest.raises(InputError, match="edges must increase"):
-        pairs.by_class("slope", [1.0, 0.5])

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-import gripscale as gs
 from gripscale.surface import HeightMap
-from studies.isotropic_maps import folder, tables
-from studies.isotropic_maps.folder import Folder
-from studies.isotropic_maps.setting import AREA, CONSTRUCTIONS, FRICTION, SMALLEST, STATIONS
+from studies.isotropic_maps import tables
+from studies.isotropic_maps.setting import AREA, FRICTION, SMALLEST
 from studies.isotropic_maps.solved import (
     Numbers,
-    OfLines,
     OfMap,
     cut_off,
     statistics,
@@ -73,48 +68,6 @@ def test_a_map_is_cut_off_in_all_directions() -> None:
     np.testing.assert_allclose(cut_off(along * along.T).z, 0.0, atol=1e-12)
 
 
-@pytest.mark.verification
-def test_a_stopped_study_goes_on_where_it_was(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    solved: list[str] = []
-    level = HeightMap(ALONG, ALONG, np.full((POINTS, POINTS), 1e-3))
-
-    def lines(_: gs.Rubber, station: int) -> OfLines:
-        solved.append(f"station {station}")
-        return {"windows": {AREA: [0.1, 0.2], FRICTION: [0.3, 0.5]}, "statistics": {}}
-
-    def map_of(_: gs.Rubber, surface: HeightMap, *, turned: bool) -> OfMap:
-        assert surface is level
-        solved.append(f"map, {turned=}")
-        return of_map(0.1, 0.2)
-
-    monkeypatch.setattr(folder, "of_lines", lines)
-    monkeypatch.setattr(folder, "of_map", map_of)
-    monkeypatch.setattr(folder, "isotropic_maps", lambda _, *, seeds, **__: [level for _ in seeds])
-    rubber = gs.Rubber(1e6)
-    Folder(tmp_path, 1).fill(rubber)
-    # one map of each construction, those of lines turned, too
-    first = ["station 0", "station 1", *["map, turned=False"] * 4, *["map, turned=True"] * 2]
-    assert sorted(solved) == sorted(first)
-    solved.clear()
-    Folder(tmp_path, 3).fill(rubber)
-    assert solved.count("map, turned=True") == 2 * len(STATIONS)
-    assert solved.count("map, turned=False") == 1 * 2 * len(STATIONS)
-    assert len(solved) == 8
-    kept = Folder(tmp_path, 3)
-    assert [len(kept.maps(0, name)) for name in CONSTRUCTIONS] == [2, 2, 3]
-    assert kept.measured(1)["windows"][AREA] == [0.1, 0.2]
-    np.testing.assert_allclose(kept.heights(1, "lines"), 1e-3, rtol=1e-6)
-
-
 def test_factors_are_of_means_with_the_scatter_of_ratios() -> None:
     found = [of_map(0.1, 0.2), of_map(0.2, 0.25)]
     assert tables.factor(found, AREA) == "0.67 ± 0.21"  # 0.3 / 0.45; 0.5 and 0.8
-
-
-def test_directions_are_those_of_one_map(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Folder, "maps", lambda *_: [of_map(0.1, 0.2), of_map(0.3, 0.4)])
-    told = list(tables.directions(Folder(tmp_path, 2)))
-    assert told[0].endswith("contact_fraction: along x over y 1.100 ± 0.000, 45° 0.500 ± 0.000")
-    assert len(told) == 2 * len(STATIONS)

@@ -120,14 +120,6 @@ def test_scatter_comes_back_from_what_a_law_misses() -> None:
     assert high == pytest.approx(0.1, rel=0.2)
 
 
-def test_sampling_error_without_pieces_is_that_of_the_difference() -> None:
-    lines = lawful("pits", 0, [2.0, 2.0, 2.0])
-    unknown = [[math.nan, math.nan, 1.0], [0.1, 0.0, 8.0], [0.1, 0.0, 8.0]]
-    uneven = replace(lines, line_areas=[0.1, 0.2, 0.2], line_errors=unknown)
-    expected = [1.0 / 3.0, 1.0 / 3.0, 0.1 / math.sqrt(2.0)]
-    np.testing.assert_allclose(uneven.sampling_errors("area"), expected)
-
-
 def test_families_that_scatter_alike_leave_no_doubt_of_it() -> None:
     random = np.random.default_rng(3)
     maps = [lawful(family, seed, [2.0, 2.0]) for family in FAMILIES for seed in range(40)]

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-import gripscale as gs
 from gripscale.core.errors import InputError
-from gripscale.surface import HeightMap, self_affine_profile
+from gripscale.surface import self_affine_profile
 from studies.isotropic_maps.construction import isotropic_maps
 from studies.isotropic_maps.map_factor import map_over_lines, solve_map_and_lines
 from studies.isotropic_maps.window_contacts import solve_windows
@@ -27,17 +26,6 @@ def test_grooves_are_their_lines():
     # four points in the wave of the map, the line as fine as its tolerance asks
     assert 2.0 * found.lines[AREA] - 1.0 == pytest.approx(along, abs=0.06)
     assert found.lines[FRICTION] > 0.0
-
-
-def test_a_level_map_is_its_lines():
-    x = grooves("x", 32).x
-    level = HeightMap(x, x, np.full((x.size, x.size), 3e-3))
-    found = solve_map_and_lines(ZENER, level, lines=2, pressure=3e5, speed=0.3)
-    for one in (found.whole, found.lines):
-        # waves of rounding errors, whose friction is their square
-        assert one == pytest.approx({AREA: 1.0, FRICTION: 0.0, "friction": 0.0}, abs=1e-20)
-    assert found.between_directions[AREA] == 1.0
-    assert np.isnan(found.between_directions[FRICTION])
 
 
 def test_friction_at_rest_has_no_factor():
@@ -74,16 +62,6 @@ def test_a_gaussian_map_touches_less_than_its_lines():
     assert found.factor(AREA) < 0.95
 
 
-def test_the_dataset_says_that_the_maps_are_synthetic():
-    told = []
-    found = map_over_lines(ZENER, LINE, seeds=[1], on_map=told.append, **LOAD, **SMALL)
-    data = found.to_dataset()
-    assert told == found.maps
-    assert "no map was measured" in data.attrs["synthetic"]
-    assert data.sizes == {"seed": 1, "window": 7}
-    assert np.isnan(found.scatter(AREA))
-
-
 @pytest.mark.parametrize(
     ("change", "says"),
     [
@@ -96,19 +74,3 @@ def test_the_dataset_says_that_the_maps_are_synthetic():
 def test_bad_arguments_are_refused(change, says):
     with pytest.raises(InputError, match=says):
         map_over_lines(ZENER, LINE, **({"seeds": [0]} | LOAD | SMALL | change))
-
-
-ROAD = self_affine_profile(0.8, 5e-3, 1e-3, 0.2, 1e-4, seed=4)
-
-
-def test_windows_have_the_same_contact_within_their_scatter():
-    load = {"pressure": 5e4, "speed": 0.3, "smallest_wavelength": 2e-3, "tolerance": 0.1}
-    parts = solve_windows(ZENER, ROAD, 0.02, **load)
-    assert len(parts.contacts) == 10
-    low, high = parts.confidence_interval("friction")
-    assert low < parts.mean("friction") < high
-    assert high - low < 4 * parts.scatter("friction")
-    whole = gs.solve_rough_contact(ZENER, ROAD, **load)
-    assert parts.mean("friction") == pytest.approx(
-        whole.friction, abs=4 * parts.scatter("friction") / np.sqrt(10)
-    )

@@ -20,21 +20,20 @@ import json
 import math
 import tempfile
 import zlib
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable
 from functools import cache
 from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
 import gripscale as gs
 from gripscale.conditions.conditions import Conditions
 from gripscale.core.status import Status
-from gripscale.half_space import RoughContact
 from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_samples
 from gripscale.rubber import styrene_butadiene
 from gripscale.rubber.softening import softening_of_sweeps
@@ -44,8 +43,7 @@ from studies.direct_samples import SMALL_STRAIN, direct_samples
 from studies.treads import compound, sweeps
 from tests.samples import MEASURED_DMA, ROOT
 from tests.verification import known_families
-from tests.verification.intermittent_families import INTERMITTENT
-from tests.verification.known_families import LARGEST, RIDGED, SHAPE, STEP, surface
+from tests.verification.known_families import INTERMITTENT, LARGEST, RIDGED, SHAPE, STEP, surface
 
 Array = NDArray[np.float64]
 
@@ -91,8 +89,6 @@ class Known(NamedTuple):
         """The heights of the surface."""
         if self.family in FITTED:
             return surface_families.family_map(self.family, FIRST_FITTED + self.seed)
-        if self.family in INTERMITTENT:
-            return surface(self.family, self.seed, INTERMITTENT)
         return surface(self.family, self.seed)
 
     def key(self, whole: HeightMap) -> str:
@@ -108,6 +104,11 @@ class Known(NamedTuple):
             return None
         law = softening_of_sweeps(list(sweeps("S100").values()), measured_at=1e-3)
         return Conditions(softening=law)
+
+    def case(self, measured: Any, **options: Any) -> gs.Case:
+        """A case of what was measured of the surface."""
+        load = {"pressure": self.pressure, "speed": self.speed, "smallest_wavelength": CUT_OFF}
+        return gs.Case(measured, rubber(self.rubber), **load, conditions=self.conditions, **options)
 
 
 def known(family: str, seed: int) -> Known:
@@ -136,24 +137,6 @@ def rubber(name: str) -> gs.Rubber:
     return gs.fit_prony(gs.read_master_curve(MEASURED_DMA, reference_temperature=293.15))
 
 
-def contact(which: Known, whole: HeightMap) -> RoughContact:
-    """Return the contact of the whole map; it must be solved."""
-    solved = gs.solve_rough_contact(
-        rubber(which.rubber),
-        whole,
-        pressure=which.pressure,
-        speed=which.speed,
-        smallest_wavelength=CUT_OFF,
-        periodic=True,
-        workers=1,
-        tolerance=TOLERANCE,
-        most_points=MOST_POINTS,
-        conditions=which.conditions,
-    )
-    assert solved.status in SOLVED, f"{whole.name}: {solved.status}"
-    return solved
-
-
 def kept(path: Path) -> dict[str, Any]:
     """Return what a file keeps."""
     entries: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
@@ -171,7 +154,19 @@ def truth(which: Known, path: Path = TRUTHS) -> dict[str, float]:
     whole = which.map
     key = which.key(whole)
     if key not in kept(path):
-        solved = contact(which, whole)
+        solved = gs.solve_rough_contact(
+            rubber(which.rubber),
+            whole,
+            pressure=which.pressure,
+            speed=which.speed,
+            smallest_wavelength=CUT_OFF,
+            periodic=True,
+            workers=1,
+            tolerance=TOLERANCE,
+            most_points=MOST_POINTS,
+            conditions=which.conditions,
+        )
+        assert solved.status in SOLVED, f"{whole.name}: {solved.status}"
         numbers = (solved.contact_fraction, solved.friction_from_dissipation)
         keep(path, key, dict(zip(QUANTITIES, numbers, strict=True)))
     return dict(kept(path)[key])
@@ -210,135 +205,51 @@ def written(which: Known, whole: HeightMap, folder: Path) -> list[Path]:
     return files
 
 
-class Estimate(NamedTuple):
-    """A number of the surface, from lines."""
-
-    value: float
-    half_width: float
-    """Of the interval with 90 % confidence, in ln(value)."""
-
-
-def lines_from_files(which: Known) -> xr.Dataset:
-    """Return the direct contacts of two lines, from their files.
+def lines_from_files(which: Known, anew: bool = True, path: Path = LINES) -> xr.Dataset:
+    """Return the direct contacts of two lines, from their files; those that are kept unless `anew`.
 
     Without alternatives: errors of the series of the rubber and of its softening, which the truth
     has, too, would widen the interval by what cannot go wrong here.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        profiles = [gs.read_profile(path) for path in written(which, which.map, Path(folder))]
-    case = gs.Case(
-        profiles,
-        rubber(which.rubber),
-        pressure=which.pressure,
-        speed=which.speed,
-        smallest_wavelength=CUT_OFF,
-        cleaning={},
-        conditions=which.conditions,
-    )
-    samples = direct_samples(case)
-    return samples[[name for name in samples.data_vars if samples[name].dims == ("sample",)]]
-
-
-def lines_of(which: Known, anew: bool, path: Path = LINES) -> xr.Dataset:
-    """Return the contacts of the lines, those that are kept where they need not be solved anew."""
     key = which.key(which.map)
     if anew or key not in kept(path):
-        keep(path, key, lines_from_files(which).to_dict())
+        with tempfile.TemporaryDirectory() as folder:
+            profiles = [gs.read_profile(file) for file in written(which, which.map, Path(folder))]
+        samples = direct_samples(which.case(profiles, cleaning={}))
+        lines = [name for name in samples.data_vars if samples[name].dims == ("sample",)]
+        keep(path, key, samples[lines].to_dict())
     return xr.Dataset.from_dict(kept(path)[key])
 
 
-def estimate(which: Known, anew: bool = True) -> dict[str, Estimate]:
-    """Return area and friction of the surface from its files, as an answer states them."""
-    lines = lines_of(which, anew)
-    best = answer_of_samples(lines.expand_dims(model=[DIRECT]), [SMALL_STRAIN])
-    return {
-        quantity: Estimate(
-            float(best[f"answer_{name}"]), float(np.arcsinh(best[f"answer_{name}_half_width"]))
-        )
-        for quantity, name in zip(QUANTITIES, ESTIMATED, strict=True)
-    }
+def judged(surfaces: Iterable[Known], anew: bool = True) -> dict[str, pd.DataFrame]:
+    """Return estimates and truths of all surfaces, by quantity; lines that are kept or anew.
 
-
-@dataclass(frozen=True)
-class Judged:
-    """An estimate of a surface and its truth."""
-
-    known: Known
-    estimate: Estimate
-    truth: float
-
-    @property
-    def miss(self) -> float:
-        """ln(estimate / truth)."""
-        return float(np.log(self.estimate.value / self.truth))
-
-    @property
-    def half_widths(self) -> float:
-        """Magnitude of the miss, in half-widths."""
-        return abs(self.miss) / max(self.estimate.half_width, ROUNDING)
-
-
-def judged(surfaces: Iterable[Known], anew: bool = True) -> dict[str, list[Judged]]:
-    """Return estimates and truths of all surfaces, by quantity; lines that are kept or anew."""
-    results: dict[str, list[Judged]] = {name: [] for name in QUANTITIES}
+    `miss` is ln(estimate / truth), `half_width` that of the interval with 90 % confidence in
+    ln(value), `off` the magnitude of the miss in half-widths.
+    """
+    rows: dict[str, list[dict[str, Any]]] = {quantity: [] for quantity in QUANTITIES}
     for which in surfaces:
-        true, estimates = truth(which), estimate(which, anew)
-        for name in QUANTITIES:
-            results[name].append(Judged(which, estimates[name], true[name]))
-        misses = ", ".join(f"{name} {results[name][-1].half_widths:.2f}" for name in QUANTITIES)
+        true, lines = truth(which), lines_from_files(which, anew)
+        best = answer_of_samples(lines.expand_dims(model=[DIRECT]), [SMALL_STRAIN])
+        for quantity, name in zip(QUANTITIES, ESTIMATED, strict=True):
+            miss = float(np.log(best[f"answer_{name}"] / true[quantity]))
+            width = float(np.arcsinh(best[f"answer_{name}_half_width"]))
+            numbers = {"miss": miss, "half_width": width, "off": abs(miss) / max(width, ROUNDING)}
+            rows[quantity].append(which._asdict() | {"truth": true[quantity]} | numbers)
+        misses = ", ".join(f"{name} {rows[name][-1]['off']:.2f}" for name in QUANTITIES)
         print(f"{which.family} {which.seed}: {misses}", flush=True)
-    return results
+    frames = {quantity: pd.DataFrame(found) for quantity, found in rows.items()}
+    return {quantity: frame.assign(held=frame.off <= 1.0) for quantity, frame in frames.items()}
 
 
-def bias(results: Sequence[Judged]) -> tuple[float, float]:
-    """Return mean miss and mean half-width."""
-    misses, widths = zip(*((r.miss, r.estimate.half_width) for r in results), strict=True)
-    return float(np.mean(misses)), float(np.mean(widths))
-
-
-def covered(results: Sequence[Judged]) -> int:
-    """Return how many intervals hold the truth."""
-    return sum(r.half_widths <= 1.0 for r in results)
-
-
-def by_family(results: Sequence[Judged]) -> dict[str, list[Judged]]:
-    """Return the results of each family."""
-    names = dict.fromkeys(r.known.family for r in results)
-    return {name: [r for r in results if r.known.family == name] for name in names}
-
-
-def by_pressure(results: Sequence[Judged]) -> dict[str, list[Judged]]:
-    """Return the results of each pressure."""
-    pressures = sorted({r.known.pressure for r in results})
-    return {
-        f"{1e-5 * pressure:.2g} bar": [r for r in results if r.known.pressure == pressure]
-        for pressure in pressures
-    }
-
-
-def by_rubber(results: Sequence[Judged]) -> dict[str, list[Judged]]:
-    """Return the results of each rubber."""
-    names = dict.fromkeys(r.known.rubber for r in results)
-    return {name: [r for r in results if r.known.rubber == name] for name in names}
-
-
-def table(results: Sequence[Judged]) -> Iterator[str]:
-    """Yield a row for each family, for each pressure and for all."""
-    yield "| surfaces | truth | ln(estimate/truth) | scatter | half-width | held | largest miss |"
-    yield "|---|---|---|---|---|---|---|"
-    groups = by_family(results) | by_pressure(results) | by_rubber(results)
-    groups["never fitted to"] = [r for r in results if r.known.family in UNSEEN]
-    groups["all"] = list(results)
-    for name, members in groups.items():
-        if not members:
-            continue
-        mean, width = bias(members)
-        truths = [r.truth for r in members]
-        yield (
-            f"| {name} | {min(truths):.3f} to {max(truths):.3f} | {mean:+.3f} | "
-            f"{np.std([r.miss for r in members], ddof=1):.3f} | {width:.3f} | "
-            f"{covered(members)} of {len(members)} | {max(r.half_widths for r in members):.2f} |"
-        )
+def table(results: pd.DataFrame) -> str:
+    """Return a row for each family, pressure and rubber, for those never fitted to, and for all."""
+    unseen = results.family.isin(UNSEEN).map({True: "never fitted to", False: "fitted to"})
+    everything = results.family.map(lambda _: "all")
+    groups = [results.family, results.pressure, results.rubber, unseen, everything]
+    means = {"miss": ["mean", "std"], "half_width": "mean", "held": ["sum", "size"], "off": "max"}
+    tables = [results.groupby(by).agg({"truth": ["min", "max"], **means}) for by in groups]
+    return pd.concat(tables).round(3).to_string()
 
 
 def main() -> None:
@@ -352,7 +263,7 @@ def main() -> None:
         loads = product(RIDGED, range(4))
         surfaces = [Known(family, seed, 3e5, 0.3) for family, seed in loads]
     for name, results in judged(surfaces, anew=not options.kept).items():
-        print(name, *table(results), sep="\n", end="\n\n")
+        print(name, table(results), sep="\n", end="\n\n")
 
 
 if __name__ == "__main__":

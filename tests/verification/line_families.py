@@ -239,25 +239,13 @@ def stones_in_matrix(draw: Draw) -> Array:
 
 
 FAMILIES: dict[str, Callable[[Draw], Array]] = {
-    "gaussian": gaussian,
-    "tiles": tiles,
-    "rounded_tiles": rounded_tiles,
-    "caps": caps,
-    "cascade": cascade,
-    "two_scales": two_scales,
-    "rolled_off": rolled_off,
-    "polished": polished,
-    "porous": porous,
-    "cones": cones,
-    "spheres": spheres,
-    "broken_power_law": broken_power_law,
-    "skewed": skewed,
-    "mounded": mounded,
-    "bells": bells,
-    "terraces": terraces,
-    "scratches": scratches,
-    "facets": facets,
-    "stones_in_matrix": stones_in_matrix,
+    family.__name__: family
+    for family in (
+        *(gaussian, tiles, rounded_tiles, caps, cascade, two_scales, rolled_off, polished, porous),
+        *(cones, spheres, broken_power_law, skewed, mounded, bells, terraces, scratches, facets),
+        stones_in_matrix,
+    )
 }
+"""In the order that their seeds are made of."""
 JUDGES = ("mounded", "bells", "terraces", "scratches", "facets", "stones_in_matrix")
 FITTED = tuple(name for name in FAMILIES if name not in JUDGES)

@@ -62,28 +62,17 @@ def _place(content: bytes, chance: random.Random) -> int:
     return chance.randrange(most + 1)
 
 
-def _flipped(content: bytes, chance: random.Random) -> bytes:
-    at = _place(content, chance)
-    return content[:at] + bytes([chance.randrange(256)]) + content[at + 1 :]
-
-
-def _deleted(content: bytes, chance: random.Random) -> bytes:
-    at = _place(content, chance)
-    return content[:at] + content[at + chance.randint(1, 40) :]
-
-
-def _doubled(content: bytes, chance: random.Random) -> bytes:
-    at = _place(content, chance)
-    return content[: at + chance.randint(1, 40)] + content[at:]
-
-
-def _inserted(content: bytes, chance: random.Random) -> bytes:
-    at = _place(content, chance)
-    return content[:at] + chance.choice(ODD_BYTES) + content[at:]
-
-
-def _truncated(content: bytes, chance: random.Random) -> bytes:
-    return content[: _place(content, chance)]
+def _spliced(content: bytes, chance: random.Random) -> bytes:
+    """Return content with a byte changed, some lost, some twice, odd ones between, or no end."""
+    at, length = _place(content, chance), chance.randint(1, 40)
+    changes = [
+        bytes([chance.randrange(256)]) + content[at + 1 :],
+        content[at + length :],
+        content[at : at + length] + content[at:],
+        chance.choice(ODD_BYTES) + content[at:],
+        b"",
+    ]
+    return content[:at] + chance.choice(changes)
 
 
 def _replaced(
@@ -142,20 +131,15 @@ def _encoded(content: bytes, chance: random.Random) -> bytes:
     return content[:half] + text[half:].encode(code)
 
 
-def _points_to_commas(content: bytes, chance: random.Random) -> bytes:
-    return content.replace(b".", b",", chance.choice([1, -1]))
-
-
-def _emptied(content: bytes, chance: random.Random) -> bytes:
-    return chance.choice([b"", b"\n", b" ", b"\x00" * 100, content[:1]])
-
-
-def _repeated(content: bytes, chance: random.Random) -> bytes:
-    return content * chance.choice([2, 3])
+def _remade(content: bytes, chance: random.Random) -> bytes:
+    """Return content with commas for points, nothing of it, or all of it several times."""
+    commas = content.replace(b".", b",", chance.choice([1, -1]))
+    nothing = chance.choice([b"", b"\n", b" ", b"\x00" * 100, content[:1]])
+    return chance.choice([commas, nothing, content * chance.choice([2, 3])])
 
 
 MUTATIONS: list[Mutation] = [
-    *(_flipped, _deleted, _doubled, _inserted, _truncated, _lines, _odd_field, _odd_field),
-    *(_odd_number, _odd_number, _odd_number, _odd_word, _odd_word),
-    *(_encoded, _points_to_commas, _emptied, _repeated),
+    *(_spliced,) * 5,
+    *(_lines, _odd_field, _odd_field, _odd_number, _odd_number, _odd_number, _odd_word, _odd_word),
+    *(_encoded, _remade, _remade, _remade),
 ]

@@ -56,43 +56,27 @@ def captif() -> bytes:
 def sdf() -> bytes:
     """Return a map in the text form of ISO 25178-71."""
     columns, rows = HEIGHTS.shape
-    head = {
-        "ManufacID": "none",
-        "CreateDate": "010120260000",
-        "ModDate": "010120260000",
-        "NumPoints": columns,
-        "NumProfiles": rows,
-        "Xscale": 1e-6,
-        "Yscale": 2e-6,
-        "Zscale": 1e-6,
-        "Zresolution": -1,
-        "Compression": 0,
-        "DataType": 7,
-        "CheckType": 0,
-    }
-    told = "".join(f"{key} = {value}\n" for key, value in head.items())
-    heights = "\n".join(f"{value:g}" for value in HEIGHTS.T.ravel())
-    return f"aISO-1.0\n{told}*\n{heights}\n*\n".encode()
+    head = [
+        *("aISO-1.0", "ManufacID = none", "CreateDate = 010120260000", "ModDate = 010120260000"),
+        *(f"NumPoints = {columns}", f"NumProfiles = {rows}", "Xscale = 1e-06", "Yscale = 2e-06"),
+        *("Zscale = 1e-06", "Zresolution = -1", "Compression = 0", "DataType = 7", "CheckType = 0"),
+    ]
+    heights = (f"{value:g}" for value in HEIGHTS.T.ravel())
+    return "\n".join([*head, "*", *heights, "*", ""]).encode()
 
 
 def al3d() -> bytes:
     """Return a map as Alicona instruments write it."""
     columns, rows = HEIGHTS.shape
-    tags = {
-        "Version": "1",
-        "TagCount": "8",
-        "TextureImageOffset": "0",
-        "DepthImageOffset": "1024",
-        "PixelSizeXMeter": "1e-6",
-        "PixelSizeYMeter": "2e-6",
-        "InvalidPixelValue": "1e30",
-        "Cols": str(columns),
-        "Rows": str(rows),
-        "NumberOfPlanes": "0",
-    }
+    tags = [
+        *(("Version", "1"), ("TagCount", "8"), ("TextureImageOffset", "0")),
+        *(("DepthImageOffset", "1024"), ("PixelSizeXMeter", "1e-6"), ("PixelSizeYMeter", "2e-6")),
+        *(("InvalidPixelValue", "1e30"), ("Cols", str(columns)), ("Rows", str(rows))),
+        ("NumberOfPlanes", "0"),
+    ]
     head = b"AliconaImaging\0\r\n" + b"".join(
         key.encode().ljust(20, b"\0") + value.encode().ljust(30, b"\0") + b"\r\n"
-        for key, value in tags.items()
+        for key, value in tags
     )
     padded = np.zeros((rows, -(-columns * 4 // 8) * 2), dtype="<f4")
     padded[:, :columns] = 1e-6 * HEIGHTS.T
@@ -238,6 +222,6 @@ def readers(folder: Path) -> list[Reader]:
         Reader("al3d", ".al3d", al3d(), gs.read_map, surface, 4),
         Reader("sdf", ".sdf", sdf(), gs.read_map, surface, 4),
         Reader("npy", ".npy", npy(), partial(gs.read_map, **step), surface, 2),
-        Reader("xyz line", ".xyz", bare, partial(gs.read_profile, **mm), line, 2),
+        Reader("xyz line", ".xyz", bare, partial(gs.read_profile, **mm), line, 6),
         Reader("mitutoyo", ".xlsx", mitutoyo(), gs.read_profile, line, 1),
     ]

@@ -3,10 +3,8 @@
 The constants were chosen on the families of `FITTED` with seeds below 7. `JUDGES` had a part in
 one: with a = 0.10 they and new seeds held the friction of one octave 46 times of 54, and a became
 0.11.
-`python -m pytest -m verification -s` prints the table.
 """
 
-from collections.abc import Sequence
 from functools import cache
 from itertools import chain
 
@@ -31,24 +29,7 @@ OCTAVES = (1, 2, 3)
 def synthetic() -> list[Withheld]:
     """Return the withheld octaves of all synthetic lines."""
     lines = chain(synthetic_lines(JUDGES, range(7)), synthetic_lines(FITTED, [7]))
-    results = list(judged(lines, OCTAVES))
-    print_table(results)
-    return results
-
-
-def print_table(results: Sequence[Withheld]) -> None:
-    """Print a row for each family and number of octaves: bands that hold, and found over true."""
-    for family in dict.fromkeys(r.line for r in results):
-        for octaves in OCTAVES:
-            rows = [r for r in results if (r.line, r.octaves) == (family, octaves)]
-            kept = [r for r in rows if not r.refused]
-            text = f"{family:17} {octaves}: {len(rows) - len(kept)} refused"
-            for at, name in enumerate(NUMBERS if kept else ()):
-                ratio = np.exp(np.mean([r.errors[at] for r in kept]))
-                band = np.mean([r.bands[at] for r in kept])
-                held = sum(r.holds[at] for r in kept)
-                text += f"; {name[:8]} {held} of {len(kept)}, {ratio:.2f}, band {band:.2f}"
-            print(text)
+    return list(judged(lines, OCTAVES))
 
 
 @pytest.mark.parametrize("octaves", OCTAVES)
@@ -75,7 +56,6 @@ def test_roughness_that_sets_in_is_refused():
 def test_the_machined_surface_is_in_its_band_and_the_road_at_one_octave():
     """Measured to 0.6 or 1.2 mm the road hides its microtexture: the answer has a doubt."""
     results = list(judged(measured_lines(), OCTAVES))
-    print_table(results)
     assert all(all(r.holds) for r in results if r.line == "machined")
     one, two, three = (r for r in results if r.line == "road")
     assert all(one.holds)

@@ -18,12 +18,11 @@ import pytest
 import gripscale as gs
 from gripscale import theory
 from gripscale.core.errors import ConvergenceError, InputError, RubberWarning
-from gripscale.surface import ProfileSpectrum, SelfAffineFit
 
 MANY = int(os.environ.get("GRIPSCALE_CALLS", "3000"))
 FEW = 12
-SLOW = ("sines", "persson")
-"""Those that take a tenth of a second a call: a tenth as many are drawn."""
+SLOW = ("sines",)
+"""A tenth of a second a call: a tenth as many are drawn."""
 LONGEST = 10.0
 """Seconds a call may take."""
 
@@ -124,43 +123,7 @@ def prony(chance: random.Random) -> Any:
     return found
 
 
-def persson(chance: random.Random) -> Any:
-    reach = np.geomspace(1.0, 10.0 ** chance.uniform(0.3, 4.0), 30)
-    q = scaled(number(chance, 1e3), reach)
-    density = scaled(number(chance, 1e-9), reach ** -chance.uniform(0.0, 4.0))
-    spectrum = ProfileSpectrum(q, density)
-    return theory.persson(rubber(chance), spectrum, **pressed(chance), gamma=chance.random())
-
-
-def klueppel_heinrich(chance: random.Random) -> Any:
-    knee, top = number(chance, 1e-2), number(chance, 1e-3)
-    fit = SelfAffineFit(chance.uniform(0.01, 1.2), knee, top, knee / 100.0, knee, 0.0)
-    return theory.klueppel_heinrich(
-        rubber(chance),
-        fit,
-        **pressed(chance),
-        layer_ratio=number(chance, 1.0),
-        penetration_depth=number(chance, 1e-3),
-        smallest_wavelength=number(chance, 1e-4),
-    )
-
-
-def closed_forms(chance: random.Random) -> Any:
-    """Every one of them, all numbers drawn anew."""
-    wave, modulus = sine(chance), number(chance, 1e6)
-    if chance.random() < 0.5:
-        return theory.full_contact_pressure(modulus + 1j * number(chance, modulus), **wave)
-    stiff = modulus + 1j * number(chance, modulus)
-    return theory.full_contact_friction(stiff, **wave, pressure=number(chance, 1e6))
-
-
-CALLS: dict[str, Call] = {
-    one.__name__: one
-    for one in (
-        *(half_plane, rough_line, sines, prony),
-        *(persson, klueppel_heinrich, closed_forms),
-    )
-}
+CALLS: dict[str, Call] = {one.__name__: one for one in (half_plane, rough_line, sines, prony)}
 TOLD = ("friction", "contact_fraction", "friction_from_dissipation")
 
 
@@ -168,8 +131,7 @@ def unknown(found: Any) -> list[str]:
     """Return which totals are NaN, though the result says that it converged."""
     if not getattr(found, "converged", False):
         return []
-    told = TOLD[:1] if isinstance(found, theory.KlueppelHeinrichResult) else TOLD
-    return [name for name in told if not np.isfinite(getattr(found, name, 0.0)).all()]
+    return [name for name in TOLD if not np.isfinite(getattr(found, name, 0.0)).all()]
 
 
 def faults(name: str, seeds: range) -> tuple[list[str], int]:

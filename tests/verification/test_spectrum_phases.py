@@ -17,15 +17,7 @@ import gripscale as gs
 from gripscale.questions.answer.estimate import ESTIMATED
 from studies.shipped import road, tread
 from studies.spectrum_phases import answered, small_strain, spectrum_of
-from tests.verification.known_surfaces import (
-    CUT_OFF,
-    LARGEST,
-    UNSEEN,
-    Known,
-    all_known,
-    rubber,
-    truth,
-)
+from tests.verification.known_surfaces import LARGEST, UNSEEN, all_known, truth
 
 pytestmark = pytest.mark.verification
 
@@ -37,19 +29,6 @@ def held(case: gs.Case, true: dict[str, float]) -> dict[str, bool]:
     return {name: ends[name][0] <= true[name] <= ends[name][1] for name in ESTIMATED}
 
 
-def case_of(which: Known, spectrum: gs.Spectrum) -> gs.Case:
-    return gs.Case(
-        spectrum,
-        rubber(which.rubber),
-        pressure=which.pressure,
-        speed=which.speed,
-        footprint=LARGEST,
-        smallest_wavelength=CUT_OFF,
-        conditions=which.conditions,
-        filled=which.conditions is not None,
-    )
-
-
 @pytest.mark.parametrize("phases", ["real", "worn"])
 def test_nine_of_ten_intervals_hold_the_surface(phases: str) -> None:
     found: dict[str, list[bool]] = {name: [] for name in ESTIMATED}
@@ -59,7 +38,10 @@ def test_nine_of_ten_intervals_hold_the_surface(phases: str) -> None:
             continue
         area, friction = truth(which).values()
         known = {"contact_fraction": area, "friction": friction}
-        for name, inside in held(case_of(which, spectrum_of(whole, phases)), known).items():
+        spectrum = spectrum_of(whole, phases)
+        filled = which.conditions is not None
+        case = which.case(spectrum, footprint=LARGEST, filled=filled)
+        for name, inside in held(case, known).items():
             found[name].append(inside)
     for name, all_inside in found.items():
         print(phases, name, f"{sum(all_inside)} of {len(all_inside)}")
