@@ -100,28 +100,6 @@ def test_no_loss_no_friction():
     assert np.isnan(slide().contact_fraction)
 
 
-def test_what_it_is_proportional_to():
-    plain = slide().friction
-    assert slide(layer_ratio=6.0).friction == pytest.approx(3 * plain, rel=1e-12)
-    assert slide(penetration_depth=1e-3).friction == pytest.approx(2 * plain, rel=1e-12)
-    assert slide(pressure=6e5).friction == pytest.approx(0.5 * plain, rel=1e-12)
-
-
-def test_only_dimensionless_groups_matter():
-    """Moduli with the pressure; lengths with the speed; times against the speed."""
-    plain = slide(hurst=0.8).friction
-    stiffer = slide(Rubber(6e6, [54e6], [1e-4]), 0.8, pressure=6e5)
-    assert stiffer.friction == pytest.approx(plain, rel=1e-12)
-    slower = slide(Rubber(3e6, [27e6], [1e-3]), 0.8, speed=0.03)
-    assert slower.friction == pytest.approx(plain, rel=1e-12)
-    larger = klueppel_heinrich(
-        ZENER,
-        surface(0.8, 10.0),
-        **{**STATED, "speed": 3.0, "penetration_depth": 5e-3, "smallest_wavelength": 1e-4},
-    )
-    assert larger.friction == pytest.approx(plain, rel=1e-9)
-
-
 def test_each_wavelength_so_far_is_a_result_of_its_own():
     found = slide(styrene_butadiene(), 0.8)
     assert found.wavelength[[0, -1]] == pytest.approx([PARALLEL, SMALLEST])

@@ -277,8 +277,7 @@ def persson(
             f"got {checks.short_repr(spectrum)}"
         )
     share = checks.share("gamma", gamma)
-    last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
-    end = last
+    end = last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
     if smallest_wavelength is not None:
         end = min(LAST_OVER_CUT_OFF * last, float(spectrum.wavenumber[-1]))
     inside = spectrum.wavenumber[spectrum.wavenumber < end]
@@ -320,8 +319,7 @@ LAST_OVER_CUT_OFF = 3.0
 
 def gaussian_power(q: Array, ends: Array) -> Array:
     """Return the share of the power of waves `q` that cut-offs at `ends` [rad/m] transmit."""
-    lengths = 2.0 * np.pi / ends[:, None]
-    return transmission(q, lengths) ** 2
+    return transmission(q, 2.0 * np.pi / ends[:, None]) ** 2
 
 
 def integrals(
@@ -371,12 +369,8 @@ def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[A
     s = 0.5 * (1.0 + abscissae)
     real, imaginary, lossy = np.zeros((3, q.size))
     for cosine, width in zip(np.sin(0.5 * np.pi * s**4), 4.0 * np.pi * s**3 * weights, strict=True):
-        modulus = rubber.plane_strain_modulus(q * load.speed * cosine)
-        if load.thickness is not None:
-            young = rubber.complex_modulus(q * load.speed * cosine)
-            compression = layers.shear_and_compression(young, rubber.bulk_modulus)[1]
-            modulus = modulus / layers.thickness_factor(q * load.thickness, compression)[0]
-        over = modulus / load.pressure
+        omega = q * load.speed * cosine
+        over = layers.effective_modulus(rubber, omega, q, load.thickness) / load.pressure
         real += width * over.real**2
         imaginary += width * over.imag**2
         lossy += width * cosine * over.imag

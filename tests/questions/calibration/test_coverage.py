@@ -12,8 +12,8 @@ import scipy.stats
 
 from gripscale.conditions import LeGalKlueppelStress
 from gripscale.questions import Calibration
-from gripscale.questions.calibration.calibration_law import best, points_of, problem_of
-from gripscale.questions.calibration.profile_likelihood import LikelihoodProfile, intervals
+from gripscale.questions.calibration.calibration_law import points_of, problem_of
+from gripscale.questions.calibration.profile_likelihood import best, intervals
 
 from .synthetic import REFERENCE, TRUTH, fitted, measurement
 
@@ -45,7 +45,7 @@ def below_threshold(factor: float) -> dict[str, int]:
         problem = problem_of("gaussian", points, REFERENCE)
         optimum = best(problem)
         for place, one in enumerate(problem.free):
-            excess, _ = LikelihoodProfile(optimum, place).excess(one.scaled(TRUTH[one.name]))
+            excess, _ = optimum.excess(place, one.scaled(TRUTH[one.name]))
             counts[one.name] += excess < optimum.threshold
     return counts
 
@@ -93,10 +93,9 @@ def test_an_interval_ends_where_the_profile_says() -> None:
     threshold = optimum.threshold
     assert threshold == pytest.approx(2.7055, abs=1e-4)  # chi^2 of one degree, 90 %
     for place, interval in enumerate(ends):
-        profile = LikelihoodProfile(optimum, place)
         for end in interval:
             # the distance to an end is known to 1e-3, its square to twice that
-            assert profile.excess(end)[0] == pytest.approx(threshold, rel=4e-3)
+            assert optimum.excess(place, end)[0] == pytest.approx(threshold, rel=4e-3)
 
 
 def test_the_profile_of_a_factor_is_a_parabola() -> None:

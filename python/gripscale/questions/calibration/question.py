@@ -42,7 +42,7 @@ from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.calibration import calibration_law as laws
 from gripscale.questions.calibration.area_term_fit import Estimate, estimates_of, fit_area_term
-from gripscale.questions.calibration.calibration_law import LIKELIHOOD_LEVEL, PARAMETERS, written
+from gripscale.questions.calibration.calibration_law import PARAMETERS, written
 from gripscale.questions.calibration.measured_comparison import (
     Predicted,
     answers_at,
@@ -240,8 +240,8 @@ def shear_stress_table(result: Calibration) -> str:
     source = Path(result.data.attrs["measured_source"]).name or "a measurement"
     lines = [
         f"# Fitted to {int(result.data.area_term.count())} points of {source};",
-        f"# intervals of {LIKELIHOOD_LEVEL:.0%} by profile likelihood, for this rubber on this "
-        "surface.",
+        f"# intervals of {result.data.attrs['level']:.0%} by profile likelihood, for this rubber "
+        "on this surface.",
         "[conditions.shear_stress]",
         f'kind = "{law.pop("kind")}"',
     ]

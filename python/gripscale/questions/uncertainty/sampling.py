@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -110,7 +110,7 @@ class Uncertainty:
                     raise SourceNotApplicable(f"no effect on the model {' or '.join(models)}")
                 values = self.ranges.get(name)
                 options = SourceOptions(name, values, self.block_length, models)
-                chosen.sources.append(source.of(case, options))
+                chosen.sources.append(replace(source, draw=source.prepare(case, options)))
             except SourceNotApplicable as why:
                 if name in self.ranges:
                     raise InputError(f"{name} is given and has nothing to draw: {why}") from None
@@ -118,14 +118,6 @@ class Uncertainty:
         if not chosen.sources:
             raise InputError(f"no source of uncertainty is left; {'; '.join(chosen.left_out)}")
         return chosen
-
-
-# Where each sample lies: all sources at once, each spread evenly over its own values.
-#
-# A Latin hypercube (M. D. McKay, R. J. Beckman & W. J. Conover, Technometrics 21 (1979) 239,
-# doi:10.1080/00401706.1979.10489755): of N samples one lies in each N-th of every source. Columns
-# and random numbers are a source's own, by its name, so that leaving out one source changes no draw
-# of the others.
 
 
 class SampledInputs(NamedTuple):
@@ -139,7 +131,12 @@ class SampledInputs(NamedTuple):
 def draws(
     case: Inputs, sources: Sequence[Source], samples: int, seed: int
 ) -> Iterator[SampledInputs]:
-    """Yield the samples of a case."""
+    """Yield the samples of a case: all sources at once, each spread evenly over its own values.
+
+    A Latin hypercube (M. D. McKay, R. J. Beckman & W. J. Conover, Technometrics 21 (1979) 239,
+    doi:10.1080/00401706.1979.10489755). Columns and random numbers are a source's own, by its name:
+    leaving out one source changes no draw of the others.
+    """
     from scipy.stats.qmc import LatinHypercube  # 0.5 s and 15 MB, which a run need not pay
 
     numbers = {source.name: zlib.crc32(source.name.encode()) for source in sources}
