@@ -18,10 +18,9 @@ from gripscale.surface import (
     Surface,
     fit_self_affine,
     height_difference,
-    self_affine_profile,
 )
-from gripscale.surface.surface import Measured
 from gripscale.theory import KlueppelHeinrich, klueppel_heinrich
+from tests.theory.test_persson import road
 
 module = importlib.import_module("gripscale.theory.klueppel_heinrich")
 
@@ -52,13 +51,6 @@ def prefactor(hurst: float) -> float:
     level = hurst * PERPENDICULAR**2 / (2 * np.pi * STATED["speed"] * PARALLEL)
     depth = STATED["layer_ratio"] * STATED["penetration_depth"]
     return 0.5 * depth / (STATED["pressure"] * STATED["speed"]) * level * first**2
-
-
-def road() -> Surface:
-    line = self_affine_profile(0.8, 5e-3, 1e-3, 0.8, 5e-5, seed=4)
-    return Surface(
-        SineStack([10e-3, 1e-3], [1e-3, 1e-4]), "", measured=Measured([(line, line)], [], None, "")
-    )
 
 
 @pytest.mark.parametrize("time", [1e-7, 1e-4, 1.0])
@@ -109,7 +101,7 @@ def test_each_wavelength_so_far_is_a_result_of_its_own():
 
 
 def test_profiles_count_by_their_upper_part():
-    [(line, _)] = road().measured.profiles
+    [(line, _)] = road(16_001).measured.profiles
     upper = replace(line, z=np.where(line.z >= np.median(line.z), line.z, np.nan))
     assert upper.missing == len(line) // 2
     correlation = height_difference(line, top_height_fraction=0.5)
@@ -136,7 +128,7 @@ def test_not_converging_is_a_status_and_no_number(monkeypatch):
 
 
 def test_as_a_model_of_a_measured_surface():
-    prepared, load = road(), Load(2e5, 0.2, 0.1)
+    prepared, load = road(16_001), Load(2e5, 0.2, 0.1)
     model = KlueppelHeinrich(layer_ratio=2.0, penetration_depth=5e-4)
     assert isinstance(model, Model)
     seen = []
