@@ -1,13 +1,9 @@
 """Contact and friction against the cut-off, from the longest waves to far below the measurement.
 
 A line is continued octave by octave with random waves (`gripscale.continuation.roughness`), each
-with r times the slope of the octave above, on the faces that touch. r is from a withheld octave,
-
-    ln r_(k+1) = ln r_H + c (ln r_k - ln r_H),
-
-a `FinerMeasurement` or a `HurstExponent`. n octaves below the end of the measurement, where it is
-y_0, a number y has the 90 % band ln y +- sqrt((a n)^2 + (b ln(y / y_0))^2). Letters, and the
-withheld octaves that a, b, c and `UNFORETOLD` come from: docs/below-measurement.md.
+with r times the slope of the octave above, on the faces that touch. r is from a withheld octave, a
+`FinerMeasurement` or a `HurstExponent`. The equations, and the withheld octaves that a, b, c and
+`UNFORETOLD` come from: docs/below-measurement.md.
 """
 
 from __future__ import annotations
@@ -338,8 +334,6 @@ def contact_by_cut_off(
 
 @dataclass(frozen=True)
 class _Solver:
-    """The rubber and its load, for the contacts of the lines at each cut-off."""
-
     rubber: Rubber
     options: dict[str, Any]
     on_contact: OnContact | None

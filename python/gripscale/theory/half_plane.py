@@ -198,7 +198,6 @@ class HalfPlane(Checked):
         x = nodes(self.points) / k
 
         def modulus(number: Array) -> ComplexArray:
-            """Return M [Pa] of the harmonics."""
             omega = number * frequency
             return layers.effective_modulus(problem.rubber, omega, k * number, problem.thickness)
 

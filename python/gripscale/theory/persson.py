@@ -1,13 +1,9 @@
 """Persson's theory: contact area and hysteresis friction of a randomly rough surface.
 
-    G(q) = 1/8 int_q0^q dk k^3 C(k) int_0^2pi dphi |M(k v cos phi)|^2 / p_0^2
-    P(q) = erf(1/(2 sqrt G(q))),    S(q) = gamma + (1 - gamma) P(q)^2
-    mu   = 1/2 int_q0^q1 dq q^3 C(q) S(q) P(q) int_0^2pi dphi cos phi Im M(q v cos phi) / p_0
-
 B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626; S: M. Scaraggi & B. N. J.
-Persson, J. Phys.: Condens. Matter 27 (2015) 105102, doi:10.1088/0953-8984/27/10/105102. Cut-off,
-softening and limits: docs/theories.md. M is 2 / (q K(q)) of `gripscale.theory.layers` where the
-rubber has a thickness. `TheoryResult` is the base of the results of all theories.
+Persson, J. Phys.: Condens. Matter 27 (2015) 105102, doi:10.1088/0953-8984/27/10/105102. Equations,
+cut-off, softening and limits: docs/theories.md. M is 2 / (q K(q)) of `gripscale.theory.layers`
+where the rubber has a thickness. `TheoryResult` is the base of the results of all theories.
 """
 
 from __future__ import annotations

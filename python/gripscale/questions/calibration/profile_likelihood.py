@@ -2,13 +2,8 @@
 
     E(x) = min over the others of S(x, others) - S_min
 
-An interval holds every x with E(x) below a threshold: chi^2_1 where the spreads are known, and
-F_(1, n - k) times S_min/(n - k) where the scatter of the residuals stands for them. Unlike the
-standard error it follows a curved valley, and finds an end that is not there.
-
-Source: S. M. Murphy & A. W. van der Vaart, J. Am. Stat. Assoc. 95 (2000) 449,
-doi:10.1080/01621459.2000.10474219; D. M. Bates & D. G. Watts, Nonlinear Regression Analysis and
-its Applications (1988), sec. 6.1, doi:10.1002/9780470316757.
+An interval holds every x with E(x) below a threshold (S. M. Murphy & A. W. van der Vaart, J. Am.
+Stat. Assoc. 95 (2000) 449, doi:10.1080/01621459.2000.10474219): docs/derivations.md.
 """
 
 from __future__ import annotations

@@ -159,7 +159,6 @@ class Calibration(Result):
         return Table("parameters", columns, "Parameters of the law", bad=bad)
 
     def _misfit_table(self) -> Table:
-        """Return the fitted friction beside the measured one, point by point."""
         names = ["hysteresis", "area_term", "friction", "difference", "difference_in_spread"]
         data, model = self.data, [str(self.data.attrs.get("model", "fit"))]
         table = data[[*names, *(f"measured_{name}" for name in MEASURED)]]
@@ -168,7 +167,6 @@ class Calibration(Result):
         return residual_table(table.assign(rms))
 
     def _held_out_table(self) -> Table:
-        """Return the errors of the law at each group of points, fitted to the others."""
         data = self.data
         by_temperature = data.attrs["held_out_by"] == "temperature"
         names = [

@@ -1,15 +1,7 @@
 """The answer of a case with what is not known of its inputs, and the parts of its interval.
 
-The number is that of `gripscale run`; the samples widen its interval. With y_0 of the case itself
-and y_s of sample s, all on the same grid,
-
-    s_samples^2 = mean (ln y_s - ln y_0)^2,
-    s^2 = s_samples^2 + s_grid^2 + sum over factors s_f^2 (+ s_road^2),
-
-where drawn blocks of the profiles are the sampling of the road: with them s_road is in s_samples.
-Source k has the part S_k var(ln y_s) of s_samples^2 (`variance_shares`); the rest is one more part.
-Degrees of freedom are those of the samples; of drawn blocks, and of the part that may be theirs,
-blocks less one. See docs/uncertainty.md.
+The number is that of `gripscale run`; the samples widen its interval, as docs/derivations.md says.
+Drawn blocks of the profiles are the sampling of the road, which then counts among the samples.
 """
 
 from __future__ import annotations

@@ -229,7 +229,6 @@ def count(text: Any) -> float:
 
 
 def _quantity(text: Any, kind: str, unit: str) -> float:
-    """Return a quantity [SI] above zero; raise `InputError` for what is none."""
     value = si_value(f"a {kind}", plain_number(text), unit, kind)
     return checks.positive(f"a {kind}", value, unit=unit)
 

@@ -162,11 +162,7 @@ def _rms_step(lines: Sequence[Profile]) -> float:
     "noise of the heights", rms_step=Coordinate("ln of the rms step over that of the profiles")
 )
 def _height_noise(case: Case, options: SourceOptions) -> Draw:
-    """Draw the noise of the instrument once more, before the profiles are cleaned.
-
-    The measured heights hold one draw of it already, which is not known. A second one of the same
-    size moves the results about as far as the first did.
-    """
+    """Draw the noise of the instrument once more, before the profiles are cleaned."""
     lines = _raw(case, "a map is taken as measured")
     assert case.surface.measured is not None
     size = options.standard_error(quantities.length)
@@ -200,11 +196,7 @@ SPIKE_LEVELS = 8  # limits a range is drawn at: the profiles are cleaned once fo
     smooth_gaps=Coordinate("1 where cubics fill the gaps, 0 for straight lines"),
 )
 def _cleaning(case: Case, options: SourceOptions) -> Draw:
-    """Draw the limit of spikes, and how the gaps they leave are filled.
-
-    Whether the limit holds across gaps is not drawn: that wears away true flanks, a third of the
-    points of a coarse road at low limits, and is a choice of the case.
-    """
+    """Draw the limit of spikes, and how the gaps they leave are filled."""
     raw, usual = _raw(case, "a map is cleaned as the case states"), case.cleaning
     if options.values is None and usual["spikes"] is None:
         raise SourceNotApplicable("the case leaves spikes in")
@@ -262,7 +254,6 @@ GRID_PLACE = "grid_place"  # coordinate of the source `grid`
     grid_place=Coordinate("error of the grid over its estimate, from -1 to 1"),
 )
 def _grid(case: Case, options: SourceOptions) -> Draw:
-    """Draw where within the estimated error of its grid the answer of a sample lies."""
     if case.surface.measured is None:
         raise SourceNotApplicable(NOT_MEASURED)
     return _number(lambda quantile: 2.0 * quantile - 1.0, lambda inputs, _: inputs)
@@ -341,7 +332,6 @@ def _temperature(case: Case, options: SourceOptions) -> Draw:
 
 @_source("nominal pressure", log_pressure=Coordinate("ln of the pressure over that of the case"))
 def _pressure(case: Case, options: SourceOptions) -> Draw:
-    """Draw the nominal pressure, normally in its logarithm about that of the case."""
     of_load = partial(pressure_error, pressure=case.load.pressure)
     normal = NormalDist(0.0, options.standard_error(of_load))
     return _number(normal.inv_cdf, lambda inputs, value: replace(inputs, log_pressure=value))
@@ -392,9 +382,8 @@ CHOSEN = ("s_wavelength", "s_amplitude", "first_wavelength", "first_amplitude")
 def _waves(case: Case, options: SourceOptions) -> Draw:
     """Draw one of the stacks that follow C_z as well as it is known, see `sine_ambiguity`.
 
-    All of them count alike; they are ordered by their rms slope, so that the quantile spreads them
-    evenly. The cut-off of the sample may leave no room for as many waves: there are fewer where
-    factors get too small.
+    They are ordered by their rms slope, so that the quantile spreads them evenly. The cut-off of
+    the sample may leave room for fewer waves only.
     """
     surface = case.surface
     if surface.correlation is None or not surface.fit:
