@@ -55,8 +55,8 @@ PERSISTENCE = 0.75
 # doi:10.1088/0953-8984/9/21/002): broken stone, and what is known of an octave if nothing else is.
 USUAL_HURST = 0.8
 
-# ln r that a withheld octave is tried with; r_1 is interpolated between them.
-_LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
+# ln r beside zero that a withheld octave is tried with; r_1 is interpolated between them.
+_STEEPER, _LESS_STEEP = (0.6,), (-0.6, -1.2)
 
 MOST_OCTAVES = 8
 _LEAST_STEP = 0.05  # rest of an octave, over the last cut-off, that is not a step of its own
@@ -361,14 +361,15 @@ class _Solver:
                 return contact
             return replace(contact, grids=[start.grids[-1], *contact.grids])
 
-        contacts: list[RoughContact | None] = [None] * len(lines)
+        contacts: dict[int, RoughContact] = {}
         jobs = [partial(job, at) for at in range(len(lines))]
         with closing(in_threads(jobs, worker_count(None))) as solved:
             for at, contact in solved:
                 contacts[at] = contact
                 if self.on_contact is not None:
                     self.on_contact(contact)
-        return CutOffContact(cut_off, tuple(c for c in contacts if c), tuple(lines), slope)
+        in_order = tuple(contacts[at] for at in range(len(lines)))
+        return CutOffContact(cut_off, in_order, tuple(lines), slope)
 
     def next_step(
         self, step: CutOffContact, octaves: Sequence[PeriodicLine], slope: float, shortest: float
@@ -475,21 +476,18 @@ def _octave_again(
     waves = np.random.default_rng(random.integers(2**32))
     octaves = start.octaves(intermittency, true.wavelength, waves)
 
-    def tried(log: float) -> CutOffContact:
-        slope = above.slope * math.exp(log)  # the same waves, steeper or less steep
-        return solver.next_step(start, octaves, slope, true.wavelength)
+    def tried(log: float) -> tuple[float, float]:
+        """Return area and friction over the true ones, with the same waves exp(log) as steep."""
+        slope = above.slope * math.exp(log)
+        step = solver.next_step(start, octaves, slope, true.wavelength)
+        area = step.mean("contact_fraction") / true.mean("contact_fraction")
+        return area, math.log(step.mean("friction_from_dissipation") / mu)
 
-    def log_friction(step: CutOffContact) -> float:
-        return math.log(step.mean("friction_from_dissipation") / mu)
-
-    same = tried(0.0)
-    area = same.mean("contact_fraction") / true.mean("contact_fraction")
-    friction = log_friction(same)
-    # friction rises with the slope: ratios on one side, until the true friction lies between two
-    up, down = _LOG_RATIOS[_LOG_RATIOS > 0.0], _LOG_RATIOS[_LOG_RATIOS < 0.0][::-1]
+    area, friction = tried(0.0)
     by_log = {0.0: friction}
-    for log in (up if friction < 0.0 else down).tolist():
-        by_log[log] = log_friction(tried(log))
+    # friction rises with the slope: ratios on one side, until the true friction lies between two
+    for log in _STEEPER if friction < 0.0 else _LESS_STEEP:
+        _, by_log[log] = tried(log)
         if by_log[log] * friction <= 0.0:
             break
     logs = sorted(by_log)

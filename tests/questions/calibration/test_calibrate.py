@@ -57,17 +57,13 @@ def test_the_law_does_not_depend_on_where_it_is_referred_to() -> None:
 
 def test_points_are_paired_in_the_order_of_the_caller() -> None:
     """The law is found from points with any order of speeds, and each keeps its place."""
-    for order in (np.arange(27)[::-1], np.random.default_rng(0).permutation(27)):
-        inside, _ = measurement(seed=None)
-        mixed = MeasuredFriction(
-            inside.speed[order], inside.friction[order], inside.spread[order],
-            inside.temperature[order],
-        )  # fmt: skip
-        there = hysteresis(inside.speed[order], inside.temperature[order])
-        fit = fitted(mixed, there, fixed=REFERENCE)
-        assert numbers(fit.law) == pytest.approx(numbers(TRUE), rel=1e-5)
-        assert fit.data.friction.values == pytest.approx(inside.friction[order], abs=1e-7)
-        assert fit.data.measured_speed.values.tolist() == inside.speed[order].tolist()
+    order, (rising, _) = np.random.default_rng(0).permutation(27), measurement(seed=None)
+    columns = (rising.speed, rising.friction, rising.spread, rising.temperature)
+    mixed = MeasuredFriction(*(column[order] for column in columns))
+    fit = fitted(mixed, hysteresis(mixed.speed, mixed.temperature), fixed=REFERENCE)
+    assert numbers(fit.law) == pytest.approx(numbers(TRUE), rel=1e-5)
+    assert fit.data.friction.values == pytest.approx(mixed.friction, abs=1e-7)
+    assert fit.data.measured_speed.values.tolist() == mixed.speed.tolist()
 
 
 def test_predictions_at_other_pressures_are_refused() -> None:

@@ -173,13 +173,13 @@ class Calibration(Result):
             celsius(value, ".0f") if by_temperature else f"{value:g} to {10.0 * value:g} m/s"
             for value in data.left_out.values
         ]
-        columns = [Column("left_out", names, "left out")]
-        for name, form in (
-            ("points", "{:.0f}".format),
-            *((f"rms_{name}", digits(2)) for name in ("inside", "outside", "outside_in_spread")),
-        ):
-            columns.append(Column(name, data[name].values, name.replace("_", " "), format=form))
-        columns.append(Column("why_not", data.why_not.values, "why not"))
+        errors = ("rms_inside", "rms_outside", "rms_outside_in_spread")
+        columns = [
+            Column("left_out", names, "left out"),
+            Column("points", data.points.values, format="{:.0f}".format),
+            *(Column(e, data[e].values, e.replace("_", " "), format=digits(2)) for e in errors),
+            Column("why_not", data.why_not.values, "why not"),
+        ]
         return Table("held-out", columns, "The law at points that were left out")
 
     def pictures(self) -> Iterator[Picture]:
@@ -208,20 +208,17 @@ def residual_table(data: xr.Dataset) -> Table:
     ]
     points = [column for column in points if np.isfinite(column.values).any()]
     columns, notes = [column.of(column.values, group="measured") for column in points], []
+    numbers = {"friction": ("μ", fixed(3)), "difference": ("Δμ", fixed(3, "+"))}
+    if "area_term" in data:
+        numbers = {"hysteresis": ("μ hyst.", fixed(3)), **numbers}
+    if spread:
+        numbers["difference_in_spread"] = "Δμ / spread", fixed(1, "+")
     for name in data.model.values.tolist():
         model = data.sel(model=name).transpose("measurement", ...)
         group = str(name).replace("_", " ")
-        parts = [
-            Column("hysteresis", heading="μ hyst.", format=fixed(3)),
-            Column("friction", heading="μ", format=fixed(3)),
-            Column("difference", heading="Δμ", format=fixed(3, "+")),
-            Column("difference_in_spread", heading="Δμ / spread", format=fixed(1, "+")),
-        ]
-        wanted = {"hysteresis": "area_term" in data, "difference_in_spread": spread}
         columns += [
-            part.of(model[part.name].values, name=f"{name}_{part.name}", group=group)
-            for part in parts
-            if wanted.get(part.name, True)
+            Column(f"{name}_{number}", model[number].values, head, group=group, format=form)
+            for number, (head, form) in numbers.items()
         ]
         rms = f"{float(model.rms_difference):.3f}"
         if spread:

@@ -76,7 +76,7 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     `solved` holds the `sample_numbers`. A sample of the direct contact has the error of its grid in
     it that was drawn.
     """
-    sources, logarithms = drawn.chosen.sources, drawn.logarithms
+    sources, logarithms = drawn.sources, drawn.logarithms
     data: dict[str, xr.DataArray] = {}
 
     def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
@@ -126,7 +126,7 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     }
     attributes = {
         "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
-        "left_out": json.dumps(drawn.chosen.left_out),
+        "left_out": json.dumps(drawn.left_out),
     }
     return xr.Dataset(data, coordinates | drawn.coordinates, attributes)
 
@@ -167,15 +167,9 @@ class Plan(Checked):
         if len(axes) > 1 or any(axis.name not in SAMPLED_OVER for axis in axes):
             names = ", ".join(axis.name for axis in axes)
             raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
-        return cls(
-            case,
-            choice,
-            options["samples"],
-            options["seed"],
-            tuple(name for name in BOTH["both"] if name in named),
-            axes,
-            options.get("tolerance"),
-        )
+        numbers = {name: options.get(name) for name in ("samples", "seed", "tolerance")}
+        in_order = tuple(name for name in BOTH["both"] if name in named)
+        return cls(case=case, uncertainty=choice, models=in_order, axes=axes, **numbers)
 
     @property
     def loads(self) -> dict[str, Load]:
@@ -246,7 +240,7 @@ def propagate(
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         samples = sampling.draws(Inputs.of(case), chosen.sources, plan.samples, plan.seed)
-        data = solve_samples(plan, SampleSet(chosen, list(samples)), bench, on_answer)
+        data = solve_samples(plan, replace(chosen, samples=list(samples)), bench, on_answer)
     if folder is None:
         return data
     return netcdf.load_dataset(netcdf.save(data, Path(folder) / "uncertainty.nc"))

@@ -111,7 +111,7 @@ def measured_answer(
     errors, of_road = {}, False
     if drawn is not None and direct is not None and int(direct.contact_fraction.count()) > 1:
         # the grid of the answer is finer than that of the samples, and counts by itself
-        ours = [s for s in drawn.chosen.sources if DIRECT in s.models and s.name != GRID]
+        ours = [s for s in drawn.sources if DIRECT in s.models and s.name != GRID]
         of_road = any(source.name == ROAD for source in ours)
         logarithms = {source.name: drawn.logarithms[source.name] for source in ours}
         freedom = {s.name: s.draw.freedom for s in ours if isinstance(s.draw, BlockDraw)}

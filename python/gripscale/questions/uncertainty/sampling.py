@@ -23,11 +23,46 @@ from gripscale.questions.uncertainty.sources import (
 )
 
 
-class Chosen(NamedTuple):
-    """The sources that are drawn, and a sentence on each of the others."""
+class SampledInputs(NamedTuple):
+    """One sample: its inputs, or why there are none, and the coordinates of what was drawn."""
+
+    inputs: Inputs | None
+    coordinates: dict[str, float]
+    why_not: str = ""
+
+
+@dataclass(frozen=True)
+class SampleSet:
+    """The sources that are drawn, a sentence on each of the others, and samples of a case."""
 
     sources: list[Source]
     left_out: list[str]
+    samples: Sequence[SampledInputs] = ()
+
+    @cached_property
+    def coordinates(self) -> dict[str, xr.Variable]:
+        """What was drawn, over `sample`."""
+        return {
+            name: xr.Variable(
+                "sample",
+                [each.coordinates[name] for each in self.samples],
+                variable_attributes(number.long_name, number.unit) | {"source": source.name},
+            )
+            for source in self.sources
+            for name, number in source.coordinates.items()
+        }
+
+    @cached_property
+    def logarithms(self) -> dict[str, Array]:
+        """Logarithms of what each source drew, shape (samples, coordinates)."""
+        logarithms = {}
+        for source in self.sources:
+            columns = []
+            for name, number in source.coordinates.items():
+                values = self.coordinates[name].values
+                columns.append(values if number.logarithm else np.log(values))
+            logarithms[source.name] = np.stack(columns, axis=-1)
+        return logarithms
 
 
 # Sources that nobody can give values of, and what they are drawn from.
@@ -96,12 +131,12 @@ class Uncertainty:
         length = options.get("block_length") if block_length is None else block_length
         return cls(tuple(without), merged | now, length)
 
-    def of(self, case: Case, models: Sequence[str]) -> Chosen:
+    def of(self, case: Case, models: Sequence[str]) -> SampleSet:
         """Return the sources of a case that have an effect on one of `models`.
 
         Raises `InputError` if a source that is given has nothing to draw, or none is left.
         """
-        chosen = Chosen([], [])
+        chosen = SampleSet([], [])
         for name, source in SOURCES.items():
             try:
                 if name in self.without:
@@ -118,14 +153,6 @@ class Uncertainty:
         if not chosen.sources:
             raise InputError(f"no source of uncertainty is left; {'; '.join(chosen.left_out)}")
         return chosen
-
-
-class SampledInputs(NamedTuple):
-    """One sample: its inputs, or why there are none, and the coordinates of what was drawn."""
-
-    inputs: Inputs | None
-    coordinates: dict[str, float]
-    why_not: str = ""
 
 
 def draws(
@@ -157,36 +184,3 @@ def draws(
                 why_not = str(error)
             coordinates |= dict(zip(source.coordinates, drawn, strict=True))
         yield SampledInputs(None if why_not else inputs, coordinates, why_not)
-
-
-@dataclass(frozen=True)
-class SampleSet:
-    """Samples of a case with the sources they were drawn from."""
-
-    chosen: Chosen
-    samples: Sequence[SampledInputs]
-
-    @cached_property
-    def coordinates(self) -> dict[str, xr.Variable]:
-        """What was drawn, over `sample`."""
-        return {
-            name: xr.Variable(
-                "sample",
-                [each.coordinates[name] for each in self.samples],
-                variable_attributes(number.long_name, number.unit) | {"source": source.name},
-            )
-            for source in self.chosen.sources
-            for name, number in source.coordinates.items()
-        }
-
-    @cached_property
-    def logarithms(self) -> dict[str, Array]:
-        """Logarithms of what each source drew, shape (samples, coordinates)."""
-        logarithms = {}
-        for source in self.chosen.sources:
-            columns = []
-            for name, number in source.coordinates.items():
-                values = self.coordinates[name].values
-                columns.append(values if number.logarithm else np.log(values))
-            logarithms[source.name] = np.stack(columns, axis=-1)
-        return logarithms

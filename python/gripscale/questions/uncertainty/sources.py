@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from statistics import NormalDist
@@ -396,10 +396,7 @@ def _waves(case: Case, options: SourceOptions) -> Draw:
     stacks = sine_ambiguity(surface.correlation, surface.sines).stacks
     good: Sequence[SineStack] = stacks
     if options.values is not None:
-        values = options.range_of(quantities.count)
-        wanted: Container[int] = [int(value) for value in values.values]
-        if values.between:
-            wanted = range(int(values.values[0]), int(values.values[1]) + 1)
+        wanted = options.range_of(quantities.count)
         good = [stack for stack in stacks if len(stack) in wanted]
     if not good:
         numbers = sorted({len(stack) for stack in stacks})
