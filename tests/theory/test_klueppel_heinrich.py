@@ -14,8 +14,6 @@ from gripscale.rubber import Rubber, styrene_butadiene
 from gripscale.surface import (
     HeightDifference,
     SelfAffineFit,
-    SineStack,
-    Surface,
     fit_self_affine,
     height_difference,
 )
@@ -118,15 +116,6 @@ def test_profiles_count_by_their_upper_part():
     )
 
 
-def test_not_converging_is_a_status_and_no_number(monkeypatch):
-    monkeypatch.setattr(module, "_FINEST", 8)
-    found = slide(styrene_butadiene(), 0.8)
-    assert found.status == "tolerance not met"
-    data = found.to_dataset()
-    assert np.isnan(data.total_friction)
-    assert data.prediction_status.item() == "tolerance not met"
-
-
 def test_as_a_model_of_a_measured_surface():
     prepared, load = road(16_001), Load(2e5, 0.2, 0.1)
     model = KlueppelHeinrich(layer_ratio=2.0, penetration_depth=5e-4)
@@ -142,12 +131,6 @@ def test_as_a_model_of_a_measured_surface():
     assert data.attrs["model"] == "klueppel_heinrich"
     assert all({"units", "long_name", "source"} <= set(data[name].attrs) for name in data.data_vars)
     assert model.predict(ZENER, prepared.only(model.needs), load).identical(data)
-
-
-def test_waves_by_hand_are_refused():
-    by_hand = Surface(SineStack([1e-3], [1e-4]), "sine waves stated in the case")
-    with pytest.raises(InputError, match="klueppel_heinrich needs measured profiles"):
-        KlueppelHeinrich(1.0, 1e-3).predict(ZENER, by_hand, Load(1e5, 0.1, 0.1))
 
 
 @pytest.mark.parametrize(

@@ -111,9 +111,10 @@ def test_temperature_and_pressure_are_normal_about_the_case(known):
     drawn = alone("pressure", known, pressure="3 %")
     same = told(alone("pressure", known, pressure="0.09 bar"), "log_pressure")
     assert same == pytest.approx(told(drawn, "log_pressure"))
-    loads = [one.inputs.tasks(HALF_PLANES, [Load(3e5, 0.3, 0.1)])[0].load for one in drawn]
-    logs = np.log([load.pressure / 3e5 for load in loads])
-    assert np.std(logs) == pytest.approx(0.03, rel=0.15)
+    for model in (HALF_PLANES, DirectContact()):
+        loads = [one.inputs.tasks(model, [Load(3e5, 0.3, 0.1)])[0].load for one in drawn]
+        logs = np.log([load.pressure / 3e5 for load in loads])
+        assert np.std(logs) == pytest.approx(0.03, rel=0.15)
 
 
 def test_noise_is_added_to_the_profiles_before_they_are_cleaned(spiky):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import get_args
 
-import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -68,17 +67,6 @@ def test_a_case_states_standard_errors(case) -> None:
     choice = Uncertainty.of_case(stated_in(case(f"[uncertainty]\n{stated}\n")))
     assert choice.ranges.pop("height_noise") == pytest.approx(5e-6)
     assert choice.ranges == {"temperature": 2.0, "pressure": "0.1 bar"}
-
-
-def test_a_standard_error_reaches_both_models(small_case) -> None:
-    """Contact grows nearly in proportion to the load, of waves and of the whole profile."""
-    others = [name for name in SOURCES if name != "pressure"]
-    choice = Uncertainty(others, {"pressure": "10 %"})
-    data = propagate(small_case, choice, samples=10, models=["chain", "direct"])
-    for model in data.model.values:
-        part = data.sel(model=model)
-        logs = np.log(part.contact_fraction / part.contact_fraction_case)
-        assert 0.7 < np.polyfit(data.log_pressure, logs, 1)[0] < 1.2, model
 
 
 def test_who_asks_goes_before_the_case(case) -> None:

@@ -154,7 +154,8 @@ class Plan(Checked):
         chosen = {name: asked.pop(name, None) for name in ("without", "ranges", "block_length")}
         stating: Mapping[str, Any] = case.options.get("uncertainty", {})
         choice = Uncertainty.of_case(stating, **chosen)
-        options = {"samples": SAMPLES, "seed": 0, **stating, **asked}
+        usual = {"samples": SAMPLES, "seed": 0, "tolerance": None}
+        options: dict[str, Any] = {**usual, **stating, **asked}
         models = asked.get("models")
         named = stated_models(case, choice) if models is None else models
         named = [named] if isinstance(named, str) else list(named)
@@ -167,7 +168,7 @@ class Plan(Checked):
         if len(axes) > 1 or any(axis.name not in SAMPLED_OVER for axis in axes):
             names = ", ".join(axis.name for axis in axes)
             raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
-        numbers = {name: options.get(name) for name in ("samples", "seed", "tolerance")}
+        numbers = {name: options[name] for name in ("samples", "seed", "tolerance")}
         in_order = tuple(name for name in BOTH["both"] if name in named)
         return cls(case=case, uncertainty=choice, models=in_order, axes=axes, **numbers)
 

@@ -261,7 +261,8 @@ def _grid(case: Case, options: SourceOptions) -> Draw:
 
 def _log_ratios(rubber: Rubber, omega: Array) -> Array:
     modulus = rubber.complex_modulus(omega)
-    return np.log(np.stack([np.abs(modulus), modulus.imag / modulus.real], axis=-1))
+    parts = np.stack([np.abs(modulus), modulus.imag / modulus.real], axis=-1)
+    return np.asarray(np.log(parts))
 
 
 @_source(
