@@ -185,9 +185,8 @@ class ContactByCutOff(Described):
                 if name == "contact_fraction":
                     values = np.minimum(values, 1.0)
                 data[f"{name}_{end}"] = over(values, "1", f"{end} end of the 90 % band")
-        data["octave_slope"] = over(
-            [step.slope for step in self.steps], "1", "slope of the last octave on the faces"
-        )
+        slopes = [step.slope for step in self.steps]
+        data["octave_slope"] = over(slopes, "1", "slope of the last octave on the faces")
         statuses = ["; ".join({str(c.status) for c in step.contacts}) for step in self.steps]
         data["status"] = over(np.array(statuses, dtype=object), "1", "converged, or why not")
         facts = {name: getattr(self, name) for name in ("resolved", "slope_ratio", "overlap")}
@@ -203,11 +202,10 @@ class ContactByCutOff(Described):
             "nominal_pressure": contact.nominal_pressure,
             "speed": contact.speed,
             "refusal": self.refusal,
+            **provenance.version_attributes(),
         }
         coordinate = over(self.wavelength, "m", "shortest wavelength of the surface")
-        return xr.Dataset(
-            data, {"cut_off": coordinate}, attributes | provenance.version_attributes()
-        )
+        return xr.Dataset(data, {"cut_off": coordinate}, attributes)
 
 
 # Numbers of `RoughContact` over the cut-off.

@@ -177,22 +177,22 @@ def measured_design(
     warming = np.zeros(measured.speed.size) if warming_stress is None else warming_stress
     pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
     made = MeasuredRubber(rubber, "") if isinstance(rubber, Rubber) else rubber
-    case = (model.conditions or Conditions()).temperature_of(made.rubber)
+    usual = model.conditions or Conditions()
+    case = usual.temperature_of(made.rubber)
     kelvin = np.where(
         np.isnan(measured.temperature), math.nan if case is None else case, measured.temperature
     )
+    rows = zip(pressure, measured.speed, kelvin, warming, strict=True)
     points = []
-    for at, (p, v, t) in enumerate(zip(pressure, measured.speed, kelvin, strict=True), start=1):
+    for at, (p, v, t, heating) in enumerate(rows, start=1):
         point_load = replace(load, pressure=float(p), speed=float(v))
         temperature = None if math.isnan(t) else float(t)
         other = temperature is not None and temperature != case
         at_kelvin = Conditions(temperature=temperature)
         met = fitted_for_load(made, surface, point_load, at_kelvin).rubber
         if model.takes_conditions:
-            law = ConstantStress(float(warming[at - 1])) if warming[at - 1] > 0.0 else None
-            conditions = replace(
-                model.conditions or Conditions(), shear_stress=TemperatureProbe(law)
-            )
+            law = ConstantStress(float(heating)) if heating > 0.0 else None
+            conditions = replace(usual, shear_stress=TemperatureProbe(law))
             if other:
                 conditions = replace(conditions, temperature=temperature)
             task = Task(met, surface, point_load, model.with_conditions(conditions))
