@@ -14,14 +14,11 @@ from gripscale.rubber import Rubber, styrene_butadiene
 from gripscale.surface import (
     HeightDifference,
     SelfAffineFit,
-    SineStack,
-    Surface,
     fit_self_affine,
     height_difference,
-    self_affine_profile,
 )
-from gripscale.surface.surface import Measured
 from gripscale.theory import KlueppelHeinrich, klueppel_heinrich
+from tests.theory.test_persson import road
 
 module = importlib.import_module("gripscale.theory.klueppel_heinrich")
 
@@ -52,13 +49,6 @@ def prefactor(hurst: float) -> float:
     level = hurst * PERPENDICULAR**2 / (2 * np.pi * STATED["speed"] * PARALLEL)
     depth = STATED["layer_ratio"] * STATED["penetration_depth"]
     return 0.5 * depth / (STATED["pressure"] * STATED["speed"]) * level * first**2
-
-
-def road() -> Surface:
-    line = self_affine_profile(0.8, 5e-3, 1e-3, 0.8, 5e-5, seed=4)
-    return Surface(
-        SineStack([10e-3, 1e-3], [1e-3, 1e-4]), "", measured=Measured([(line, line)], [], None, "")
-    )
 
 
 @pytest.mark.parametrize("time", [1e-7, 1e-4, 1.0])
@@ -100,28 +90,6 @@ def test_no_loss_no_friction():
     assert np.isnan(slide().contact_fraction)
 
 
-def test_what_it_is_proportional_to():
-    plain = slide().friction
-    assert slide(layer_ratio=6.0).friction == pytest.approx(3 * plain, rel=1e-12)
-    assert slide(penetration_depth=1e-3).friction == pytest.approx(2 * plain, rel=1e-12)
-    assert slide(pressure=6e5).friction == pytest.approx(0.5 * plain, rel=1e-12)
-
-
-def test_only_dimensionless_groups_matter():
-    """Moduli with the pressure; lengths with the speed; times against the speed."""
-    plain = slide(hurst=0.8).friction
-    stiffer = slide(Rubber(6e6, [54e6], [1e-4]), 0.8, pressure=6e5)
-    assert stiffer.friction == pytest.approx(plain, rel=1e-12)
-    slower = slide(Rubber(3e6, [27e6], [1e-3]), 0.8, speed=0.03)
-    assert slower.friction == pytest.approx(plain, rel=1e-12)
-    larger = klueppel_heinrich(
-        ZENER,
-        surface(0.8, 10.0),
-        **{**STATED, "speed": 3.0, "penetration_depth": 5e-3, "smallest_wavelength": 1e-4},
-    )
-    assert larger.friction == pytest.approx(plain, rel=1e-9)
-
-
 def test_each_wavelength_so_far_is_a_result_of_its_own():
     found = slide(styrene_butadiene(), 0.8)
     assert found.wavelength[[0, -1]] == pytest.approx([PARALLEL, SMALLEST])
@@ -131,7 +99,7 @@ def test_each_wavelength_so_far_is_a_result_of_its_own():
 
 
 def test_profiles_count_by_their_upper_part():
-    [(line, _)] = road().measured.profiles
+    [(line, _)] = road(16_001).measured.profiles
     upper = replace(line, z=np.where(line.z >= np.median(line.z), line.z, np.nan))
     assert upper.missing == len(line) // 2
     correlation = height_difference(line, top_height_fraction=0.5)
@@ -148,17 +116,8 @@ def test_profiles_count_by_their_upper_part():
     )
 
 
-def test_not_converging_is_a_status_and_no_number(monkeypatch):
-    monkeypatch.setattr(module, "_FINEST", 8)
-    found = slide(styrene_butadiene(), 0.8)
-    assert found.status == "tolerance not met"
-    data = found.to_dataset()
-    assert np.isnan(data.total_friction)
-    assert data.prediction_status.item() == "tolerance not met"
-
-
 def test_as_a_model_of_a_measured_surface():
-    prepared, load = road(), Load(2e5, 0.2, 0.1)
+    prepared, load = road(16_001), Load(2e5, 0.2, 0.1)
     model = KlueppelHeinrich(layer_ratio=2.0, penetration_depth=5e-4)
     assert isinstance(model, Model)
     seen = []
@@ -172,12 +131,6 @@ def test_as_a_model_of_a_measured_surface():
     assert data.attrs["model"] == "klueppel_heinrich"
     assert all({"units", "long_name", "source"} <= set(data[name].attrs) for name in data.data_vars)
     assert model.predict(ZENER, prepared.only(model.needs), load).identical(data)
-
-
-def test_waves_by_hand_are_refused():
-    by_hand = Surface(SineStack([1e-3], [1e-4]), "sine waves stated in the case")
-    with pytest.raises(InputError, match="klueppel_heinrich needs measured profiles"):
-        KlueppelHeinrich(1.0, 1e-3).predict(ZENER, by_hand, Load(1e5, 0.1, 0.1))
 
 
 @pytest.mark.parametrize(

@@ -1,15 +1,11 @@
 """The thickness of the rubber in the half-plane, the chain, Persson's theory and cases."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.chain.chain import Chain
 from gripscale.core.errors import InputError
 from gripscale.half_space.model import DirectContact
-from gripscale.model import Load
 from gripscale.surface import ArealSpectrum
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
@@ -57,12 +53,13 @@ def test_half_plane_of_a_thickness_is_the_direct_contact_of_one_wave(speed: floa
 
 def test_block_of_the_chain_is_no_higher_than_the_rubber() -> None:
     sines = gs.SineStack([LENGTH, 1e-3], [AMPLITUDE, 2e-6])
-    load = Load(PRESSURE, 0.3, 0.1)
-    thick = Chain().solve(RUBBER, sines, replace(load, thickness=1.0))
-    none = Chain().solve(RUBBER, sines, load)
-    thin = Chain().solve(RUBBER, sines, replace(load, thickness=2e-3))
+    load = {"pressure": PRESSURE, "speed": 0.3, "footprint": 0.1}
+    none, thick, thin = (
+        gs.solve_chain(RUBBER, sines, thickness=d, **load) for d in (None, 1.0, 2e-3)
+    )
     assert thick.friction == none.friction
     assert [wave.details["depth"] for wave in thin.scales] == [0.2, 1.5]
+    assert float(thin.to_dataset().thickness) == 2e-3
     alone = gs.solve_scale(
         RUBBER,
         wavelength=LENGTH,
@@ -119,12 +116,3 @@ def test_thickness_varies_as_rubber_wears_down() -> None:
 def test_a_study_of_another_input_states_the_thickness() -> None:
     study = gs.vary(case("4 mm"), speed=[0.1, 0.3])
     assert "rubber 4 mm thick on a rigid base" in str(study)
-
-
-def test_chain_takes_the_thickness_as_an_argument() -> None:
-    sines = gs.SineStack([LENGTH], [AMPLITUDE])
-    load = {"pressure": PRESSURE, "speed": 0.3, "footprint": 0.1}
-    chain = gs.solve_chain(RUBBER, sines, thickness=2e-3, **load)
-    assert chain.scales[0].details["depth"] == 0.2
-    assert chain.load.thickness == 2e-3
-    assert float(chain.to_dataset().thickness) == 2e-3

@@ -1,49 +1,9 @@
-"""The boundary elements piece by piece: influence of one element, harmonics, edges."""
+"""The boundary elements piece by piece: harmonics and edges."""
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
-from gripscale.theory.half_plane import (
-    GridContact,
-    contact_edges,
-    influence_column,
-    nodes,
-    pressure_harmonics,
-)
-
-
-def elastic(number):
-    return 1.0 / number + 0.0j
-
-
-@pytest.mark.parametrize("node", [0, 1, 5, 16])
-def test_influence_of_a_hat_of_pressure(node):
-    """sum_(m != 0) exp(i m x)/|m| = -2 ln|2 sin(x/2)|, averaged over the hat by quadrature.
-
-    Harmonics beyond 16 N are left out: 1/(2 pi^2 16^2) = 2e-4 of 1/N at most.
-    """
-    points = 32
-    step = 2 * np.pi / points
-
-    def integrand(s: float) -> float:
-        return (1 - abs(s) / step) * -2 * np.log(abs(2 * np.sin((node * step - s) / 2)))
-
-    parts = [quad(integrand, a, b)[0] for a, b in ((-step, 0), (0, step))]
-    expected = sum(parts) / (2 * np.pi)
-    assert influence_column(elastic, points)[node] == pytest.approx(expected, abs=3e-4 / points)
-
-
-def test_a_lagging_surface_is_pushed_up_behind_the_pressure():
-    """c(m) = exp(-i delta) at m = 1 alone shifts the response by delta."""
-    points, delta = 64, 0.3
-
-    def lagging(number):
-        return np.where(number == 1, np.exp(-1j * delta), 0.0)
-
-    angle = 2 * np.pi * np.arange(points) / points
-    expected = 2 / points * np.sinc(1 / points) ** 2 * np.cos(angle - delta)
-    assert influence_column(lagging, points) == pytest.approx(expected, abs=1e-15)
+from gripscale.theory.half_plane import GridContact, contact_edges, nodes, pressure_harmonics
 
 
 def test_harmonics_of_a_piecewise_linear_pressure():

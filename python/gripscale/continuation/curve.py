@@ -1,13 +1,9 @@
 """Contact and friction against the cut-off, from the longest waves to far below the measurement.
 
 A line is continued octave by octave with random waves (`gripscale.continuation.roughness`), each
-with r times the slope of the octave above, on the faces that touch. r is from a withheld octave,
-
-    ln r_(k+1) = ln r_H + c (ln r_k - ln r_H),
-
-a `FinerMeasurement` or a `HurstExponent`. n octaves below the end of the measurement, where it is
-y_0, a number y has the 90 % band ln y +- sqrt((a n)^2 + (b ln(y / y_0))^2). Letters, and the
-withheld octaves that a, b, c and `UNFORETOLD` come from: docs/below-measurement.md.
+with r times the slope of the octave above, on the faces that touch. r is from a withheld octave, a
+`FinerMeasurement` or a `HurstExponent`. The equations, and the withheld octaves that a, b, c and
+`UNFORETOLD` come from: docs/below-measurement.md.
 """
 
 from __future__ import annotations
@@ -59,8 +55,8 @@ PERSISTENCE = 0.75
 # doi:10.1088/0953-8984/9/21/002): broken stone, and what is known of an octave if nothing else is.
 USUAL_HURST = 0.8
 
-# ln r that a withheld octave is tried with; r_1 is interpolated between them.
-_LOG_RATIOS = np.array([-1.2, -0.6, 0.0, 0.6])
+# ln r beside zero that a withheld octave is tried with; r_1 is interpolated between them.
+_STEEPER, _LESS_STEEP = (0.6,), (-0.6, -1.2)
 
 MOST_OCTAVES = 8
 _LEAST_STEP = 0.05  # rest of an octave, over the last cut-off, that is not a step of its own
@@ -189,9 +185,8 @@ class ContactByCutOff(Described):
                 if name == "contact_fraction":
                     values = np.minimum(values, 1.0)
                 data[f"{name}_{end}"] = over(values, "1", f"{end} end of the 90 % band")
-        data["octave_slope"] = over(
-            [step.slope for step in self.steps], "1", "slope of the last octave on the faces"
-        )
+        slopes = [step.slope for step in self.steps]
+        data["octave_slope"] = over(slopes, "1", "slope of the last octave on the faces")
         statuses = ["; ".join({str(c.status) for c in step.contacts}) for step in self.steps]
         data["status"] = over(np.array(statuses, dtype=object), "1", "converged, or why not")
         facts = {name: getattr(self, name) for name in ("resolved", "slope_ratio", "overlap")}
@@ -207,11 +202,10 @@ class ContactByCutOff(Described):
             "nominal_pressure": contact.nominal_pressure,
             "speed": contact.speed,
             "refusal": self.refusal,
+            **provenance.version_attributes(),
         }
         coordinate = over(self.wavelength, "m", "shortest wavelength of the surface")
-        return xr.Dataset(
-            data, {"cut_off": coordinate}, attributes | provenance.version_attributes()
-        )
+        return xr.Dataset(data, {"cut_off": coordinate}, attributes)
 
 
 # Numbers of `RoughContact` over the cut-off.
@@ -338,8 +332,6 @@ def contact_by_cut_off(
 
 @dataclass(frozen=True)
 class _Solver:
-    """The rubber and its load, for the contacts of the lines at each cut-off."""
-
     rubber: Rubber
     options: dict[str, Any]
     on_contact: OnContact | None
@@ -367,14 +359,15 @@ class _Solver:
                 return contact
             return replace(contact, grids=[start.grids[-1], *contact.grids])
 
-        contacts: list[RoughContact | None] = [None] * len(lines)
+        contacts: dict[int, RoughContact] = {}
         jobs = [partial(job, at) for at in range(len(lines))]
         with closing(in_threads(jobs, worker_count(None))) as solved:
             for at, contact in solved:
                 contacts[at] = contact
                 if self.on_contact is not None:
                     self.on_contact(contact)
-        return CutOffContact(cut_off, tuple(c for c in contacts if c), tuple(lines), slope)
+        in_order = tuple(contacts[at] for at in range(len(lines)))
+        return CutOffContact(cut_off, in_order, tuple(lines), slope)
 
     def next_step(
         self, step: CutOffContact, octaves: Sequence[PeriodicLine], slope: float, shortest: float
@@ -481,21 +474,18 @@ def _octave_again(
     waves = np.random.default_rng(random.integers(2**32))
     octaves = start.octaves(intermittency, true.wavelength, waves)
 
-    def tried(log: float) -> CutOffContact:
-        slope = above.slope * math.exp(log)  # the same waves, steeper or less steep
-        return solver.next_step(start, octaves, slope, true.wavelength)
+    def tried(log: float) -> tuple[float, float]:
+        """Return area and friction over the true ones, with the same waves exp(log) as steep."""
+        slope = above.slope * math.exp(log)
+        step = solver.next_step(start, octaves, slope, true.wavelength)
+        area = step.mean("contact_fraction") / true.mean("contact_fraction")
+        return area, math.log(step.mean("friction_from_dissipation") / mu)
 
-    def log_friction(step: CutOffContact) -> float:
-        return math.log(step.mean("friction_from_dissipation") / mu)
-
-    same = tried(0.0)
-    area = same.mean("contact_fraction") / true.mean("contact_fraction")
-    friction = log_friction(same)
-    # friction rises with the slope: ratios on one side, until the true friction lies between two
-    up, down = _LOG_RATIOS[_LOG_RATIOS > 0.0], _LOG_RATIOS[_LOG_RATIOS < 0.0][::-1]
+    area, friction = tried(0.0)
     by_log = {0.0: friction}
-    for log in (up if friction < 0.0 else down).tolist():
-        by_log[log] = log_friction(tried(log))
+    # friction rises with the slope: ratios on one side, until the true friction lies between two
+    for log in _STEEPER if friction < 0.0 else _LESS_STEEP:
+        _, by_log[log] = tried(log)
         if by_log[log] * friction <= 0.0:
             break
     logs = sorted(by_log)

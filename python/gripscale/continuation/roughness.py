@@ -1,12 +1,8 @@
 """Octaves of a periodic line, and where those below its measurement come from.
 
 The local amplitude of an octave s_k is a_k(x)^2 = G * |s_k + i H s_k|^2, with the Hilbert transform
-H and a Gaussian G as wide as a wave. Roughness is intermittent: by least squares over the faces,
-
-    ln a_k(x) = c + b ln a_(k-1)(x) + e(x).
-
-A new octave is Gaussian noise times exp(b ln a_(k-1) + e), with the scatter of e beyond that of
-random waves. It is limited: the largest amplitudes are those of edges, not of rough places.
+H and a Gaussian G as wide as a wave. It follows that of the octave above, but is limited: the
+largest amplitudes are those of edges, not of rough places (docs/below-measurement.md).
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ import numpy as np
 from gripscale.core import Checked, InputError, Status, checked, checks
 from gripscale.core.arrays import Array, ComplexArray, Mask, Quantity
 from gripscale.rubber import Rubber
-from gripscale.rubber.material import plane_strain_modulus_of, require_load_bearing
+from gripscale.rubber.material import require_load_bearing
 from gripscale.theory import elastic, layers
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
 from gripscale.wave.result import ScaleResult
@@ -135,14 +135,13 @@ def contact_edges(contact: GridContact) -> list[tuple[float, float]]:
     if active.all():
         return [(-np.pi, np.pi)]
     step = 2.0 * np.pi / points
-    starts = np.flatnonzero(active & ~np.roll(active, 1))
-    ends = np.flatnonzero(active & ~np.roll(active, -1))
-    patches: list[tuple[float, float]] = []
+    starts = np.flatnonzero(active & ~np.roll(active, 1)).tolist()
+    ends = np.flatnonzero(active & ~np.roll(active, -1)).tolist()
+    patches = []
     for start in starts:
-        later = ends[ends >= start]
-        end = int(later[0]) if later.size else int(ends[0]) + points
-        first = float(start - _edge_offset(gap, active, int(start), -1))
-        last = float(end + _edge_offset(gap, active, end % points, +1))
+        end = next((end for end in ends if end >= start), ends[0] + points)
+        first = start - _edge_offset(gap, active, start, -1)
+        last = end + _edge_offset(gap, active, end % points, +1)
         patches.append((-np.pi + step * first, -np.pi + step * last))
     return patches
 
@@ -199,15 +198,8 @@ class HalfPlane(Checked):
         x = nodes(self.points) / k
 
         def modulus(number: Array) -> ComplexArray:
-            """Return M [Pa] of the harmonics."""
-            rubber, omega = problem.rubber, number * frequency
-            young = rubber.complex_modulus(omega)
-            value = plane_strain_modulus_of(young, rubber.bulk_modulus)
-            if problem.thickness is None:
-                return value
-            compression = layers.shear_and_compression(young, rubber.bulk_modulus)[1]
-            depth = k * number * problem.thickness
-            return np.asarray(value / layers.thickness_factor(depth, compression)[0])
+            omega = number * frequency
+            return layers.effective_modulus(problem.rubber, omega, k * number, problem.thickness)
 
         first = complex(modulus(np.ones(1))[0])
         sizes = {"wavelength": wave.wavelength, "amplitude": wave.amplitude}

@@ -17,10 +17,12 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gripscale.core import Array, Checked, ComplexArray, InputError, checked, checks, readable
 from gripscale.core.arrays import Quantity
 from gripscale.rubber import Rubber
+from gripscale.rubber.material import plane_strain_modulus_of
 
 _ROWS = 2**14  # waves at once: their matrices take about 10 MB
 _TERMS = 8  # of the series of sinh x - x below x = 1: the next is below 1e-16 of the sum
@@ -116,6 +118,21 @@ def thickness_factor(depth: Array, compression: ComplexArray) -> tuple[ComplexAr
     slope = -2.0 * (slope_above / above - slope_below / below)
     deep = decay == 0.0
     return np.where(deep, 1.0, above / below), np.where(deep, 0.0, slope)
+
+
+def effective_modulus(
+    rubber: Rubber, omega: ArrayLike, number: ArrayLike, thickness: float | None
+) -> ComplexArray:
+    """Return 2/(|q| K) [Pa] of waves |q| [rad/m] at omega [rad/s], on a rigid base.
+
+    E/(1 - nu^2) without a `thickness` [m], that of a half-space. Arrays broadcast together.
+    """
+    young = rubber.complex_modulus(omega)
+    modulus = plane_strain_modulus_of(young, rubber.bulk_modulus)
+    if thickness is None:
+        return modulus
+    compression = shear_and_compression(young, rubber.bulk_modulus)[1]
+    return np.asarray(modulus / thickness_factor(np.multiply(number, thickness), compression)[0])
 
 
 def _layer_stiffness(depth: Array, shear: ComplexArray, compression: ComplexArray) -> ComplexArray:

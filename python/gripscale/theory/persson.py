@@ -1,13 +1,9 @@
 """Persson's theory: contact area and hysteresis friction of a randomly rough surface.
 
-    G(q) = 1/8 int_q0^q dk k^3 C(k) int_0^2pi dphi |M(k v cos phi)|^2 / p_0^2
-    P(q) = erf(1/(2 sqrt G(q))),    S(q) = gamma + (1 - gamma) P(q)^2
-    mu   = 1/2 int_q0^q1 dq q^3 C(q) S(q) P(q) int_0^2pi dphi cos phi Im M(q v cos phi) / p_0
-
 B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626; S: M. Scaraggi & B. N. J.
-Persson, J. Phys.: Condens. Matter 27 (2015) 105102, doi:10.1088/0953-8984/27/10/105102. Cut-off,
-softening and limits: docs/theories.md. M is 2 / (q K(q)) of `gripscale.theory.layers` where the
-rubber has a thickness. `TheoryResult` is the base of the results of all theories.
+Persson, J. Phys.: Condens. Matter 27 (2015) 105102, doi:10.1088/0953-8984/27/10/105102. Equations,
+cut-off, softening and limits: docs/theories.md. M is 2 / (q K(q)) of `gripscale.theory.layers`
+where the rubber has a thickness. `TheoryResult` is the base of the results of all theories.
 """
 
 from __future__ import annotations
@@ -277,8 +273,7 @@ def persson(
             f"got {checks.short_repr(spectrum)}"
         )
     share = checks.share("gamma", gamma)
-    last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
-    end = last
+    end = last = last_wavenumber(spectrum.wavenumber, smallest_wavelength)
     if smallest_wavelength is not None:
         end = min(LAST_OVER_CUT_OFF * last, float(spectrum.wavenumber[-1]))
     inside = spectrum.wavenumber[spectrum.wavenumber < end]
@@ -320,8 +315,7 @@ LAST_OVER_CUT_OFF = 3.0
 
 def gaussian_power(q: Array, ends: Array) -> Array:
     """Return the share of the power of waves `q` that cut-offs at `ends` [rad/m] transmit."""
-    lengths = 2.0 * np.pi / ends[:, None]
-    return transmission(q, lengths) ** 2
+    return transmission(q, 2.0 * np.pi / ends[:, None]) ** 2
 
 
 def integrals(
@@ -371,12 +365,8 @@ def over_angles(rubber: Rubber, load: Load, q: Array, intervals: int) -> tuple[A
     s = 0.5 * (1.0 + abscissae)
     real, imaginary, lossy = np.zeros((3, q.size))
     for cosine, width in zip(np.sin(0.5 * np.pi * s**4), 4.0 * np.pi * s**3 * weights, strict=True):
-        modulus = rubber.plane_strain_modulus(q * load.speed * cosine)
-        if load.thickness is not None:
-            young = rubber.complex_modulus(q * load.speed * cosine)
-            compression = layers.shear_and_compression(young, rubber.bulk_modulus)[1]
-            modulus = modulus / layers.thickness_factor(q * load.thickness, compression)[0]
-        over = modulus / load.pressure
+        omega = q * load.speed * cosine
+        over = layers.effective_modulus(rubber, omega, q, load.thickness) / load.pressure
         real += width * over.real**2
         imaginary += width * over.imag**2
         lossy += width * cosine * over.imag

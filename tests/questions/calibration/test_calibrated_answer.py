@@ -42,18 +42,11 @@ SPEEDS, KELVINS, PRESSURES = [0.03, 0.1, 0.3, 0.03, 0.3], [283.15] * 3 + [303.15
 LAW = '[conditions.shear_stress]\nkind = "constant"\nstress_0 = "9 MPa"\n'
 
 
-def made(conditions: Conditions, **load: float) -> gs.Case:
-    """Return a case of two lines under conditions, at another load where it is stated."""
-    arguments: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05, **load}
-    return gs.Case(
-        LINES,
-        SHIFTED_RUBBER,
-        smallest_wavelength=1e-3,
-        waves=3,
-        conditions=conditions,
-        filled=False,
-        **arguments,
-    )
+def made(conditions: Conditions, lines: Any = LINES, **changed: Any) -> gs.Case:
+    """Return a case of lines under conditions, with other arguments where they are stated."""
+    usual = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05, "smallest_wavelength": 1e-3}
+    arguments = {"waves": 3, "filled": False, "conditions": conditions, **usual, **changed}
+    return gs.Case(lines, SHIFTED_RUBBER, **arguments)
 
 
 def answer_at(law: InterfacialShearStress, at: int, heat: Any = "none") -> gs.Answer:
@@ -119,17 +112,7 @@ def test_the_answer_is_the_fitted_friction_with_the_heat_of_the_interface() -> N
 
 def test_answer_variation_and_comparison_have_one_total(tmp_path: Path) -> None:
     """Of one line: a variation weighs lines by their length, an answer does not."""
-    conditions = Conditions(temperature=293.15, heat="none", shear_stress=TRUE)
-    load: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05}
-    case = gs.Case(
-        LINES[:1],
-        SHIFTED_RUBBER,
-        smallest_wavelength=1e-3,
-        waves=3,
-        conditions=conditions,
-        filled=False,
-        **load,
-    )
+    case = made(Conditions(temperature=293.15, heat="none", shear_stress=TRUE), LINES[:1])
     answer = gs.answer(case)
     sum_of_both = f"μ = {significant(answer.friction)}: "
     assert sum_of_both in " ".join(answer.lines)
@@ -185,28 +168,18 @@ def test_files_give_the_measured_friction_back(shell: Shell, tmp_path: Path) -> 
 
 
 def test_roughness_below_the_measurement_is_in_the_fitted_area() -> None:
-    load: dict[str, Any] = {"pressure": 3e5, "speed": 0.1, "footprint": 0.05, "filled": False}
     line = self_affine_profile(0.8, 3e-3, 8e-4, length=0.15, step=2e-4, seed=1)
     continued = BelowMeasurement(4e-4, HurstExponent(0.8))  # the line is too short to foretell it
 
-    def answered(law: InterfacialShearStress) -> gs.Answer:
-        return gs.answer(
-            gs.Case(
-                line, SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3,
-                below_measurement=continued,
-                conditions=Conditions(heat="none", shear_stress=law), **load,
-            )
-        )  # fmt: skip
+    def case(law: InterfacialShearStress | None = None) -> gs.Case:
+        conditions = Conditions(heat="none", shear_stress=law)
+        return made(conditions, line, below_measurement=continued)
 
-    truth = answered(ConstantStress(4e6))
+    truth = gs.answer(case(ConstantStress(4e6)))
     measured = MeasuredFriction([0.1, 0.1], [truth.friction] * 2)
-    case = gs.Case(
-        line, SHIFTED_RUBBER, smallest_wavelength=1e-3, waves=3,
-        below_measurement=continued, conditions=Conditions(heat="none"), **load,
-    )  # fmt: skip
-    result = gs.calibrate(case, measured, law="constant")
+    result = gs.calibrate(case(), measured, law="constant")
     assert result.estimates[0].value == pytest.approx(4e6, rel=1e-6)
-    assert answered(result.law).friction == pytest.approx(truth.friction, rel=1e-9)
+    assert gs.answer(case(result.law)).friction == pytest.approx(truth.friction, rel=1e-9)
 
 
 def test_the_interval_at_the_points_is_that_of_fit_and_measurement(calibrated: Calibration) -> None:

@@ -9,7 +9,6 @@ import pytest
 
 from gripscale import Case, Rubber
 from gripscale.case_file import read_case
-from gripscale.questions.uncertainty.sampled_inputs import Inputs
 from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_master_curve, write_road
 
@@ -39,14 +38,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
+def small_case(folder: Path) -> Case:
+    """The case in the folder."""
+    return read_case(folder / "case.toml")
+
+
+@pytest.fixture(scope="session")
 def known(folder: Path) -> Case:
     """The case with a choice of waves."""
     path = folder / "any_waves.toml"
     path.write_text(CASE.replace("s_amplitude = 2.1", ""))
     return read_case(path)
-
-
-@pytest.fixture
-def inputs(known: Case) -> Inputs:
-    """The inputs of the case itself."""
-    return Inputs.of(known)

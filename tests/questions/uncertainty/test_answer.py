@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 from scipy import stats
 
+from gripscale import Case
 from gripscale.case_file import read_case
 from gripscale.questions import Uncertainty
 from gripscale.questions.answer.answer import answer
@@ -30,9 +31,9 @@ def only(*sources: str, **ranges: object) -> Uncertainty:
 
 
 @pytest.fixture(scope="module")
-def of_run(folder: Path) -> xr.Dataset:
+def of_run(small_case: Case) -> xr.Dataset:
     """Return the answer of `gripscale run`."""
-    data = answer(read_case(folder / "case.toml")).data
+    data = answer(small_case).data
     assert data is not None
     return data
 
@@ -43,9 +44,9 @@ def sigma(data: xr.Dataset, name: str, label: str) -> float:
 
 
 @pytest.fixture(scope="module")
-def certain(folder: Path) -> xr.Dataset:
+def certain(small_case: Case) -> xr.Dataset:
     """Return an uncertainty whose one source has one value, that of the case."""
-    return propagate(read_case(folder / "case.toml"), only(bulk_modulus="2 GPa"), samples=10)
+    return propagate(small_case, only(bulk_modulus="2 GPa"), samples=10)
 
 
 @pytest.mark.parametrize("name", QUANTITIES)
@@ -62,12 +63,10 @@ def test_without_errors_of_inputs_number_and_interval_are_those_of_run(
     )
 
 
-def test_processes_give_the_same_answer(folder: Path, certain: xr.Dataset) -> None:
+def test_processes_give_the_same_answer(small_case: Case, certain: xr.Dataset) -> None:
     """With what it rests on, which comes from the waves and not from the measurement."""
     choice = only(bulk_modulus="2 GPa")
-    data = propagate(
-        read_case(folder / "case.toml"), choice, samples=10, client="processes", workers=2
-    )
+    data = propagate(small_case, choice, samples=10, client="processes", workers=2)
     assert float(certain.answer_steep_share) >= 0.0
     for name in map(str, certain.data_vars):
         if name.startswith("answer_"):
@@ -75,15 +74,15 @@ def test_processes_give_the_same_answer(folder: Path, certain: xr.Dataset) -> No
 
 
 @pytest.fixture(scope="module")
-def cut_off(folder: Path) -> xr.Dataset:
+def cut_off(small_case: Case) -> xr.Dataset:
     """Return an uncertainty of the cut-off alone, known to an octave about the case."""
-    return propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10)
+    return propagate(small_case, only("cut_off"), samples=10)
 
 
 @pytest.fixture(scope="module")
-def blocks(folder: Path) -> xr.Dataset:
+def blocks(small_case: Case) -> xr.Dataset:
     """Return an uncertainty of the stretch of road alone."""
-    return propagate(read_case(folder / "case.toml"), only("profile"), samples=20)
+    return propagate(small_case, only("profile"), samples=20)
 
 
 @pytest.mark.parametrize("name", QUANTITIES)
@@ -144,9 +143,9 @@ def test_the_variance_of_the_samples_is_in_the_interval(
 
 
 def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
-    folder: Path, certain: xr.Dataset
+    small_case: Case, certain: xr.Dataset
 ) -> None:
-    data = propagate(read_case(folder / "case.toml"), only("grid"), samples=20)
+    data = propagate(small_case, only("grid"), samples=20)
     error = data.friction_grid_error.values[0]
     assert np.ptp(error) == pytest.approx(0.0, abs=1e-12), "one contact, solved once"
     solved = float(data.friction_case[0])
@@ -163,10 +162,8 @@ def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
         assert sigma(data, name, "grid of the answer") > 0.0
 
 
-def test_at_several_loads_each_has_its_answer(folder: Path, cut_off: xr.Dataset) -> None:
-    data = propagate(
-        read_case(folder / "case.toml"), only("cut_off"), samples=10, vary={"speed": [0.1, 0.3]}
-    )
+def test_at_several_loads_each_has_its_answer(small_case: Case, cut_off: xr.Dataset) -> None:
+    data = propagate(small_case, only("cut_off"), samples=10, vary={"speed": [0.1, 0.3]})
     assert data.answer_friction.dims == ("speed",)
     for name in ("answer_friction", "answer_contact_fraction_half_width"):
         assert float(data[name].sel(speed=0.3)) == pytest.approx(float(cut_off[name]))
@@ -175,9 +172,9 @@ def test_at_several_loads_each_has_its_answer(folder: Path, cut_off: xr.Dataset)
 
 
 def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(
-    folder: Path, of_run: xr.Dataset
+    small_case: Case, of_run: xr.Dataset
 ) -> None:
-    data = propagate(read_case(folder / "case.toml"), only("cut_off"), samples=10, models=["chain"])
+    data = propagate(small_case, only("cut_off"), samples=10, models=["chain"])
     for name in QUANTITIES:
         width = float(of_run[f"answer_{name}_half_width"])
         assert float(data[f"answer_{name}_half_width"]) == pytest.approx(width, rel=1e-9)

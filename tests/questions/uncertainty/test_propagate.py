@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -22,32 +23,17 @@ from gripscale.questions.uncertainty.question import SampledAnswer
 from .sampled import propagate
 
 QUICK = Uncertainty(without=["waves"])
-
-
-def counted(told):
-    """Return what counts the tasks solved and found."""
-
-    def count(progress):
-        told[progress.stored] = told.get(progress.stored, 0) + 1
-
-    return count
+TWELVE = {"samples": 12, "models": ["chain"]}
 
 
 @pytest.fixture(scope="module")
-def run(folder, tmp_path_factory):
-    """Twelve samples of the chain, and where they are."""
+def run(small_case, tmp_path_factory):
+    """Twelve samples of the chain, where they are, and how many tasks were stored or not."""
     target = tmp_path_factory.mktemp("run")
-    told: dict[bool, int] = {}
-    data = propagate(
-        read_case(folder / "case.toml"),
-        QUICK,
-        samples=12,
-        models=["chain"],
-        folder=target,
-        on_task=counted(told),
-        workers=2,
-    )
-    return data, target, told
+    told = []
+    asked = TWELVE | {"folder": target, "workers": 2}
+    data = propagate(small_case, QUICK, **asked, on_task=lambda task: told.append(task.stored))
+    return data, target, Counter(told)
 
 
 ANSWERED = 14
@@ -70,64 +56,36 @@ def test_quantiles_are_those_of_the_samples(run):
 
 def test_a_second_run_solves_nothing(folder, run):
     data, target, _ = run
-    told: dict[bool, int] = {}
-    again = propagate(
-        read_case(folder / "case.toml"),
-        QUICK,
-        samples=12,
-        models=["chain"],
-        folder=target,
-        on_task=counted(told),
-    )
-    assert told == {True: ANSWERED}
+    told = []
+    case = read_case(folder / "case.toml")
+    asked = TWELVE | {"folder": target}
+    again = propagate(case, QUICK, **asked, on_task=lambda task: told.append(task.stored))
+    assert told == [True] * ANSWERED
     np.testing.assert_array_equal(again.friction, data.friction)
 
 
-def test_what_is_missing_is_solved_and_nothing_else(folder, run, tmp_path):
-    data, target, _ = run
-    for path in (target / "predictions").iterdir():
-        (tmp_path / "predictions").mkdir(exist_ok=True)
-        (tmp_path / "predictions" / path.name).write_bytes(path.read_bytes())
-    sorted((tmp_path / "predictions").iterdir())[3].unlink()
-    told: dict[bool, int] = {}
-    again = propagate(
-        read_case(folder / "case.toml"),
-        QUICK,
-        samples=12,
-        models=["chain"],
-        folder=tmp_path,
-        on_task=counted(told),
-    )
-    assert told == {True: ANSWERED - 1, False: 1}
-    np.testing.assert_array_equal(again.friction, data.friction)
-
-
-def test_the_answer_without_the_errors_comes_before_the_samples(folder, run, tmp_path):
+def test_the_answer_without_the_errors_comes_before_the_samples(small_case, run, tmp_path):
     """It is that of a run: its interval holds no error of the inputs."""
     _, target, _ = run
     shutil.copytree(target / "predictions", tmp_path / "predictions")
     told: list[object] = []
-    case = read_case(folder / "case.toml")
-    choice = {"samples": 12, "models": ["chain"], "folder": tmp_path}
-    propagate(case, QUICK, **choice, on_answer=told.append, on_task=told.append)
+    asked = TWELVE | {"folder": tmp_path, "on_answer": told.append, "on_task": told.append}
+    propagate(small_case, QUICK, **asked)
     (at,) = (i for i, each in enumerate(told) if isinstance(each, xr.Dataset))
     assert 0 < at < len(told) - 12
     assert len(told) == ANSWERED + 1
-    own = gs.answer(case)
+    own = gs.answer(small_case)
     assert float(told[at].answer_friction) == pytest.approx(own.friction, rel=1e-12)
     width = float(told[at].answer_friction_half_width)
     assert width == pytest.approx(float(own.data.answer_friction_half_width), nan_ok=True)
 
 
 @pytest.fixture(scope="module")
-def half_failing(folder, tmp_path_factory):
+def half_failing(small_case, tmp_path_factory):
     """Ten samples, and where they are; half of the cut-offs lie far beyond the largest wave."""
     target = tmp_path_factory.mktemp("half")
     choice = Uncertainty(without=["waves"], ranges={"cut_off": "1 mm,1000 m"})
-    data = propagate(
-        read_case(folder / "case.toml"), choice, samples=10, models=["chain"], folder=target
-    )
-    return data, target
+    return propagate(small_case, choice, samples=10, models=["chain"], folder=target), target
 
 
 def test_failures_are_counted_and_said(half_failing):
@@ -150,11 +108,9 @@ def test_few_failures_are_a_warning(half_failing):
     assert SampledAnswer(data.assign(failed=0 * data.failed + 3)).failure
 
 
-def test_a_refusal_while_solving_ends_the_run(folder, tmp_path):
+def test_a_refusal_while_solving_ends_the_run(folder):
     """A rubber left with 1 Pa cannot carry 3 bar once loaded for long: the chain refuses it."""
-    case = tmp_path / "case.toml"
-    for name in ("road.txt", "dma.txt"):
-        (tmp_path / name).write_bytes((folder / name).read_bytes())
+    case = folder / "loaded_for_long.toml"
     text = (folder / "case.toml").read_text()
     case.write_text(text.replace("footprint =", 'load_time = "infinite"\nfootprint ='))
     choice = Uncertainty(without=["waves", "modulus"], ranges={"equilibrium_modulus": "1 Pa,6 MPa"})
@@ -163,19 +119,11 @@ def test_a_refusal_while_solving_ends_the_run(folder, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def over_speed(folder, tmp_path_factory):
+def over_speed(small_case, tmp_path_factory):
     """The samples of `run` at two speeds, and where they are."""
     target = tmp_path_factory.mktemp("over_speed")
     speeds = {"speed": [0.1, 0.3]}
-    data = propagate(
-        read_case(folder / "case.toml"),
-        QUICK,
-        samples=12,
-        models=["chain"],
-        vary=speeds,
-        folder=target,
-    )
-    return data, target
+    return propagate(small_case, QUICK, **TWELVE, vary=speeds, folder=target), target
 
 
 def test_the_same_samples_at_each_speed(run, over_speed):
@@ -185,11 +133,9 @@ def test_the_same_samples_at_each_speed(run, over_speed):
     assert np.corrcoef(data.friction.values[0])[0, 1] > 0.8
 
 
-def test_both_models_have_the_same_draws(folder):
+def test_both_models_have_the_same_draws(small_case):
     choice = Uncertainty(without=["waves", "load_time", "cleaning"])
-    data = propagate(
-        read_case(folder / "case.toml"), choice, samples=10, models=["chain", "direct"]
-    )
+    data = propagate(small_case, choice, samples=10, models=["chain", "direct"])
     assert list(data.model.values) == ["chain", "direct"]
     assert int(data.failed.sum()) == 0
     assert data.sizes["sample"] == 10
@@ -205,9 +151,9 @@ def test_both_models_have_the_same_draws(folder):
         ({"tolerance": 0.0}, "tolerance"),
     ],
 )
-def test_what_cannot_be_asked_for(folder, wrong, said):
+def test_what_cannot_be_asked_for(small_case, wrong, said):
     with pytest.raises(InputError, match=said):
-        propagate(read_case(folder / "case.toml"), QUICK, **wrong)
+        propagate(small_case, QUICK, **wrong)
 
 
 def called(*arguments):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import get_args
 
-import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -33,17 +32,20 @@ load_time = [0.5, 1, 2]
 
 
 @pytest.fixture
-def case(folder: Path, tmp_path: Path):
+def case(folder: Path):
     """Write the small case with more tables."""
 
     def write(also: str) -> Path:
-        for name in ("road.txt", "dma.txt"):
-            (tmp_path / name).write_bytes((folder / name).read_bytes())
-        path = tmp_path / "case.toml"
+        path = folder / "stated.toml"
         path.write_text((folder / "case.toml").read_text() + also)
         return path
 
     return write
+
+
+def stated_in(path: Path) -> dict:
+    """Return the table of the uncertainty in a case file."""
+    return read_case_file(path).case.uncertainty.model_dump(exclude_none=True)
 
 
 def test_the_case_knows_the_sources_there_are() -> None:
@@ -52,7 +54,7 @@ def test_the_case_knows_the_sources_there_are() -> None:
 
 
 def test_a_case_states_all_of_it(case) -> None:
-    table = read_case_file(case(STATED)).case.uncertainty.model_dump(exclude_none=True)
+    table = stated_in(case(STATED))
     assert (table["samples"], table["seed"], table["block_length"]) == (12, 3, 0.06)
     choice = Uncertainty.of_case(table)
     assert (choice.without, choice.block_length) == (("waves", "modulus"), 0.06)
@@ -62,30 +64,13 @@ def test_a_case_states_all_of_it(case) -> None:
 
 def test_a_case_states_standard_errors(case) -> None:
     stated = 'ranges = { temperature = "2 K", pressure = "0.1 bar", height_noise = "5 um" }'
-    choice = Uncertainty.of_case(
-        read_case_file(case(f"[uncertainty]\n{stated}\n")).case.uncertainty.model_dump(
-            exclude_none=True
-        )
-    )
+    choice = Uncertainty.of_case(stated_in(case(f"[uncertainty]\n{stated}\n")))
     assert choice.ranges.pop("height_noise") == pytest.approx(5e-6)
     assert choice.ranges == {"temperature": 2.0, "pressure": "0.1 bar"}
 
 
-def test_a_standard_error_reaches_both_models(folder) -> None:
-    """Contact grows nearly in proportion to the load, of waves and of the whole profile."""
-    others = [name for name in SOURCES if name != "pressure"]
-    choice = Uncertainty(others, {"pressure": "10 %"})
-    data = propagate(
-        read_case(folder / "case.toml"), choice, samples=10, models=["chain", "direct"]
-    )
-    for model in data.model.values:
-        part = data.sel(model=model)
-        logs = np.log(part.contact_fraction / part.contact_fraction_case)
-        assert 0.7 < np.polyfit(data.log_pressure, logs, 1)[0] < 1.2, model
-
-
 def test_who_asks_goes_before_the_case(case) -> None:
-    table = read_case_file(case(STATED)).case.uncertainty.model_dump(exclude_none=True)
+    table = stated_in(case(STATED))
     given = {"cut_off": "1 mm", "waves": "4,5"}
     changed = Uncertainty.of_case(table, ranges=given, block_length=0.08)
     assert changed.without == ("modulus",)
@@ -98,11 +83,11 @@ def test_who_asks_goes_before_the_case(case) -> None:
         Uncertainty.of_case(table, without=["cut_off"], ranges={"cut_off": "1 mm"})
 
 
-def test_what_is_stated_is_sampled_as_if_it_were_asked_for(case, folder) -> None:
+def test_what_is_stated_is_sampled_as_if_it_were_asked_for(case, small_case) -> None:
     choice = Uncertainty(
         ["waves", "modulus"], {"cut_off": "0.9 mm:1.2 mm", "load_time": "0.5,1,2"}, 0.06
     )
-    asked = propagate(read_case(folder / "case.toml"), choice, samples=12, seed=3, models=["chain"])
+    asked = propagate(small_case, choice, samples=12, seed=3, models=["chain"])
     stated = propagate(read_case(case(STATED)))
     assert stated.friction.values.tolist() == asked.friction.values.tolist()
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 import xarray as xr
 
 from gripscale.conditions.area_term import shear_stress_to_dict
@@ -21,6 +22,7 @@ from gripscale.model import STATUS, STATUS_WORD
 from gripscale.questions.calibration import calibration_law as fit
 from gripscale.questions.calibration import profile_likelihood as likelihood
 from gripscale.questions.calibration.measured_comparison import Predicted, in_spread
+from gripscale.questions.calibration.profile_likelihood import FittedLaw
 from gripscale.rubber.extrapolation import WORTH_SAYING
 
 NO_INFLUENCE = 1e-12  # relative size of a singular value below which its direction changes nothing
@@ -67,24 +69,22 @@ class Estimate:
     @property
     def interval(self) -> str:
         """Its interval in words."""
-        if not math.isfinite(self.low) and not math.isfinite(self.high):
-            return "not determined"
         low, high = (fit.written(end, self.unit, 3) for end in (self.low, self.high))
         if self.determined:
             return f"{low} to {high}"
         if math.isfinite(self.low):
             return f"from {low}, upper end not determined"
-        return f"up to {high}, lower end not determined"
+        if math.isfinite(self.high):
+            return f"up to {high}, lower end not determined"
+        return "not determined"
 
 
 def estimates_of(data: xr.Dataset) -> list[Estimate]:
     """Return the fitted parameters of a `fit_area_term`, in the units of the law."""
-    estimates = []
-    for name in data.parameter.values:
-        part = data.sel(parameter=name)
-        numbers = (float(part[key]) for key in _ESTIMATE)
-        estimates.append(Estimate(str(name), str(part.unit.item()).removesuffix("1"), *numbers))
-    return estimates
+    numbers = zip(*(data[name].values.tolist() for name in _ESTIMATE), strict=True)
+    units = (unit.removesuffix("1") for unit in data.unit.values.tolist())
+    names = data.parameter.values.tolist()
+    return [Estimate(*parts[:2], *parts[2]) for parts in zip(names, units, numbers, strict=True)]
 
 
 def fit_area_term(
@@ -144,10 +144,10 @@ def fit_area_term(
         coords={"parameter": names, "other_parameter": names},
         attrs={
             "title": "Area term fitted to measured friction",
-            "law": json.dumps(shear_stress_to_dict(optimum.law)),
+            "law": json.dumps(shear_stress_to_dict(optimum.problem.law(optimum.theta))),
             "held": json.dumps(dict(optimum.problem.held)),
             "measured_source": measured.source,
-            "level": fit.LIKELIHOOD_LEVEL,
+            "level": likelihood.LIKELIHOOD_LEVEL,
             "threshold": optimum.threshold / optimum.unit,
             "held_out_by": hold_out or "",
             "spread_known": int(optimum.spread_known),
@@ -164,12 +164,9 @@ def fit_area_term(
 _Columns = dict[str, tuple[Any, ...]]
 
 
-def _at_points(
-    measured: MeasuredFriction, predicted: Predicted, optimum: fit.FittedLaw
-) -> _Columns:
-    """Return hysteresis, area term and friction at the measured points, with errors by the fit."""
+def _at_points(measured: MeasuredFriction, predicted: Predicted, optimum: FittedLaw) -> _Columns:
     at, there = "measurement", predicted.has_answer
-    area_term = predicted.area_term(optimum.law, measured.speed)
+    area_term = predicted.area_term(optimum.problem.law(optimum.theta), measured.speed)
     friction = predicted.friction + area_term
     apart = friction - measured.friction
     # the root of the diagonal of the hat matrix
@@ -183,9 +180,7 @@ def _at_points(
     width[there] = optimum.quantile * np.hypot(error[there], scatter)
     text = "half of its interval by the fit"
     beyond = "share of it that rests on the rubber outside the measured frequencies"
-    status, words = (
-        np.array(texts, dtype=object) for texts in (predicted.status, predicted.status_word)
-    )
+    status, words = np.array([predicted.status, predicted.status_word], dtype=object)
     return {
         "nominal_pressure": (at, predicted.pressure, "nominal pressure of the prediction", "Pa"),
         "contact_temperature": (at, predicted.temperature, "temperature in the contact", "K"),
@@ -203,8 +198,7 @@ def _at_points(
     }
 
 
-def _of_parameters(optimum: fit.FittedLaw, ends: tuple[tuple[float, float], ...]) -> _Columns:
-    """Return estimates of the free parameters, their intervals and correlation."""
+def _of_parameters(optimum: FittedLaw, ends: tuple[tuple[float, float], ...]) -> _Columns:
     each, free = "parameter", optimum.problem.free
     covariance = optimum.unit * optimum.covariance
     errors = np.sqrt(np.diag(covariance))
@@ -226,15 +220,14 @@ def _of_parameters(optimum: fit.FittedLaw, ends: tuple[tuple[float, float], ...]
     }
 
 
-def _notes(optimum: fit.FittedLaw, predicted: Predicted) -> Iterator[str]:
-    """Yield a sentence on each thing to know before the numbers are used."""
+def _notes(optimum: FittedLaw, predicted: Predicted) -> Iterator[str]:
     points = optimum.problem.points
     if not optimum.spread_known:
         yield (
             f"No spread is stated: the scatter of the residuals, {optimum.scatter:.2g}, "
             "takes its place, whatever its cause."
         )
-    elif optimum.chance < UNLIKELY:
+    elif scipy.special.chdtrc(optimum.freedom, optimum.sum_of_squares) < UNLIKELY:
         yield (
             f"The residuals are {optimum.scatter:.2g} times the stated spread: law, hysteresis "
             "or spread is wrong, and the intervals are too narrow."

@@ -8,11 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
-import scipy
 
 from gripscale.conditions.area_term import SHEAR_STRESSES, InterfacialShearStress
 from gripscale.core import ZERO_CELSIUS, Array, InputError, Mask, checks
@@ -40,11 +38,6 @@ class Points:
         """Largest less smallest temperature in the contact [K]; zero where it is not known."""
         return 0.0 if self.temperature is None else float(np.ptp(self.temperature))
 
-    @property
-    def stress(self) -> Array:
-        """The shear stress each point asks for by itself [Pa]."""
-        return self.difference / self.leverage
-
     def only(self, chosen: Mask) -> Points:
         """Return some of the points."""
         kept: dict[str, Any] = {k: None if v is None else v[chosen] for k, v in vars(self).items()}
@@ -52,11 +45,7 @@ class Points:
 
 
 def points_of(measured: MeasuredFriction, predicted: Predicted) -> Points:
-    """Return the points that have an answer, in the order of the measurement.
-
-    Raises `InputError` for points that do not fit the measurement or cannot all be weighed alike,
-    and if the hysteresis alone exceeds what was measured at more than half of them.
-    """
+    """Return the points that have an answer; `InputError` as `fit_area_term` says."""
     predicted.require_points_of(measured)
     answered = predicted.has_answer
     if not answered.any():
@@ -92,7 +81,6 @@ def refuse_unfit(measured: MeasuredFriction, kind: str, fixed: Mapping[str, floa
 
 
 def _spread(spread: Array) -> Array | None:
-    """Return the spreads of points if known; else as `_all_or_none`."""
     if (spread == 0.0).any():
         raise InputError(
             "spread must be above zero to weigh a point; got 0: leave it empty if unknown"
@@ -101,7 +89,7 @@ def _spread(spread: Array) -> Array | None:
 
 
 def _all_or_none(name: str, values: Array) -> Array | None:
-    """Return values known of all points, None if of none; else raise `InputError`."""
+    """Return values of all points, None where none is known; else raise `InputError`."""
     missing = np.isnan(values)
     if missing.any() and not missing.all():
         raise InputError(
@@ -112,29 +100,24 @@ def _all_or_none(name: str, values: Array) -> Array | None:
 
 
 class ParameterWords(NamedTuple):
-    """A parameter of a law: in words, and its kind of quantity, if it has one."""
+    """A parameter of a law in words; its kind of quantity and its unit, if it has one."""
 
     words: str
     kind: str = ""
-
-    @property
-    def unit(self) -> str:
-        """Unit of the law; empty for a plain number."""
-        return _LAW_UNITS.get(self.kind, "")
+    unit: str = ""
 
 
 # The parameters of the laws; the reference temperature is held, never fitted.
 PARAMETERS = {
-    "stress_0": ParameterWords("shear stress τ_0", "pressure"),
+    "stress_0": ParameterWords("shear stress τ_0", "pressure", "Pa"),
     "width": ParameterWords("width factor c"),
-    "speed_0": ParameterWords("speed v_0 of the largest stress", "speed"),
-    "activation_energy": ParameterWords("activation energy", "bond energy"),
-    "reference_temperature": ParameterWords("", "temperature"),
+    "speed_0": ParameterWords("speed v_0 of the largest stress", "speed", "m/s"),
+    "activation_energy": ParameterWords("activation energy", "bond energy", "eV"),
+    "reference_temperature": ParameterWords("", "temperature", "K"),
     "ratio": ParameterWords("gain of stress at high speed"),
-    "critical_speed": ParameterWords("critical speed v_c", "speed"),
+    "critical_speed": ParameterWords("critical speed v_c", "speed", "m/s"),
     "exponent": ParameterWords("exponent n of the speed"),
 }
-_LAW_UNITS = {"pressure": "Pa", "speed": "m/s", "bond energy": "eV", "temperature": "K"}
 # How a number in a unit of the law is written, if not in this unit.
 WRITTEN = {"Pa": DisplayUnit("MPa", MEGA), "K": DisplayUnit("C", zero=ZERO_CELSIUS)}
 
@@ -260,10 +243,7 @@ class CalibrationProblem:
 
 
 def check_names(kind: str, fixed: Iterable[str]) -> list[str]:
-    """Return the names of the parameters of a law.
-
-    Raises `InputError` unless the law can be fitted, and names of what is fixed belong to it.
-    """
+    """Return the names of the parameters of a law; `InputError` if it cannot be fitted so."""
     checks.one_of("law", kind, KINDS)
     names = [f.name for f in fields(SHEAR_STRESSES[kind]) if f.name in PARAMETERS]
     checks.allowed_names("parameter", fixed, names)
@@ -273,10 +253,9 @@ def check_names(kind: str, fixed: Iterable[str]) -> list[str]:
 def problem_of(kind: str, points: Points, fixed: Mapping[str, float]) -> CalibrationProblem:
     """Return the law of a kind to be fitted to points, with what is fixed held and all else free.
 
-    An activation energy is free only where temperatures differ; without one the law has none. Its
-    reference temperature is held: by default the median of the temperatures, a whole number of
-    degrees Celsius. Raises `InputError` for names and values that cannot be held, and for fewer
-    points than parameters.
+    An activation energy is free only where temperatures differ. Its reference temperature is held:
+    by default the median of the temperatures, a whole number of degrees Celsius. Raises
+    `InputError` for names and values that cannot be held, and for fewer points than parameters.
     """
     names, every = check_names(kind, fixed), parameters_of(points)
     held: dict[str, Any] = {name: checks.number(name, value) for name, value in fixed.items()}
@@ -311,7 +290,7 @@ def problem_of(kind: str, points: Points, fixed: Mapping[str, float]) -> Calibra
 
 def parameters_of(points: Points) -> dict[str, Parameter]:
     """Return every parameter of the laws by its name, with limits and starts that suit points."""
-    largest = float(np.abs(points.stress).max()) or 1.0
+    largest = float(np.abs(points.difference / points.leverage).max()) or 1.0
     slow, fast = float(points.speed.min()), float(points.speed.max())
     speed = (1e-8 * slow, 1e8 * fast, np.geomspace(0.1 * slow, 10.0 * fast, 7).tolist())
     every = (
@@ -324,101 +303,3 @@ def parameters_of(points: Points) -> dict[str, Parameter]:
         Parameter("exponent", 0.02, 20.0, (0.3, 1.0, 3.0)),
     )
     return {parameter.name: parameter for parameter in every}
-
-
-LIKELIHOOD_LEVEL = 0.9  # share of measurements like this one whose interval holds the true value
-BEST_STARTS = 3  # starts, of all that are tried, from which the search goes on to its end
-_TOLERANCE = 1e-8
-
-
-@dataclass(frozen=True, eq=False)
-class FittedLaw:
-    """The least sum of squares that was found."""
-
-    problem: CalibrationProblem
-    theta: Array  # numbers of the free parameters, as the search works with them
-    sum_of_squares: float
-    jacobian: Array  # of the residuals by them, shape (points, free parameters)
-
-    @property
-    def law(self) -> InterfacialShearStress:
-        """The law with the best parameters."""
-        return self.problem.law(self.theta)
-
-    @property
-    def freedom(self) -> int:
-        """Degrees of freedom: points less parameters."""
-        return self.problem.points.speed.size - len(self.problem.free)
-
-    @property
-    def spread_known(self) -> bool:
-        """Whether the spread was stated, and not taken from the residuals."""
-        return self.problem.points.spread is not None
-
-    @property
-    def scatter(self) -> float:
-        """Root of the sum of squares over the degrees of freedom.
-
-        In units of the spread where it is stated, else the spread the residuals imply [-].
-        """
-        return math.sqrt(self.sum_of_squares / self.freedom)
-
-    @property
-    def unit(self) -> float:
-        """Sum of squares that one standard error adds."""
-        return 1.0 if self.spread_known else self.scatter**2
-
-    @property
-    def chance(self) -> float:
-        """Probability of a sum of squares so large if law, hysteresis and spreads were right."""
-        return float(scipy.special.chdtrc(self.freedom, self.sum_of_squares))
-
-    @property
-    def quantile(self) -> float:
-        """Half width of an interval at `LIKELIHOOD_LEVEL` over a standard error."""
-        tail = 0.5 * (1.0 + LIKELIHOOD_LEVEL)
-        if self.spread_known:
-            return float(scipy.special.ndtri(tail))
-        return float(scipy.special.stdtrit(self.freedom, tail))
-
-    @property
-    def covariance(self) -> Array:
-        """(J^T J)^-1; directions without any influence count as hardly having one."""
-        _, sizes, rows = np.linalg.svd(self.jacobian, full_matrices=False)
-        least = np.finfo(float).eps * max(float(sizes.max()), np.finfo(float).tiny)
-        scaled = rows / np.maximum(sizes, least)[:, None]
-        return np.asarray(scaled.T @ scaled)
-
-    @property
-    def threshold(self) -> float:
-        """Excess that ends an interval, with spreads stated or taken from the residuals."""
-        if self.spread_known:
-            return float(scipy.special.chdtri(1, 1.0 - LIKELIHOOD_LEVEL))
-        ratio = float(scipy.special.fdtri(1, self.freedom, LIKELIHOOD_LEVEL))
-        return ratio * self.sum_of_squares / float(self.freedom)
-
-
-def best(problem: CalibrationProblem) -> FittedLaw:
-    """Return the least sum of squares over a grid of starts."""
-    grid = product(*([each.scaled(value) for value in each.starts] for each in problem.free))
-    starts = [problem.with_best_stress(np.array(theta)) for theta in grid]
-    starts.sort(key=problem.sum_of_squares)
-    optima = [refined(problem, start) for start in starts[:BEST_STARTS]]
-    return min(optima, key=lambda optimum: optimum.sum_of_squares)
-
-
-def refined(problem: CalibrationProblem, start: Array) -> FittedLaw:
-    """Return the least sum of squares near `start`."""
-    if not problem.free:
-        none = np.empty((problem.points.speed.size, 0))
-        return FittedLaw(problem, start, problem.sum_of_squares(start), none)
-    low, high = np.array([parameter.limits for parameter in problem.free]).T
-    solution = scipy.optimize.least_squares(
-        problem.residuals,
-        np.clip(start, low, high),
-        bounds=(low, high),
-        xtol=_TOLERANCE,
-        ftol=_TOLERANCE,
-        gtol=_TOLERANCE,
-    )
-    return FittedLaw(problem, solution.x, 2.0 * float(solution.cost), np.asarray(solution.jac))

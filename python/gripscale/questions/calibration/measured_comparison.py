@@ -76,12 +76,7 @@ class Predicted(Checked, eq=False):
             self._set(status=[CONVERGED] * size)
         if self.status_word is None:
             self._set(status_word=[models.word_of(text) for text in self.status])
-        sizes = {name: len(getattr(self, name)) for name in ("pressure", *vars(self))}
-        if len(set(sizes.values())) > 1:
-            counts = ", ".join(f"{count} of {name}" for name, count in sizes.items())
-            raise InputError(
-                f"a prediction needs equally many values of each quantity; got {counts}"
-            )
+        checks.same_length(0, **{name: np.asarray(values) for name, values in vars(self).items()})
 
     def require_points_of(self, measured: MeasuredFriction, name: str = "predicted") -> None:
         """Raise `InputError` unless it has the number and the pressures of the points measured."""
@@ -137,19 +132,16 @@ def averaged(parts: Sequence[Predicted]) -> Predicted:
         raise InputError("parts must be predicted at the same pressures; got others")
     area = np.array([part.contact_fraction for part in parts])
     kelvin = np.array([part.temperature for part in parts])
-    # of each point the first sample without an answer
-    first = [
-        next((part for part in parts if part.status[point] != CONVERGED), parts[0])
-        for point in range(pressure.size)
-    ]
+    failed = np.array([part.status for part in parts]) != CONVERGED
+    first = failed.argmax(axis=0)  # of each point, the first sample without an answer
     return Predicted(
         np.mean([part.friction for part in parts], axis=0),
         area.mean(axis=0),
         pressure,
         (area * kelvin).sum(axis=0) / area.sum(axis=0),
         np.mean([part.outside_band for part in parts], axis=0),
-        [part.status[point] for point, part in enumerate(first)],
-        [part.status_word[point] for point, part in enumerate(first)],
+        [parts[sample].status[point] for point, sample in enumerate(first)],
+        [parts[sample].status_word[point] for point, sample in enumerate(first)],
     )
 
 
@@ -185,22 +177,22 @@ def measured_design(
     warming = np.zeros(measured.speed.size) if warming_stress is None else warming_stress
     pressure = np.where(np.isnan(measured.pressure), load.pressure, measured.pressure)
     made = MeasuredRubber(rubber, "") if isinstance(rubber, Rubber) else rubber
-    case = (model.conditions or Conditions()).temperature_of(made.rubber)
+    usual = model.conditions or Conditions()
+    case = usual.temperature_of(made.rubber)
     kelvin = np.where(
         np.isnan(measured.temperature), math.nan if case is None else case, measured.temperature
     )
+    rows = zip(pressure, measured.speed, kelvin, warming, strict=True)
     points = []
-    for at, (p, v, t) in enumerate(zip(pressure, measured.speed, kelvin, strict=True), start=1):
+    for at, (p, v, t, heating) in enumerate(rows, start=1):
         point_load = replace(load, pressure=float(p), speed=float(v))
         temperature = None if math.isnan(t) else float(t)
         other = temperature is not None and temperature != case
         at_kelvin = Conditions(temperature=temperature)
         met = fitted_for_load(made, surface, point_load, at_kelvin).rubber
         if model.takes_conditions:
-            law = ConstantStress(float(warming[at - 1])) if warming[at - 1] > 0.0 else None
-            conditions = replace(
-                model.conditions or Conditions(), shear_stress=TemperatureProbe(law)
-            )
+            law = ConstantStress(float(heating)) if heating > 0.0 else None
+            conditions = replace(usual, shear_stress=TemperatureProbe(law))
             if other:
                 conditions = replace(conditions, temperature=temperature)
             task = Task(met, surface, point_load, model.with_conditions(conditions))

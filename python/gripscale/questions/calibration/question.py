@@ -42,7 +42,7 @@ from gripscale.questions.answer.calibrated import Contact
 from gripscale.questions.answer.findings import case_notices
 from gripscale.questions.calibration import calibration_law as laws
 from gripscale.questions.calibration.area_term_fit import Estimate, estimates_of, fit_area_term
-from gripscale.questions.calibration.calibration_law import LIKELIHOOD_LEVEL, PARAMETERS, written
+from gripscale.questions.calibration.calibration_law import PARAMETERS, written
 from gripscale.questions.calibration.measured_comparison import (
     Predicted,
     answers_at,
@@ -159,7 +159,6 @@ class Calibration(Result):
         return Table("parameters", columns, "Parameters of the law", bad=bad)
 
     def _misfit_table(self) -> Table:
-        """Return the fitted friction beside the measured one, point by point."""
         names = ["hysteresis", "area_term", "friction", "difference", "difference_in_spread"]
         data, model = self.data, [str(self.data.attrs.get("model", "fit"))]
         table = data[[*names, *(f"measured_{name}" for name in MEASURED)]]
@@ -168,20 +167,19 @@ class Calibration(Result):
         return residual_table(table.assign(rms))
 
     def _held_out_table(self) -> Table:
-        """Return the errors of the law at each group of points, fitted to the others."""
         data = self.data
         by_temperature = data.attrs["held_out_by"] == "temperature"
         names = [
             celsius(value, ".0f") if by_temperature else f"{value:g} to {10.0 * value:g} m/s"
             for value in data.left_out.values
         ]
-        columns = [Column("left_out", names, "left out")]
-        for name, form in (
-            ("points", "{:.0f}".format),
-            *((f"rms_{name}", digits(2)) for name in ("inside", "outside", "outside_in_spread")),
-        ):
-            columns.append(Column(name, data[name].values, name.replace("_", " "), format=form))
-        columns.append(Column("why_not", data.why_not.values, "why not"))
+        errors = ("rms_inside", "rms_outside", "rms_outside_in_spread")
+        columns = [
+            Column("left_out", names, "left out"),
+            Column("points", data.points.values, format="{:.0f}".format),
+            *(Column(e, data[e].values, e.replace("_", " "), format=digits(2)) for e in errors),
+            Column("why_not", data.why_not.values, "why not"),
+        ]
         return Table("held-out", columns, "The law at points that were left out")
 
     def pictures(self) -> Iterator[Picture]:
@@ -210,20 +208,17 @@ def residual_table(data: xr.Dataset) -> Table:
     ]
     points = [column for column in points if np.isfinite(column.values).any()]
     columns, notes = [column.of(column.values, group="measured") for column in points], []
+    numbers = {"friction": ("μ", fixed(3)), "difference": ("Δμ", fixed(3, "+"))}
+    if "area_term" in data:
+        numbers = {"hysteresis": ("μ hyst.", fixed(3)), **numbers}
+    if spread:
+        numbers["difference_in_spread"] = "Δμ / spread", fixed(1, "+")
     for name in data.model.values.tolist():
         model = data.sel(model=name).transpose("measurement", ...)
         group = str(name).replace("_", " ")
-        parts = [
-            Column("hysteresis", heading="μ hyst.", format=fixed(3)),
-            Column("friction", heading="μ", format=fixed(3)),
-            Column("difference", heading="Δμ", format=fixed(3, "+")),
-            Column("difference_in_spread", heading="Δμ / spread", format=fixed(1, "+")),
-        ]
-        wanted = {"hysteresis": "area_term" in data, "difference_in_spread": spread}
         columns += [
-            part.of(model[part.name].values, name=f"{name}_{part.name}", group=group)
-            for part in parts
-            if wanted.get(part.name, True)
+            Column(f"{name}_{number}", model[number].values, head, group=group, format=form)
+            for number, (head, form) in numbers.items()
         ]
         rms = f"{float(model.rms_difference):.3f}"
         if spread:
@@ -240,8 +235,8 @@ def shear_stress_table(result: Calibration) -> str:
     source = Path(result.data.attrs["measured_source"]).name or "a measurement"
     lines = [
         f"# Fitted to {int(result.data.area_term.count())} points of {source};",
-        f"# intervals of {LIKELIHOOD_LEVEL:.0%} by profile likelihood, for this rubber on this "
-        "surface.",
+        f"# intervals of {result.data.attrs['level']:.0%} by profile likelihood, for this rubber "
+        "on this surface.",
         "[conditions.shear_stress]",
         f'kind = "{law.pop("kind")}"',
     ]

@@ -29,7 +29,6 @@ SYMBOL_TEXTS = {"friction": "$\\mu$", "contact_fraction": "$A_r/A_0$"}
 AS_STATED = "model, inputs as stated"  # what figures call the case itself, without anything drawn
 MOST_BINS = 24
 MEDIAN, END = 1.6, 0.9  # widths of the lines at median and ends
-_FEWEST_SAMPLES = 2  # samples there must be for a distribution
 
 
 def axis_of(data: xr.Dataset) -> str:
@@ -125,7 +124,7 @@ def _distribution(
     colour: str,
     answer: tuple[float, float, float],
 ) -> Iterator[Mark]:
-    if values.size < _FEWEST_SAMPLES:
+    if values.size < 2:
         return
     counts, edges = np.histogram(values, min(MOST_BINS, 1 + values.size // 6))
     yield Bars(edges[:-1], edges[1:], 0.0, counts, colour, alpha=0.45)

@@ -101,7 +101,6 @@ def uncertainty_command(
     work.open_results(output, "uncertainty", f"Uncertainty of {work.file.path}")
 
     def print_answer(answer: xr.Dataset) -> None:
-        """Print the answer without the errors of the inputs, while samples are solved."""
         lead, *_ = answer_lines(answer)
         number = lead.removeprefix("Answer: ")
         lines = ["", f"Without the errors of the inputs: {number}", "Solving the samples ..."]

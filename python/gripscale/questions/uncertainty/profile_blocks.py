@@ -1,14 +1,8 @@
 """Blocks of the measured profiles: another stretch of the same road might have been measured.
 
-A block bootstrap (H. R. Kunsch, Ann. Stat. 17 (1989) 1217, doi:10.1214/aos/1176347265): blocks are
-several largest waves long, so nearly independent, and drawn with replacement. Of n blocks n - 1 are
-drawn, as the variance over n drawn ones is too small by (n - 1)/n (J. N. K. Rao & C. F. J. Wu, J.
-Am. Stat. Assoc. 83 (1988) 231, doi:10.1080/01621459.1988.10478591). The sums over pairs of their
-correlation C_z are added up. For the direct contact they become new profiles, joined by
-
-    z = cos(u) z_1 + sin(u) z_2,    u from 0 to pi/2 over half the largest wave,
-
-so that unrelated heights keep their variance, and no step appears that was not measured.
+A block bootstrap (H. R. Kunsch, Ann. Stat. 17 (1989) 1217, doi:10.1214/aos/1176347265): of n blocks
+n - 1 are drawn with replacement. The sums over pairs of their correlation C_z are added up. For the
+direct contact they become new profiles, joined over half the largest wave: docs/derivations.md.
 """
 
 from __future__ import annotations

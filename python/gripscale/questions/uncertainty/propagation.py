@@ -43,10 +43,10 @@ from gripscale.uncertainty_options import FEWEST_SAMPLES, MOST_SAMPLES, MOST_SEE
 OnAnswer = Callable[[xr.Dataset], None]
 LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)  # quantiles of the samples that a result holds
 
-# What each sample answers: its letters and its name.
+# What each sample answers, and its meaning.
 PROPAGATED_QUANTITIES = {
-    "friction": ("mu", "friction coefficient"),
-    "contact_fraction": ("A_r/A_0", "real over nominal contact area"),
+    "friction": "friction coefficient",
+    "contact_fraction": "real over nominal contact area",
 }
 
 
@@ -63,7 +63,7 @@ def quantiles(values: xr.DataArray) -> xr.DataArray:
 
 
 # What is kept of each sample, and its meaning.
-_NUMBERS = {name: text for name, (_, text) in PROPAGATED_QUANTITIES.items()} | {
+_NUMBERS = PROPAGATED_QUANTITIES | {
     "friction_from_dissipation": model.TOTALS["total_friction_from_dissipation"],
     "adhesive_friction": "friction coefficient of the area term",
     "outside_band": model.OUTSIDE_BAND[model.FRICTION_OUTSIDE_BAND][1],
@@ -76,7 +76,7 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
     `solved` holds the `sample_numbers`. A sample of the direct contact has the error of its grid in
     it that was drawn.
     """
-    sources, logarithms = drawn.chosen.sources, drawn.logarithms
+    sources, logarithms = drawn.sources, drawn.logarithms
     data: dict[str, xr.DataArray] = {}
 
     def add(name: str, values: xr.DataArray, long_name: str, unit: str = "1") -> None:
@@ -84,7 +84,6 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
         data[name] = values.drop_attrs(deep=False).assign_attrs(units=unit, long_name=long_name)
 
     def known_shares(values: Array) -> Shares:
-        """Return shares and their errors, NaN where the samples cannot tell."""
         nothing = np.full(len(sources), np.nan)
         return shares(values, logarithms) or Shares(nothing, nothing)
 
@@ -102,7 +101,7 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
         add(f"{name}_case", usable(case, name), f"{text} of the case itself")
     is_direct = solved["model"] == DirectContact.name
     in_error = drawn.coordinates.get(GRID_PLACE, xr.Variable((), 0.0))
-    for name, (_, text) in PROPAGATED_QUANTITIES.items():
+    for name, text in PROPAGATED_QUANTITIES.items():
         error = (usable(samples, f"{name}_error") / abs(data[name])).where(is_direct)
         about = f"estimated relative error of the grid of a direct contact, {text}"
         add(f"{name}_grid_error", error, about)
@@ -120,22 +119,18 @@ def uncertainty_dataset(solved: xr.Dataset, drawn: SampleSet) -> xr.Dataset:
         add(f"{name}_share", share, about)
         add(f"{name}_share_error", share_error, "standard error of the share")
     labels = [source.label for source in sources]
-    return xr.Dataset(
-        data,
-        {
-            "quantile": ("quantile", list(LEVELS), designs.variable_attributes("share below")),
-            "source": ("source", list(logarithms), {"long_name": "source"}),
-            "label": ("source", labels, {"long_name": "source in words"}),
-            **drawn.coordinates,
-        },
-        {
-            "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
-            "left_out": json.dumps(drawn.chosen.left_out),
-        },
-    )
+    coordinates = {
+        "quantile": ("quantile", list(LEVELS), designs.variable_attributes("share below")),
+        "source": ("source", list(logarithms), {"long_name": "source"}),
+        "label": ("source", labels, {"long_name": "source in words"}),
+    }
+    attributes = {
+        "title": "Uncertainty of real contact area and friction of rubber on a rough surface",
+        "left_out": json.dumps(drawn.left_out),
+    }
+    return xr.Dataset(data, coordinates | drawn.coordinates, attributes)
 
 
-_RESULT = "uncertainty.nc"  # in the folder of the samples
 # Inputs that may be varied beside the samples: those of the load, the same samples at each.
 SAMPLED_OVER = ("speed", "pressure")
 
@@ -159,7 +154,8 @@ class Plan(Checked):
         chosen = {name: asked.pop(name, None) for name in ("without", "ranges", "block_length")}
         stating: Mapping[str, Any] = case.options.get("uncertainty", {})
         choice = Uncertainty.of_case(stating, **chosen)
-        options = {"samples": SAMPLES, "seed": 0, **stating, **asked}
+        usual = {"samples": SAMPLES, "seed": 0, "tolerance": None}
+        options: dict[str, Any] = {**usual, **stating, **asked}
         models = asked.get("models")
         named = stated_models(case, choice) if models is None else models
         named = [named] if isinstance(named, str) else list(named)
@@ -172,15 +168,9 @@ class Plan(Checked):
         if len(axes) > 1 or any(axis.name not in SAMPLED_OVER for axis in axes):
             names = ", ".join(axis.name for axis in axes)
             raise InputError(f"uncertainty varies one of {', '.join(SAMPLED_OVER)}; got {names}")
-        return cls(
-            case,
-            choice,
-            options["samples"],
-            options["seed"],
-            tuple(name for name in BOTH["both"] if name in named),
-            axes,
-            options.get("tolerance"),
-        )
+        numbers = {name: options[name] for name in ("samples", "seed", "tolerance")}
+        in_order = tuple(name for name in BOTH["both"] if name in named)
+        return cls(case=case, uncertainty=choice, models=in_order, axes=axes, **numbers)
 
     @property
     def loads(self) -> dict[str, Load]:
@@ -251,14 +241,14 @@ def propagate(
     with bench_in(folder, workers, client, on_task) as bench, warnings.catch_warnings():
         warnings.simplefilter("ignore", RubberWarning)  # drawn rubbers are not made by hand
         samples = sampling.draws(Inputs.of(case), chosen.sources, plan.samples, plan.seed)
-        data = solve_samples(plan, SampleSet(chosen, list(samples)), bench, on_answer)
+        data = solve_samples(plan, replace(chosen, samples=list(samples)), bench, on_answer)
     if folder is None:
         return data
-    return netcdf.load_dataset(netcdf.save(data, Path(folder) / _RESULT))
+    return netcdf.load_dataset(netcdf.save(data, Path(folder) / "uncertainty.nc"))
 
 
 def solve_samples(
-    plan: Plan, drawn: SampleSet, bench: Bench, on_answer: OnAnswer | None = None
+    plan: Plan, drawn: SampleSet, bench: Bench, on_answer: OnAnswer | None
 ) -> xr.Dataset:
     """Return all samples of a plan, and the answer of its case at each load."""
     case, loads = plan.case, list(plan.loads.values())

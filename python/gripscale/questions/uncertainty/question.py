@@ -39,8 +39,6 @@ from gripscale.questions.uncertainty.variance_shares import SIGNIFICANCE
 from gripscale.report.elements import Card
 from gripscale.report.failures import explained, failures_in
 
-# Symbols of the quantities, in their order.
-HEADS = {name: SYMBOLS[name] for name in PROPAGATED_QUANTITIES}
 # Share of the samples of a model without an answer up to which the others stand for all.
 MOST_FAILED = 0.25
 
@@ -98,16 +96,15 @@ class SampledAnswer(NumbersWithIntervals):
                     yield table
 
     def _quantile_table(self) -> Table:
-        """Return the quantiles of friction and contact fraction of each model and load."""
         rows = []
         for model in self.data.model.values:
             for label, part in view.points(self.data.sel(model=model)):
                 title = f"{model}{f', {label}' if label else ''}"
-                rows += [(title, part, name) for name in HEADS]
+                rows += [(title, part, name) for name in PROPAGATED_QUANTITIES]
         quantiles = np.array([part[f"{name}_quantile"].values for _, part, name in rows])
         columns = [
             Column("model", [title for title, _, _ in rows]),
-            Column("quantity", [HEADS[name] for _, _, name in rows]),
+            Column("quantity", [SYMBOLS[name] for _, _, name in rows]),
             Column("case", [float(part[f"{name}_case"]) for _, part, name in rows], "the case"),
             *(
                 Column(f"quantile_{level:g}", quantiles[:, at], f"{level:.0%}")
@@ -123,7 +120,6 @@ class SampledAnswer(NumbersWithIntervals):
 
 
 def _interval_sentence(data: xr.Dataset) -> str:
-    """Return what the interval of an answer holds."""
     count = data.sizes["sample"]
     if not is_measured(data):
         return (
@@ -142,8 +138,7 @@ def _interval_sentence(data: xr.Dataset) -> str:
 
 
 def _part_table(part: xr.Dataset, title: str) -> Table:
-    """Return the parts of the interval of an answer: standard errors and shares of variance."""
-    names = list(HEADS) if is_moving(part) else ["contact_fraction"]
+    names = list(PROPAGATED_QUANTITIES) if is_moving(part) else ["contact_fraction"]
     ranked = np.argsort(-part[f"answer_{names[0]}_part_error"].values, kind="stable")
     part = part.isel(part=ranked)
     labels = part.part_label.values.tolist()
@@ -152,7 +147,7 @@ def _part_table(part: xr.Dataset, title: str) -> Table:
         sigma = part[f"answer_{name}_part_error"].values
         share = sigma**2 / float(part[f"answer_{of_hysteresis(part, name)}_uncertainty"]) ** 2
         of_sum = of_hysteresis(part, name) != name
-        group = f"{HEADS[name]} of hysteresis" if of_sum else HEADS[name]
+        group = f"{SYMBOLS[name]} of hysteresis" if of_sum else SYMBOLS[name]
         columns += [
             Column(f"{name}_error", sigma, "±", group=group, format=percent),
             Column(f"{name}_share", share, "share", group=group, format="{:.0%}".format),

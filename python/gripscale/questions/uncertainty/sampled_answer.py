@@ -1,15 +1,7 @@
 """The answer of a case with what is not known of its inputs, and the parts of its interval.
 
-The number is that of `gripscale run`; the samples widen its interval. With y_0 of the case itself
-and y_s of sample s, all on the same grid,
-
-    s_samples^2 = mean (ln y_s - ln y_0)^2,
-    s^2 = s_samples^2 + s_grid^2 + sum over factors s_f^2 (+ s_road^2),
-
-where drawn blocks of the profiles are the sampling of the road: with them s_road is in s_samples.
-Source k has the part S_k var(ln y_s) of s_samples^2 (`variance_shares`); the rest is one more part.
-Degrees of freedom are those of the samples; of drawn blocks, and of the part that may be theirs,
-blocks less one. See docs/uncertainty.md.
+The number is that of `gripscale run`; the samples widen its interval, as docs/derivations.md says.
+Drawn blocks of the profiles are the sampling of the road, which then counts among the samples.
 """
 
 from __future__ import annotations
@@ -44,7 +36,7 @@ from gripscale.questions.answer.variables import (
     of_hysteresis,
 )
 from gripscale.questions.uncertainty.sampling import SampleSet
-from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES
+from gripscale.questions.uncertainty.sources import GRID_PLACE, SOURCES, BlockDraw
 from gripscale.questions.uncertainty.variance_shares import shares
 
 # End of the name of the half width without errors of the inputs, as `gripscale run` states it.
@@ -87,10 +79,10 @@ def sampled_error(
         variance = dict(zip(logarithms, (explained * scatter).tolist(), strict=True))
         share_error = dict(zip(logarithms, (fit.error * scatter).tolist(), strict=True))
     variance[REST] = max(square - sum(variance.values()), 0.0)
+    limits = {REST: min(freedom.values(), default=math.inf), **freedom}
     by_freedom: dict[float, float] = {}
-    of_rest = min(freedom.values(), default=math.inf)
     for name, part in variance.items():
-        count = min(freedom.get(name, of_rest if name == REST else math.inf), logs.size - 1.0)
+        count = min(limits.get(name, math.inf), logs.size - 1.0)
         by_freedom[count] = by_freedom.get(count, 0.0) + part
     errors = [
         LogError(xr.DataArray(math.sqrt(part)), xr.DataArray(count))
@@ -119,10 +111,10 @@ def measured_answer(
     errors, of_road = {}, False
     if drawn is not None and direct is not None and int(direct.contact_fraction.count()) > 1:
         # the grid of the answer is finer than that of the samples, and counts by itself
-        ours = [s for s in drawn.chosen.sources if DIRECT in s.models and s.name != GRID]
+        ours = [s for s in drawn.sources if DIRECT in s.models and s.name != GRID]
         of_road = any(source.name == ROAD for source in ours)
         logarithms = {source.name: drawn.logarithms[source.name] for source in ours}
-        freedom = {s.name: s.freedom for s in ours if s.freedom is not None}
+        freedom = {s.name: s.draw.freedom for s in ours if isinstance(s.draw, BlockDraw)}
         for name, measure in ESTIMATED.items():
             values = direct[measure]
             if GRID_PLACE in direct and f"{measure}_grid_error" in direct:
@@ -168,30 +160,26 @@ def chain_answer(chain: xr.Dataset, case: Case, load: Load, drawn: SampleSet) ->
 def _with_parts(
     total: xr.Dataset, of_run: xr.Dataset, sampled: Mapping[str, SampledError], *, of_road: bool
 ) -> xr.Dataset:
-    """Return an answer with what `run` says, and with the parts of its interval.
-
-    Of each part the standard error, and that of its share in the variance; NaN where not known.
-    """
-    parts: dict[str, dict[str, tuple[float, float]]] = {}
-    for name in ESTIMATED:
+    # of each part the standard error, and that of its share in the variance; NaN if not known
+    parts: dict[str, dict[str, tuple[float, float]]] = {name: {} for name in ESTIMATED}
+    for name, of_number in parts.items():
         square = float(total[f"answer_{of_hysteresis(total, name)}_uncertainty"]) ** 2
         of_samples = sampled.get(name, SampledError([], {}, {}))
         rest = NOT_ALONE if len(of_samples.variance) > 1 else TOGETHER
-        parts[name] = {}
         for source, variance in of_samples.variance.items():
             label = rest if source == REST else SOURCES[source].label
             error = of_samples.share_error.get(source, math.nan)
             error = error / square if square > 0.0 else math.nan
-            parts[name][label] = math.sqrt(variance), error
+            of_number[label] = math.sqrt(variance), error
         if not of_road:
             road = float(total[f"answer_{name}_sampling_error"])
-            parts[name][SOURCES[ROAD].label] = road, math.nan
+            of_number[SOURCES[ROAD].label] = road, math.nan
         factors = total[f"answer_{name}_factor_uncertainty"].values
         errors = [total[f"answer_{name}_grid_error"].item(), *factors.tolist()]
         labels = [f"factor: {label}" for label in total.factor_label.values]
         for label, error in zip(["grid of the answer", *labels], errors, strict=True):
             if math.isfinite(error):
-                parts[name][label] = error, math.nan
+                of_number[label] = error, math.nan
     every = list(dict.fromkeys(label for of_number in parts.values() for label in of_number))
     data = {"part_label": xr.Variable("part", np.array(every, dtype=object))}
     for name, of_number in parts.items():
@@ -254,7 +242,6 @@ def next_measurements(answer: xr.Dataset) -> Table | None:
 
 
 def _widths(answer: xr.Dataset, name: str, listed: list[int], share: Array) -> Array:
-    """Return half widths of an interval [-]: as it is, and once each listed part is measured."""
     sigma = answer[f"answer_{name}_part_error"].fillna(0.0).values[listed]
     number = f"answer_{of_hysteresis(answer, name)}"
     total = float(answer[f"{number}_uncertainty"])

@@ -204,6 +204,11 @@ class Range(Checked):
         except InputError as error:
             raise InputError(f"{name}: {error}") from error
 
+    def __contains__(self, value: float) -> bool:
+        if self.between:
+            return self.values[0] <= value <= self.values[1]
+        return value in self.values
+
     def at(self, quantile: float) -> float:
         """Return the value below which a share `quantile` [0 to 1] of all lie."""
         if not self.between:
@@ -229,7 +234,6 @@ def count(text: Any) -> float:
 
 
 def _quantity(text: Any, kind: str, unit: str) -> float:
-    """Return a quantity [SI] above zero; raise `InputError` for what is none."""
     value = si_value(f"a {kind}", plain_number(text), unit, kind)
     return checks.positive(f"a {kind}", value, unit=unit)
 

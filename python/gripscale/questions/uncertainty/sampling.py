@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -23,11 +23,46 @@ from gripscale.questions.uncertainty.sources import (
 )
 
 
-class Chosen(NamedTuple):
-    """The sources that are drawn, and a sentence on each of the others."""
+class SampledInputs(NamedTuple):
+    """One sample: its inputs, or why there are none, and the coordinates of what was drawn."""
+
+    inputs: Inputs | None
+    coordinates: dict[str, float]
+    why_not: str = ""
+
+
+@dataclass(frozen=True)
+class SampleSet:
+    """The sources that are drawn, a sentence on each of the others, and samples of a case."""
 
     sources: list[Source]
     left_out: list[str]
+    samples: Sequence[SampledInputs] = ()
+
+    @cached_property
+    def coordinates(self) -> dict[str, xr.Variable]:
+        """What was drawn, over `sample`."""
+        return {
+            name: xr.Variable(
+                "sample",
+                [each.coordinates[name] for each in self.samples],
+                variable_attributes(number.long_name, number.unit) | {"source": source.name},
+            )
+            for source in self.sources
+            for name, number in source.coordinates.items()
+        }
+
+    @cached_property
+    def logarithms(self) -> dict[str, Array]:
+        """Logarithms of what each source drew, shape (samples, coordinates)."""
+        logarithms = {}
+        for source in self.sources:
+            columns = []
+            for name, number in source.coordinates.items():
+                values = self.coordinates[name].values
+                columns.append(values if number.logarithm else np.log(values))
+            logarithms[source.name] = np.stack(columns, axis=-1)
+        return logarithms
 
 
 # Sources that nobody can give values of, and what they are drawn from.
@@ -96,12 +131,12 @@ class Uncertainty:
         length = options.get("block_length") if block_length is None else block_length
         return cls(tuple(without), merged | now, length)
 
-    def of(self, case: Case, models: Sequence[str]) -> Chosen:
+    def of(self, case: Case, models: Sequence[str]) -> SampleSet:
         """Return the sources of a case that have an effect on one of `models`.
 
         Raises `InputError` if a source that is given has nothing to draw, or none is left.
         """
-        chosen = Chosen([], [])
+        chosen = SampleSet([], [])
         for name, source in SOURCES.items():
             try:
                 if name in self.without:
@@ -110,7 +145,7 @@ class Uncertainty:
                     raise SourceNotApplicable(f"no effect on the model {' or '.join(models)}")
                 values = self.ranges.get(name)
                 options = SourceOptions(name, values, self.block_length, models)
-                chosen.sources.append(source.of(case, options))
+                chosen.sources.append(replace(source, draw=source.prepare(case, options)))
             except SourceNotApplicable as why:
                 if name in self.ranges:
                     raise InputError(f"{name} is given and has nothing to draw: {why}") from None
@@ -120,26 +155,15 @@ class Uncertainty:
         return chosen
 
 
-# Where each sample lies: all sources at once, each spread evenly over its own values.
-#
-# A Latin hypercube (M. D. McKay, R. J. Beckman & W. J. Conover, Technometrics 21 (1979) 239,
-# doi:10.1080/00401706.1979.10489755): of N samples one lies in each N-th of every source. Columns
-# and random numbers are a source's own, by its name, so that leaving out one source changes no draw
-# of the others.
-
-
-class SampledInputs(NamedTuple):
-    """One sample: its inputs, or why there are none, and the coordinates of what was drawn."""
-
-    inputs: Inputs | None
-    coordinates: dict[str, float]
-    why_not: str = ""
-
-
 def draws(
     case: Inputs, sources: Sequence[Source], samples: int, seed: int
 ) -> Iterator[SampledInputs]:
-    """Yield the samples of a case."""
+    """Yield the samples of a case: all sources at once, each spread evenly over its own values.
+
+    A Latin hypercube (M. D. McKay, R. J. Beckman & W. J. Conover, Technometrics 21 (1979) 239,
+    doi:10.1080/00401706.1979.10489755). Columns and random numbers are a source's own, by its name:
+    leaving out one source changes no draw of the others.
+    """
     from scipy.stats.qmc import LatinHypercube  # 0.5 s and 15 MB, which a run need not pay
 
     numbers = {source.name: zlib.crc32(source.name.encode()) for source in sources}
@@ -160,36 +184,3 @@ def draws(
                 why_not = str(error)
             coordinates |= dict(zip(source.coordinates, drawn, strict=True))
         yield SampledInputs(None if why_not else inputs, coordinates, why_not)
-
-
-@dataclass(frozen=True)
-class SampleSet:
-    """Samples of a case with the sources they were drawn from."""
-
-    chosen: Chosen
-    samples: Sequence[SampledInputs]
-
-    @cached_property
-    def coordinates(self) -> dict[str, xr.Variable]:
-        """What was drawn, over `sample`."""
-        return {
-            name: xr.Variable(
-                "sample",
-                [each.coordinates[name] for each in self.samples],
-                variable_attributes(number.long_name, number.unit) | {"source": source.name},
-            )
-            for source in self.chosen.sources
-            for name, number in source.coordinates.items()
-        }
-
-    @cached_property
-    def logarithms(self) -> dict[str, Array]:
-        """Logarithms of what each source drew, shape (samples, coordinates)."""
-        logarithms = {}
-        for source in self.chosen.sources:
-            columns = []
-            for name, number in source.coordinates.items():
-                values = self.coordinates[name].values
-                columns.append(values if number.logarithm else np.log(values))
-            logarithms[source.name] = np.stack(columns, axis=-1)
-        return logarithms

@@ -1,14 +1,8 @@
 """Prony series that a master curve leaves open: scatter of its rows, and what lies beyond its ends.
 
 The series is fitted anew to disturbed equations (randomise, then optimise; J. M. Bardsley, A.
-Solonen, H. Haario & M. Laine, SIAM J. Sci. Comput. 36 (2014) A1895, doi:10.1137/140964023). With
-the rows of `maxwell_fit` in units of the scatter,
-
-    minimise |A z - (b + e)|^2,    z >= 0,
-
-e of the measured rows are residuals of the best series, drawn in blocks as long as errors go
-together, scaled up by the degrees of freedom the fit has taken, and to 2 % where they are less. e
-of the rows that smooth and shrink the spectrum beyond the ends are standard normal.
+Solonen, H. Haario & M. Laine, SIAM J. Sci. Comput. 36 (2014) A1895, doi:10.1137/140964023). What
+disturbs them is in docs/derivations.md.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from statistics import NormalDist
@@ -27,7 +27,6 @@ from gripscale.uncertainty_options import pressure_error
 
 # Sources whose standard error a case must state: nothing in it says how large it is.
 STATED = ("height_noise", "temperature", "pressure")
-NOT_STATED = "standard error not stated"
 NOT_MEASURED, BY_HAND = "no profile was measured", "the waves are stated by hand"
 
 
@@ -61,7 +60,7 @@ class SourceOptions:
     def standard_error(self, quantity: Callable[[Any], float]) -> float:
         """Return the standard error the user states [SI]; raise `InputError` for what is none."""
         if self.values is None:
-            raise SourceNotApplicable(NOT_STATED)
+            raise SourceNotApplicable("standard error not stated")
         try:
             return quantity(self.values)
         except ValueError as wrong:
@@ -95,15 +94,6 @@ class Source:
     # Makes what draws; raises `SourceNotApplicable`, or `InputError` for options of no use.
     prepare: Prepare
     draw: Draw | None = None  # none before the source is that of a case
-
-    @property
-    def freedom(self) -> float | None:
-        """Degrees of freedom of what it draws from; None where nothing limits them."""
-        return self.draw.freedom if isinstance(self.draw, BlockDraw) else None
-
-    def of(self, case: Case, options: SourceOptions) -> Source:
-        """Return the source of a case, as `prepare` makes it."""
-        return replace(self, draw=self.prepare(case, options))
 
 
 class BlockDraw:
@@ -151,13 +141,11 @@ def _number(value_at: Callable[[float], float], applied: Callable[[Inputs, float
 
 
 def _cleaned(lines: Sequence[Profile], case: Case, **changed: Any) -> CleanedProfiles:
-    """Return profiles cleaned as in the case but for what is changed."""
     after = tuple(followed(clean(line, **{**case.cleaning, **changed})[0]) for line in lines)
     return CleanedProfiles(after, case.surface.counted)
 
 
 def _raw(case: Case, on_map: str) -> list[Profile]:
-    """Return the profiles before cleaning; `on_map` says why there are none of a map."""
     measured = case.surface.measured
     if measured is None or not case.cleaning:
         raise SourceNotApplicable(NOT_MEASURED)
@@ -167,7 +155,6 @@ def _raw(case: Case, on_map: str) -> list[Profile]:
 
 
 def _rms_step(lines: Sequence[Profile]) -> float:
-    """Return the rms difference of neighbouring heights [m]."""
     return math.sqrt(float(np.nanmean(np.concatenate([np.diff(line.z) ** 2 for line in lines]))))
 
 
@@ -175,11 +162,7 @@ def _rms_step(lines: Sequence[Profile]) -> float:
     "noise of the heights", rms_step=Coordinate("ln of the rms step over that of the profiles")
 )
 def _height_noise(case: Case, options: SourceOptions) -> Draw:
-    """Draw the noise of the instrument once more, before the profiles are cleaned.
-
-    The measured heights hold one draw of it already, which is not known. A second one of the same
-    size moves the results about as far as the first did.
-    """
+    """Draw the noise of the instrument once more, before the profiles are cleaned."""
     lines = _raw(case, "a map is taken as measured")
     assert case.surface.measured is not None
     size = options.standard_error(quantities.length)
@@ -213,11 +196,7 @@ SPIKE_LEVELS = 8  # limits a range is drawn at: the profiles are cleaned once fo
     smooth_gaps=Coordinate("1 where cubics fill the gaps, 0 for straight lines"),
 )
 def _cleaning(case: Case, options: SourceOptions) -> Draw:
-    """Draw the limit of spikes, and how the gaps they leave are filled.
-
-    Whether the limit holds across gaps is not drawn: that wears away true flanks, a third of the
-    points of a coarse road at low limits, and is a choice of the case.
-    """
+    """Draw the limit of spikes, and how the gaps they leave are filled."""
     raw, usual = _raw(case, "a map is cleaned as the case states"), case.cleaning
     if options.values is None and usual["spikes"] is None:
         raise SourceNotApplicable("the case leaves spikes in")
@@ -247,25 +226,22 @@ def _cleaning(case: Case, options: SourceOptions) -> Draw:
     },
 )
 def _profile(case: Case, options: SourceOptions) -> Draw:
-    """Draw another stretch of the same road."""
     surface, measured = case.surface, case.surface.measured
-    profiles = [] if measured is None else measured.followed
-    if not _fitted(surface) or not profiles:
+    if not _fitted(surface) or measured is None:
         raise SourceNotApplicable(NOT_MEASURED)
-    if "direct" in options.models and measured is not None and measured.map is not None:
+    if "direct" in options.models and measured.map is not None:
         raise InputError(
             "the direct contact of a map has no blocks of profiles to draw; leave out the "
             "source profile (without), or ask for the chain only"
         )
     largest = float(surface.sines.wavelength[0])
-    blocks = ProfileBlocks(profiles, largest, options.block_length, surface.counted)
+    blocks = ProfileBlocks(measured.followed, largest, options.block_length, surface.counted)
     if "direct" in options.models:
         blocks.require_lines()
     return BlockDraw(blocks)
 
 
 def _fitted(surface: Surface) -> bool:
-    """Return whether the waves were fitted to a measured correlation."""
     return surface.correlation is not None and bool(surface.fit)
 
 
@@ -278,14 +254,12 @@ GRID_PLACE = "grid_place"  # coordinate of the source `grid`
     grid_place=Coordinate("error of the grid over its estimate, from -1 to 1"),
 )
 def _grid(case: Case, options: SourceOptions) -> Draw:
-    """Draw where within the estimated error of its grid the answer of a sample lies."""
     if case.surface.measured is None:
         raise SourceNotApplicable(NOT_MEASURED)
     return _number(lambda quantile: 2.0 * quantile - 1.0, lambda inputs, _: inputs)
 
 
 def _log_ratios(rubber: Rubber, omega: Array) -> Array:
-    """Return ln |E*| and ln E''/E' at each frequency, shape (frequencies, 2)."""
     modulus = rubber.complex_modulus(omega)
     parts = np.stack([np.abs(modulus), modulus.imag / modulus.real], axis=-1)
     return np.asarray(np.log(parts))
@@ -316,15 +290,13 @@ def _modulus(case: Case, options: SourceOptions) -> Draw:
     return draw
 
 
-# Of rubbers it lies between 1 and 3 GPa (A. N. Gent, Engineering with Rubber, 3rd ed. (2012), ch.
-# 1); 1.5 times more or less than the usual 2 GPa covers that range.
+# Rubbers have 1 to 3 GPa (A. N. Gent, Engineering with Rubber, 3rd ed. (2012), ch. 1).
 BULK_MODULUS_FACTOR = 1.5
 _LEAST_OF_GLASSY = 0.23  # of the bulk modulus over the sum of all moduli: a little above 2/9
 
 
 @_source("bulk modulus", bulk_modulus=Coordinate("bulk modulus", "Pa", False))
 def _bulk_modulus(case: Case, options: SourceOptions) -> Draw:
-    """Draw the bulk modulus, hardly ever measured together with a master curve."""
     usual = Range.about(case.rubber.bulk_modulus, BULK_MODULUS_FACTOR)
 
     def applied(inputs: Inputs, value: float) -> Inputs:
@@ -337,11 +309,7 @@ def _bulk_modulus(case: Case, options: SourceOptions) -> Draw:
 
 @_source("equilibrium modulus", equilibrium_modulus=Coordinate("equilibrium modulus", "Pa", False))
 def _equilibrium_modulus(case: Case, options: SourceOptions) -> Draw:
-    """Draw the equilibrium modulus where somebody states it; it has no default.
-
-    A DMA measurement does not reach it, and the source `modulus` varies it as far as the slow end
-    of the data leaves it open.
-    """
+    """Draw the equilibrium modulus, which a DMA measurement does not reach, where it is stated."""
     if options.values is None:
         raise SourceNotApplicable(
             "no range is given; modulus varies it as far as the data leave it open"
@@ -356,7 +324,6 @@ def _equilibrium_modulus(case: Case, options: SourceOptions) -> Draw:
 
 @_source("temperature", warming=Coordinate("above the temperature of the case", "K"))
 def _temperature(case: Case, options: SourceOptions) -> Draw:
-    """Draw the temperature before the contact, normally about that of the case."""
     normal = NormalDist(0.0, options.standard_error(quantities.kelvins))
     before = (case.conditions or Conditions()).temperature_of(case.rubber)
     if case.rubber.shift is None or before is None:
@@ -366,7 +333,6 @@ def _temperature(case: Case, options: SourceOptions) -> Draw:
 
 @_source("nominal pressure", log_pressure=Coordinate("ln of the pressure over that of the case"))
 def _pressure(case: Case, options: SourceOptions) -> Draw:
-    """Draw the nominal pressure, normally in its logarithm about that of the case."""
     of_load = partial(pressure_error, pressure=case.load.pressure)
     normal = NormalDist(0.0, options.standard_error(of_load))
     return _number(normal.inv_cdf, lambda inputs, value: replace(inputs, log_pressure=value))
@@ -397,10 +363,7 @@ def _load_time(case: Case, options: SourceOptions) -> Draw:
     cut_off=Coordinate("cut-off, or last wave, of the roughness", "m", False),
 )
 def _cut_off(case: Case, options: SourceOptions) -> Draw:
-    """Draw where the roughness ends, by default in an octave about the end of the case.
-
-    Nobody knows it better; evenly in its logarithm, as d ln mu / d ln(cut-off) is nearly constant.
-    """
+    """Draw where the roughness ends, evenly in its logarithm; by default within an octave."""
     if not _fitted(case.surface):
         raise SourceNotApplicable(BY_HAND)
     usual = Range.about(case.surface.cutoff_wavelength, math.sqrt(2.0))
@@ -420,9 +383,8 @@ CHOSEN = ("s_wavelength", "s_amplitude", "first_wavelength", "first_amplitude")
 def _waves(case: Case, options: SourceOptions) -> Draw:
     """Draw one of the stacks that follow C_z as well as it is known, see `sine_ambiguity`.
 
-    All of them count alike; they are ordered by their rms slope, so that the quantile spreads them
-    evenly. The cut-off of the sample may leave no room for as many waves: there are fewer where
-    factors get too small.
+    They are ordered by their rms slope, so that the quantile spreads them evenly. The cut-off of
+    the sample may leave room for fewer waves only.
     """
     surface = case.surface
     if surface.correlation is None or not surface.fit:
@@ -435,10 +397,7 @@ def _waves(case: Case, options: SourceOptions) -> Draw:
     stacks = sine_ambiguity(surface.correlation, surface.sines).stacks
     good: Sequence[SineStack] = stacks
     if options.values is not None:
-        values = options.range_of(quantities.count)
-        wanted: Container[int] = [int(value) for value in values.values]
-        if values.between:
-            wanted = range(int(values.values[0]), int(values.values[1]) + 1)
+        wanted = options.range_of(quantities.count)
         good = [stack for stack in stacks if len(stack) in wanted]
     if not good:
         numbers = sorted({len(stack) for stack in stacks})

@@ -2,14 +2,8 @@
 
 The first-order Sobol index (I. M. Sobol, Math. Comput. Simul. 55 (2001) 271,
 doi:10.1016/S0378-4754(00)00270-6) of y, the logarithm of friction or contact fraction, from samples
-that vary all sources at once. All sources are in one least-squares fit, x and x^2 of a source of
-one number x, linear terms of others:
-
-    y = c + sum_k f_k(x_k) + rest,    V_k = Var f_k - s^2 tr_k,    S_k = V_k / (sum_k V_k + s^2),
-
-where s^2 is the variance of the rest and s^2 tr_k what f_k has of it by chance
-(docs/uncertainty.md). Errors are those of the jackknife (B. Efron & C. Stein, Ann. Stat. 9 (1981)
-586, doi:10.1214/aos/1176345462) for independent samples, too large for evenly spread ones.
+that vary all sources at once: one least-squares fit, without what it explains by chance
+(docs/derivations.md). Errors are those of the jackknife for independent samples.
 """
 
 from __future__ import annotations
