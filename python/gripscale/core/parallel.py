@@ -47,10 +47,7 @@ class Stopped(Exception):
 
 
 def look() -> None:
-    """Raise `Stopped` if the job of this thread is to end; do nothing in other threads.
-
-    For long work inside a job that does not have the job's event.
-    """
+    """Raise `Stopped` if the job of this thread is to end; do nothing in other threads."""
     stop = getattr(_here, "stop", None)
     if stop is not None and stop.is_set():
         raise Stopped
