@@ -1,8 +1,7 @@
 """What every model of contact and friction looks like: a rubber, a surface and a load, answered.
 
-A model may be the chain over sine waves, the direct contact of a whole surface, or a theory. All
-answer with the same names for the same things, so that whatever compares, varies, draws or reports
-takes any of them.
+All answer with the same names for the same things, so that whatever compares, varies, draws or
+reports takes any of them.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Threads for independent tasks, and interrupts held back while a file is written.
 
-Threads use all cores, since kernel and transforms release Python's lock. xarray guards its files
-with one lock for all: an interrupt that arrives while it is taken would leave it taken, and the
-next file would wait for ever.
+xarray guards its files with one lock for all: an interrupt that arrives while it is taken would
+leave it taken, and the next file would wait for ever.
 """
 
 from __future__ import annotations

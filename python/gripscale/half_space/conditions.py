@@ -295,10 +295,7 @@ class MeanWarming:
 
 
 def warming_of(contact: RoughContact, conditions: Conditions, footprint: float) -> MeanWarming:
-    """Return the rise by the heat of `conditions` in a contact that was solved without.
-
-    The rubber needs no shift. `footprint` is the length of the nominal contact [m].
-    """
+    """Return the rise by the heat of `conditions` in a contact solved without; `footprint` [m]."""
     if contact.speed == 0.0:
         return MeanWarming(0.0, 0.0)
     heats, rises = temperature(contact, conditions, footprint / contact.speed)

@@ -130,21 +130,11 @@ def line_under_load(
 ) -> LineUnderLoad:
     """Return how far lines reach up, and how hard they are pressed for their height.
 
-    Raises `InputError` if an argument is out of its range, or no piece has two different heights.
-
-    Parameters
-    ----------
-    profile : Profile or sequence of Profile
-        Measured lines; missing heights are left out. Heights count from the mean of pieces of
-        sixteen largest waves; the mean over all pieces counts.
-    rubber : Rubber
-        At the temperature of the contact.
-    largest_wavelength : float
-        Longest wave of the roughness [m].
-    pressure, speed : float
-        Nominal pressure [Pa] and sliding speed [m/s]; zero is the relaxed rubber.
-    contact : RoughContact, optional
-        That of the line under the load, where its rubber is softened or warmed.
+    Heights, without those missing, count from the mean of pieces of sixteen largest waves [m]; the
+    mean over all pieces counts. The rubber is at the temperature of the contact, under a nominal
+    `pressure` [Pa] at a `speed` [m/s], relaxed at zero; where it is softened or warmed, `contact`
+    is that of the line. Raises `InputError` if an argument is out of its range, or no piece has two
+    different heights.
     """
     longest = checks.positive("largest_wavelength", largest_wavelength, unit="m")
     pressed = checks.positive("pressure", pressure, unit="Pa")

@@ -60,17 +60,9 @@ def contact_trace(
     the line, and over `block_x` and `block_y` the largest `field_pressure` [Pa], NaN out of
     contact, at `field_x` and `field_y` [m]. Raises `InputError` if the stretch is not positive.
 
-    Parameters
-    ----------
-    contact : RoughContact
-        Of a line, or of a map: then along its section with the strongest stretch.
-    stretch : float, optional
-        Length of the stretch with most friction [m]; by default 4 mm, at least 20 of the smallest
-        waves and at most a quarter of the line.
-    pieces : int
-        Most pieces of the trace.
-    derivative : array, optional
-        d ln friction / d height [1/m] of each point, shape of the grid.
+    A map is cut along its section with the strongest `stretch` [m]: by default 4 mm, at least 20 of
+    the smallest waves and at most a quarter of the line. `derivative` is d ln friction / d height
+    [1/m] of each point, shape of the grid.
     """
     x, step = contact.x, contact.grid.spacing[0]
     least = max(STRETCH, LEAST_WAVES * contact.smallest_wavelength)

@@ -230,10 +230,7 @@ class DirectContact(Checked, model.Model):
         *,
         coarse: bool = False,
     ) -> RoughContact:
-        """Return the contact of one profile of a surface, or of its map.
-
-        Arguments as of `solve_rough_contact`.
-        """
+        """Return the contact of a profile or map of a surface, as `solve_rough_contact` does."""
         smallest = self.smallest_wavelength
         if smallest is None and not self.periodic:
             smallest = smallest_wavelength(surface, measured)

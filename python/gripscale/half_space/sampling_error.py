@@ -33,15 +33,14 @@ class SamplingError(NamedTuple):
 
     contact_fraction: float
     friction: float
-    pieces: float  # pieces that carry, from which they are estimated
+    pieces: float  # that carry, from which they are estimated: one more than degrees of freedom
 
 
 def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
     """Return the relative standard errors of a contact as an estimate for its road.
 
-    The pieces of a line are equal and at least as long as `piece` [m], the waves of a map as well.
-    NaN for fewer than four, or load on one alone; of friction also at rest, and where it is not
-    positive. `pieces` is one more than the degrees of freedom.
+    The pieces of a line, the waves of a map, are at least as long as `piece` [m]. NaN for fewer
+    than four, or load on one alone; of friction also at rest, and where it is not positive.
     """
     piece = checks.positive("piece", piece, unit="m")
     of_map = len(contact.grid.shape) > 1

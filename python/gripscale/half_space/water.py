@@ -32,9 +32,8 @@ from gripscale.theory.half_plane import GridContact
 # Missing pressure over pressure at the end: the volume of the smallest pools then is kept to a
 # thousandth.
 POOL_TOLERANCE = 1e-7
-# First load over the load, and the steps that raise it by equal ratios, of 5 %. A region that
-# closes within a step is trapped at its end, with less water. Half the steps change the friction of
-# a map by up to 3 %, where the contact percolates.
+# First load over the load, and the steps that raise it by equal ratios, of 5 %. Half the steps
+# change the friction of a map by up to 3 %, where the contact percolates.
 FIRST_LOAD, LOAD_STEPS = 0.1, 48
 # Load over the load at which a region that is closed under the first load, and was here already,
 # has its water: all but this share of what closes at the first touch.
@@ -45,7 +44,7 @@ _ERRORS = ("contact_fraction_error", "friction_error")
 def with_water(contact: RoughContact, film: float, *, workers: int) -> RoughContact:
     """Return a dry contact with trapped water, solved on its grid and one of half the points.
 
-    Errors are those of the dry contact and the change of wet over dry between the two.
+    Errors are those of the dry contact, and the change of wet over dry between the two grids.
     """
     response = Response.of(contact.body, contact.grid, workers)
     load = contact.nominal_pressure

@@ -76,10 +76,9 @@ def spread_windows(profiles: Sequence[Profile], length: float, most: int) -> lis
 def surface_of_sines(stack: SineStack, length: Quantity, seed: int) -> Profile:
     """Return a periodic line of superposed sine waves, each with a random phase from a `seed`.
 
-    `length` is the period [m], at least the largest wavelength of the `stack`. Each wavelength is
-    changed to the nearest that divides it, and its amplitude in proportion, so that slopes are
-    kept. Raises `InputError` if an argument is out of its range, or there would be more than ten
-    million points.
+    Each wavelength is changed to the nearest that divides the period, `length` [m], and its
+    amplitude in proportion: slopes are kept. Raises `InputError` if an argument is out of its
+    range, as a period below the largest wavelength, or for more than ten million points.
     """
     checks.instance("stack", stack, SineStack)
     period = checks.positive("length", length, unit="m")
