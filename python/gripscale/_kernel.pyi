@@ -44,9 +44,7 @@ class Line:
 
 @final
 class Map:
-    def __new__(
-        cls, rows: int, columns: int, threads: int, look: Callable[[], None]
-    ) -> Map: ...
+    def __new__(cls, rows: int, columns: int, threads: int, look: Callable[[], None]) -> Map: ...
     def filtered(
         self, values: NDArray[np.float32], factors: NDArray[np.complex64]
     ) -> NDArray[np.float32]: ...

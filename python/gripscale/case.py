@@ -13,7 +13,6 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +22,7 @@ from gripscale.chain.chain import Chain
 from gripscale.conditions.conditions import DRY, Conditions, Interface, with_defaults
 from gripscale.continuation.curve import DOWN_TO, ContinuedContact
 from gripscale.continuation.roughness import HurstExponent, OwnFaces, Roughness
-from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, Words, checks
+from gripscale.core import CaseKey, Described, GripscaleError, InputError, Quantity, checks
 from gripscale.core.arrays import Array
 from gripscale.core.finding import FILLED, Finding, Severity, Topic, doubt
 from gripscale.core.provenance import CASE_TITLE, COMMAND, version_attributes
@@ -55,11 +54,7 @@ from gripscale.theory.klueppel_heinrich import KlueppelHeinrich
 SHEAR_STRESS = "shear_stress"  # attribute of a result: kind of the law of its area term
 SurfaceLike = Surface | Profile | Sequence[Profile] | HeightMap | Spectrum | SineStack
 # Arguments of `gripscale.clean` where a case states none.
-_CLEANED_AS_USUAL: dict[str, Any] = {
-    name: parameter.default
-    for name, parameter in signature(clean).parameters.items()
-    if parameter.kind is Parameter.KEYWORD_ONLY
-}
+_CLEANED_AS_USUAL: dict[str, Any] = clean.__kwdefaults__ or {}
 _WAVES = 8  # sine waves of a surface: an octave each, from centimetres to a tenth of a millimetre
 RubberLike = Rubber | MasterCurve | MeasuredRubber
 
@@ -88,22 +83,15 @@ class Origin:
 
 @dataclass(frozen=True)
 class BelowMeasurement:
-    """Roughness below the measurement.
-
-    Parameters
-    ----------
-    down_to : float, optional
-        Shortest wavelength that the answer continues the roughness to [m]; without it the answer
-        ends where the measurement or the cut-off does.
-    roughness : Roughness
-        What the roughness continues as.
-    seed : int
-        Seed of the random waves.
-    """
+    """Roughness below the measurement."""
 
     down_to: float | None = None
+    """Shortest wavelength that the answer continues the roughness to [m]; without it the answer
+    ends where the measurement or the cut-off does."""
     roughness: Roughness = field(default_factory=OwnFaces)
+    """What the roughness continues as."""
     seed: int = 0
+    """Seed of the random waves."""
 
 
 class Case(Described):
@@ -121,8 +109,8 @@ class Case(Described):
         Measured heights, their spectrum, or sine waves. Heights are taken as they are, unless
         `cleaning` is given.
     rubber : Rubber, MasterCurve or MeasuredRubber
-        A master curve is fitted by a Prony series, each row with the weight it has for friction and
-        contact area of this case. The series of a `Rubber` is taken as it is.
+        A master curve is fitted by a Prony series, each row with its weight for friction and area
+        of this case. A `Rubber` is taken as it is.
     pressure : float or str
         Nominal pressure [Pa], or a text with its unit such as "3 bar".
     speed : float or str
@@ -138,8 +126,8 @@ class Case(Described):
         Shortest wave of the roughness that counts [m]; by default the shortest one measured.
     longest_wavelength : float or str, optional
         Longest wave that presses into the block [m]; longer ones are taken out of the profiles. By
-        default what the footprint holds, 1.5 times its length, where longer waves hold most of the
-        mean square height; a length beyond the profiles keeps all.
+        default 1.5 footprints, where longer waves hold most of the mean square height; a length
+        beyond the profiles keeps all.
     kind : str
         What the surface is called in titles, one of `SURFACE_KINDS`.
     waves : int
@@ -169,8 +157,7 @@ class Case(Described):
         Friction measured elsewhere.
     cleaning : mapping, optional
         Arguments of `gripscale.clean`, by which profiles as measured are cleaned; an empty mapping
-        cleans them as usual. What cleaning may change counts in `gripscale.uncertainty`, as do the
-        moduli of a master curve.
+        cleans them as usual. What cleaning may change counts in `gripscale.uncertainty`.
     options : mapping, optional
         Options of questions that the case states, by question.
     origin : Origin, optional
@@ -212,11 +199,8 @@ class Case(Described):
             missing = "pressure" if pressure is None else "speed"
             raise InputError(" must be given, or tester; got neither", key=missing)
         chosen = {"pressure": pressure, "speed": speed, "footprint": footprint}
-        tables = {
-            "load": chosen,
-            "rubber": {"thickness": thickness},
-            "surface": {"smallest_wavelength": smallest_wavelength},
-        }
+        tables = {"load": chosen, "rubber": {"thickness": thickness}}
+        tables["surface"] = {"smallest_wavelength": smallest_wavelength}
         self.origin = origin or Origin(units=stated_units(tables))
         values: dict[str, Any] = {
             name: getattr(preset, name, FOOTPRINT) if value is None else value
@@ -249,8 +233,7 @@ class Case(Described):
         end = si_value("smallest_wavelength", smallest_wavelength, "m")
         self.cleaning = {} if cleaning is None else _CLEANED_AS_USUAL | dict(cleaning)
         longest = si_value("longest_wavelength", longest_wavelength, "m")
-        held = longest, self.load.footprint
-        self.surface = _surface(surface, end, waves, self.cleaning, held)
+        self.surface = _surface(surface, end, waves, self.cleaning, longest, self.load.footprint)
         measured = self.surface.measured
         if self.cleaning and measured is not None:
             self.cleaning["longest_wavelength"] = measured.longest
@@ -309,10 +292,9 @@ class Case(Described):
             longest = si_value("longest_wavelength", changes["longest_wavelength"], "m")
             lines = [raw for raw, _ in (*measured.profiles, *measured.across)]
             options = self.cleaning and self.cleaning | {"longest_wavelength": None}
-            measured = _measured(lines, options, longest)
             held = changes.get("footprint", self.load.footprint)
             surface = described_surface(
-                measured,
+                _measured(lines, options, longest),
                 counted=surface.counted,
                 fit=surface.fit,
                 cut_off=surface.rule,
@@ -337,8 +319,8 @@ class Case(Described):
             "Whether the rubber is filled (carbon black, silica) is not stated: filled rubber, as "
             "of every tread, softens under strain and has several times the contact area. State "
         )
-        words = Words(text, CaseKey("filled"), " in [rubber].")
-        return (Finding(Severity.DOUBT, words, topic=Topic.RUBBER, key=FILLED),)
+        asked = doubt(text, CaseKey("filled"), " in [rubber].", topic=Topic.RUBBER)
+        return (replace(asked, key=FILLED),)
 
     @property
     def rubber(self) -> Rubber:
@@ -375,40 +357,36 @@ class Case(Described):
     @property
     def attributes(self) -> dict[str, str]:
         """Attributes of every result: the case file and its units, the command, versions."""
-        command = {"command": COMMAND.get()} if COMMAND.get() else {}
-        command |= {TESTER: self.tester} if self.tester else {}
         law = None if self.conditions is None else self.conditions.shear_stress
-        command |= {} if law is None else {SHEAR_STRESS: law.kind}
         spectrum = self.surface.spectrum
-        command |= {} if spectrum is None else {PHASES_OF: spectrum.phases}
-        command |= {SURFACE_KIND: self.kind} if self.kind != "surface" else {}
+        optional = {
+            "command": COMMAND.get(),
+            TESTER: self.tester,
+            SHEAR_STRESS: "" if law is None else law.kind,
+            PHASES_OF: "" if spectrum is None else spectrum.phases,
+            SURFACE_KIND: self.kind if self.kind != "surface" else "",
+        }
         text = {"case": self.origin.text, "case_file": self.origin.name, CASE_TITLE: self.title}
-        units = {DISPLAY_UNITS: json.dumps(self.units)}
-        return text | units | command | version_attributes()
+        text[DISPLAY_UNITS] = json.dumps(self.units)
+        return text | {k: v for k, v in optional.items() if v} | version_attributes()
 
     @cached_property
     def key(self) -> str:
         """Hash of everything that an answer depends on, but for the software."""
-        parts = [self.surface, self.measured_rubber, self.load, self.chain]
-        parts += [self.filled]
+        parts = [self.surface, self.measured_rubber, self.load, self.chain, self.filled]
         parts += [] if self.conditions is None else [self.conditions.water]
-        parts += [self.below_measurement, self.klueppel_heinrich, self.cleaning]
-        return content_hash(parts)
+        return content_hash([*parts, self.below_measurement, self.klueppel_heinrich, self.cleaning])
 
     def save(self, path: str | Path) -> Path:
         """Write the case as a case file, its measurements in the folder `inputs`; return its path.
 
         The case that `gripscale.read_case` reads from it, there or wherever both go, has the same
         answers. A case that was read from a file keeps its text and gets copies of its files; any
-        other is written in SI units, profiles, maps and moduli as text files.
+        other is written in SI units, profiles, maps and moduli as text files. The `path` is such as
+        "folder/case.toml"; an earlier file is replaced.
 
         Raises `InputError` for what a case file cannot state, such as a solver of your own. Raises
         `FileError` if a file cannot be written, or one of the case has changed since it was read.
-
-        Parameters
-        ----------
-        path : path-like
-            The case file (TOML), such as "folder/case.toml". An earlier one is replaced.
         """
         from gripscale.case_file.save import write_case
 
@@ -423,12 +401,8 @@ class Case(Described):
     ) -> ContinuedContact:
         """Return the direct contact with the roughness below the measurement.
 
-        Parameters
-        ----------
-        down_to : float, optional
-            Shortest wavelength [m]; that of the case by default, else 10 um.
-        hurst : float, optional
-            Hurst exponent of the roughness [-], in place of what the case states.
+        `down_to` is the shortest wavelength [m], that of the case by default, else 10 um; `hurst`
+        the exponent of the roughness [-], in place of what the case states.
         """
         below = self.below_measurement
         return ContinuedContact(
@@ -453,29 +427,29 @@ class Case(Described):
         surface = self.surface
         others = surface.doubts if extrapolated else (*surface.doubts, *surface.extrapolated)
         findings = self.doubts(surfaces, loads)
+
+        def warn(text: str, topic: Topic = Topic.RUBBER) -> None:
+            findings.append(Finding(Severity.WARNING, text, topic=topic))
+
         if self.conditions is not None and self.conditions.temperature is not None:
             for text in temperature_doubts({self.rubber.name or "rubber": self.rubber_before}):
-                sentence = f"{text[0].upper()}{text[1:]}."
-                findings.append(Finding(Severity.WARNING, sentence, topic=Topic.RUBBER))
+                warn(f"{text[0].upper()}{text[1:]}.")
         findings += tester_findings(self.tester, self.rubber.name)
         fit = self.measured_rubber.fit
         if fit is not None and fit.findings:
             opening, rest = fit.findings[:2], len(fit.findings) - 2
             more = [f"{rest} more (`gripscale fit-rubber` lists them)"] if rest > 0 else []
-            text = f"Rubber, doubts of its measurement and series: {'; '.join([*opening, *more])}."
-            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
+            warn(f"Rubber, doubts of its measurement and series: {'; '.join([*opening, *more])}.")
         findings += [f.about("Surface") for f in surface.findings if f not in others]
         if self.load.thickness is not None:
-            text = (
+            warn(
                 "The thickness of the rubber does not count in the theory of Klüppel and Heinrich, "
                 "in heat and in softening, and the step from lines to a surface is that of rubber "
                 "without end."
             )
-            findings.append(Finding(Severity.WARNING, text, topic=Topic.RUBBER))
         if surface.measured is not None and surface.measured.no_self_affine:
             why = surface.measured.no_self_affine
-            text = f"The surface was not described as self-affine: {why}"
-            findings.append(Finding(Severity.WARNING, text, topic=Topic.SURFACE))
+            warn(f"The surface was not described as self-affine: {why}", Topic.SURFACE)
         return findings
 
     def doubts(
@@ -489,36 +463,28 @@ class Case(Described):
         doubts += load_doubts([self.load] if loads is None else loads, self.units)
         doubts = list(dict.fromkeys(doubts))
         if self.rubber.reference_temperature is None:
-            doubts.append(
-                doubt(
-                    "Neither the file of the rubber nor the case states the temperature of its "
-                    "moduli: state ",
-                    CaseKey("reference_temperature"),
-                    " in [rubber].",
-                    topic=Topic.RUBBER,
-                )
+            text = (
+                "Neither the file of the rubber nor the case states the temperature of its moduli: "
+                "state "
             )
+            key = CaseKey("reference_temperature")
+            doubts.append(doubt(text, key, " in [rubber].", topic=Topic.RUBBER))
         footprint, largest = self.load.footprint, float(self.surface.sines.wavelength[0])
         if footprint < largest:
             length_unit = self.display_unit("footprint")
             lengths = [length_unit.text(length, 3) for length in (footprint, largest)]
-            doubts.append(
-                doubt(
-                    "The footprint, {}, is shorter than the largest wave, {}, which it cannot hold "
-                    "once: is its unit right? If so, leave such waves out.".format(*lengths),
-                    topic=Topic.LOAD,
-                )
+            text = (
+                "The footprint, {}, is shorter than the largest wave, {}, which it cannot hold "
+                "once: is its unit right? If so, leave such waves out."
             )
+            doubts.append(doubt(text.format(*lengths), topic=Topic.LOAD))
         return doubts
 
 
 def fitted_for_load(
     measured: MeasuredRubber, surface: Surface, load: Load, conditions: Conditions | None
 ) -> MeasuredRubber:
-    """Return a rubber with its series fitted for the waves of a surface under a load.
-
-    That of waves stated by hand, too; at rest, and without a measurement, nothing decides more.
-    """
+    """Return a rubber with its series, if it has one of a fit, fitted for waves under a load."""
     if measured.fit is None:  # the waves of a surface are fitted when they are first asked for
         return measured
     omega = excitation(measured.rubber, surface, load, conditions)
@@ -589,10 +555,10 @@ def _surface(
     end: float | None,
     waves: int,
     cleaning: Mapping[str, Any],
-    held: tuple[float | None, float],
+    longest: float | None,
+    footprint: float,
 ) -> Surface:
-    """Return a surface described; `held` are the longest wavelength, if stated, and footprint."""
-    longest, footprint = held
+    """Return a surface described; the `longest` wavelength [m] if it is stated."""
     if isinstance(surface, Surface):
         return surface
     if isinstance(surface, SineStack):

@@ -59,10 +59,7 @@ def between(
 def of_curve(
     wavelength: ArrayLike, contact_fraction: ArrayLike, friction: ArrayLike, *, moving: bool
 ) -> CutOffExponents:
-    """Return the exponents of a model that tells area and friction down to each wavelength.
-
-    Only ratios of the falling wavelengths count; all of them, if less than an octave apart.
-    """
+    """Return the exponents of a model that tells area and friction to each falling wavelength."""
     lengths = np.asarray(wavelength, dtype=float)
     if lengths.size < 2:
         return CutOffExponents(math.nan, math.nan, "only one wave")

@@ -1,8 +1,7 @@
 """What every model of contact and friction looks like: a rubber, a surface and a load, answered.
 
-A model may be the chain over sine waves, the direct contact of a whole surface, or a theory. All
-answer with the same names for the same things, so that whatever compares, varies, draws or reports
-takes any of them.
+All answer with the same names for the same things, so that whatever compares, varies, draws or
+reports takes any of them.
 """
 
 from __future__ import annotations
@@ -50,8 +49,7 @@ def input_doubts(
 ) -> dict[str, str]:
     """Return the attribute `INPUT_DOUBTS` of an answer; nothing without a doubt.
 
-    It is on surfaces and of a rubber, the `inputs`, and under loads, which are shown in the stated
-    `units` of their quantities; `others` are doubts about what was made of them.
+    Of surfaces and a rubber, the `inputs`, of loads in stated `units`, and doubts of `others`.
     """
     of_inputs = [*(doubt for each in inputs for doubt in each.doubts), *others]
     doubts = dict.fromkeys([*of_inputs, *load_doubts(loads, units)])
@@ -64,10 +62,7 @@ def input_doubts_of(data: xr.Dataset) -> Sequence[Finding]:
 
 
 def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[Finding]:
-    """Return which quantities of loads suggest a wrong unit, by the farthest of each.
-
-    They are shown in the stated `units` of the quantities.
-    """
+    """Return which quantities of loads suggest a wrong unit, by the farthest, in stated `units`."""
     doubts, every = [], list(loads)
     for name, (least, most) in PLAUSIBLE.items():
         values = {float(getattr(load, name)) for load in every}
@@ -75,13 +70,8 @@ def load_doubts(loads: Iterable[Load], units: Mapping[str, str]) -> list[Finding
         if far:
             value = max(far, key=lambda value: max(least / value, value / most))
             value_text, *ends = (display_unit(name, units).text(v, 3) for v in (value, least, most))
-            doubts.append(
-                doubt(
-                    f"{name.capitalize()} = {value_text} is not between {' and '.join(ends)}: is "
-                    "its unit right?",
-                    topic=Topic.LOAD,
-                )
-            )
+            text = f"{name.capitalize()} = {value_text} is not between {' and '.join(ends)}"
+            doubts.append(doubt(f"{text}: is its unit right?", topic=Topic.LOAD))
     return doubts
 
 
@@ -101,31 +91,19 @@ def checked_load_time(name: str, value: Any) -> LoadTime:
 
 
 class Load(Checked):
-    """The load on the whole surface.
-
-    Raises `InputError` if a value cannot be used.
-
-    Parameters
-    ----------
-    pressure : float
-        Nominal pressure [Pa], above zero.
-    speed : float
-        Sliding speed [m/s]; zero is static contact of the relaxed rubber.
-    footprint : float
-        Length of the nominal contact [m].
-    load_time : float or "passage"
-        How long a place of the rubber is loaded: while the contact above it passes, or a time [s],
-        which may be infinite.
-    thickness : float, optional
-        Thickness [m] of the rubber on a rigid base; without it the rubber has no end. Chain, direct
-        contact and Persson's theory count it.
-    """
+    """The load on the whole surface. Raises `InputError` if a value cannot be used."""
 
     pressure: float = checked(checks.positive, unit="Pa")
+    """Nominal pressure [Pa], above zero."""
     speed: float = checked(checks.not_negative, unit="m/s")
+    """Sliding speed [m/s]; zero is static contact of the relaxed rubber."""
     footprint: float = checked(checks.positive, unit="m")
+    """Length of the nominal contact [m]."""
     load_time: LoadTime = checked(checked_load_time, default="passage")
+    """How long a place is loaded: while the contact above it passes, or a time [s], or infinite."""
     thickness: float | None = checked(checks.positive, unit="m", default=None)
+    """Thickness [m] of the rubber on a rigid base; without it the rubber has no end. Chain, direct
+    contact and Persson's theory count it."""
 
     def time_under(self, contact_length: float) -> float:
         """Return for how long what slides under a contact so long [m] is loaded [s]."""
@@ -209,10 +187,7 @@ def word_of(status: str) -> str:
 
 
 def status_words(data: xr.Dataset, sentences: str = STATUS) -> xr.DataArray:
-    """Return the word beside each of the `sentences`, the name of a variable.
-
-    Empty in a file of an older version, which has none.
-    """
+    """Return the word beside each of the `sentences`, a variable's name; empty in an old file."""
     import xarray as xr
 
     name = f"{sentences}_word"
@@ -246,16 +221,12 @@ OUTSIDE_BAND = {
 
 
 def extrapolation_of(data: xr.Dataset) -> Extrapolation:
-    """Return what an answer tells of the rubber beyond its measured frequencies.
-
-    Unknown of a file of an older version.
-    """
+    """Read how far an answer rests on the rubber beyond its measured frequencies, if it tells."""
     if not set(OUTSIDE_BAND) <= set(data.data_vars):
         return UNKNOWN
     return Extrapolation(**{part: float(data[name]) for name, (part, _) in OUTSIDE_BAND.items()})
 
 
-FRICTION_CUT_OFF_EXPONENT = "total_friction_cut_off_exponent"
 # Names of what every model tells of the choice of the smallest wavelength: attribute of
 # `CutOffExponents`, and meaning.
 CUT_OFF_EXPONENTS = {
@@ -263,7 +234,7 @@ CUT_OFF_EXPONENTS = {
         "contact_fraction",
         "d ln(real contact area)/d ln(cut-off length), over the last octave",
     ),
-    FRICTION_CUT_OFF_EXPONENT: (
+    "total_friction_cut_off_exponent": (
         "friction",
         "d ln(friction coefficient)/d ln(cut-off length), over the last octave",
     ),
@@ -281,28 +252,22 @@ def cut_off_exponents_of(data: xr.Dataset) -> CutOffExponents:
     return CutOffExponents(**numbers, why_not=str(data[WHY_NO_EXPONENT].item()))
 
 
-# Names of how well the measured surface stands for its road, where a model tells it.
-SAMPLING_ERRORS = {
+# Names of what an answer from a measured surface rests on, where a model tells it.
+BASIS = {
     "total_contact_fraction_sampling_error": "relative standard error of the contact fraction",
     "total_friction_sampling_error": "relative standard error of the friction coefficient",
-}
-SAMPLING_FREEDOM = "total_freedom"
-STEEP_SHARE, MISSING_SHARE = "total_steep_share", "total_missing_share"
-LINE_UNDER_LOAD = tuple(
-    f"total_{n}" for n in ("upper_height", "tail", "relative_load", "softening")
-)
-PRESSURE_OVER_MODULUS = "total_pressure_over_modulus"
-# Names of what an answer from a measured surface rests on, where a model tells it.
-BASIS = SAMPLING_ERRORS | {
     "total_upper_height": "height that 1 % of the measured lines exceed, over the rms height",
     "total_tail": "height that 0.5 % of the lines exceed less that of 2 %, over the rms height",
     "total_relative_load": "pressure times largest wave, over modulus times rms height of lines",
     "total_softening": "ln of E' of the lines over that at twice their strain, smallest wave",
-    PRESSURE_OVER_MODULUS: "nominal pressure over |E*| of a seventh of the largest wave",
-    SAMPLING_FREEDOM: "degrees of freedom of the sampling errors",
-    STEEP_SHARE: "share of the friction from contact on slopes above 1",
-    MISSING_SHARE: "share of the contact on heights that were missing and interpolated",
+    "total_pressure_over_modulus": "nominal pressure over |E*| of a seventh of the largest wave",
+    "total_freedom": "degrees of freedom of the sampling errors",
+    "total_steep_share": "share of the friction from contact on slopes above 1",
+    "total_missing_share": "share of the contact on heights that were missing and interpolated",
 }
+LINE_UNDER_LOAD = tuple(
+    f"total_{n}" for n in ("upper_height", "tail", "relative_load", "softening")
+)
 
 # Name of the area term's friction, where one was asked for.
 ADHESIVE_FRICTION = "total_adhesive_friction"
@@ -314,10 +279,7 @@ def with_adhesive(data: xr.Dataset) -> xr.DataArray | None:
 
 
 def with_area_term(data: xr.Dataset, adhesive_friction: float) -> xr.Dataset:
-    """Return an answer with the friction of the area term [-], unchanged if that is NaN.
-
-    `total_friction` stays that of the hysteresis.
-    """
+    """Return an answer with the friction of the area term [-] as a further number, if not NaN."""
     if math.isnan(adhesive_friction):
         return data
     text = "friction coefficient of the area term"
@@ -338,9 +300,7 @@ def predicted_answer(
     """Return `data` with the numbers every model answers with, and the load they are for.
 
     `status` is "converged", or a sentence that says why there are no totals; `status_word` is the
-    word of its `Status`, which `status` itself may be. `extrapolation` is what of the friction
-    rests on the rubber beyond its measured frequencies, `cut_off_exponents` how it changes with
-    the smallest wavelength; a model that does not know leaves them out.
+    word of its `Status`, which `status` itself may be. A model leaves out what it does not know.
     """
 
     def number(value: Any, unit: str, long_name: str) -> xr.Variable:

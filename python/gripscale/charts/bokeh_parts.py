@@ -1,9 +1,7 @@
 """Figures as BokehJS reads them: parts with a type and attributes, without Bokeh's Python classes.
 
-Bokeh's own serializer writes a part as it writes its models. Its classes would be imported, filled
-and checked for every page, which takes longer than all else on it. `model` has Bokeh read a part,
-which checks it. Types and attributes:
-https://docs.bokeh.org/en/latest/docs/reference/models.html.
+Bokeh's classes would be imported, filled and checked for every page, which takes longer than all
+else on it. Types and attributes: https://docs.bokeh.org/en/latest/docs/reference/models.html.
 """
 
 from __future__ import annotations

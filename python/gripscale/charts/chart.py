@@ -90,8 +90,7 @@ class Series:
 class Outline:
     """A curve of very many points by the lowest and highest value of pieces, NaN for a gap.
 
-    What is drawn has at most two points to a pixel and every extreme: paper has pixels, and the
-    page draws anew what its frame shows.
+    What is drawn has every extreme; the page draws anew what its frame shows.
     """
 
     x: ArrayLike
@@ -170,16 +169,12 @@ class Note:
 
 @dataclass(frozen=True)
 class ValueMap:
-    """Values over a plane, shape (y, x), with a colour bar; NaN is left white.
-
-    The page draws what has no contours.
-    """
+    """Values over a plane, shape (y, x), to scale with a colour bar; NaN is left white."""
 
     x: ArrayLike
     y: ArrayLike
     values: ArrayLike
     label: str
-    levels: int = 0  # most contours; 0 for a smooth map to scale
 
 
 Mark = Series | Outline | ShadedBand | Bars | CrossLine | Note | ValueMap
@@ -200,7 +195,6 @@ class Panel:
     # Where the panel has a legend of its own on paper, such as "lower right"; "none" nowhere.
     legend: str = ""
     to_scale: bool = False  # whether lengths along both axes are equal
-    framed: bool = True  # whether paper shows the axes; False for a panel of words
 
     def with_marks(self, marks: Iterable[Mark]) -> Panel:
         """Return the panel with more marks, drawn above the others."""

@@ -153,7 +153,7 @@ def _draw_mark(figure: Part, mark: Mark, panel: Panel, store: DataStore) -> list
             width = PIXELS * mark.width
             source = columns({"x": _stored(x), "y": _stored(y)}, tags=tags)
             _draw_line(figure, source, mark.label, line_color=mark.colour, line_width=width)
-        case ValueMap(levels=0):
+        case ValueMap():
             _draw_field(figure, mark)
         case ShadedBand():
             low = _stored(mark.low, positive=panel.y.log)
@@ -208,10 +208,8 @@ def _set_axis(figure: Part, which: str, axis: PlotAxis, values: Array) -> None:
         major_tick_line_color=INK,
     )
     if axis.log:
-        drawn.update(
-            ticker=Part("LogTicker", num_minor_ticks=10),
-            formatter=Part("LogTickFormatter", min_exponent=4),
-        )
+        formatter = Part("LogTickFormatter", min_exponent=4)
+        drawn.update(ticker=Part("LogTicker", num_minor_ticks=10), formatter=formatter)
     else:
         formatter = Part("BasicTickFormatter", power_limit_low=LEAST_EXPONENT)
         drawn.update(minor_tick_line_color=None, formatter=formatter)

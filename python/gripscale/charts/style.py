@@ -60,10 +60,7 @@ def colours(count: int, *, ordered: bool) -> list[str]:
 
 
 def stretches(beyond: ArrayLike) -> Iterator[tuple[slice, bool]]:
-    """Yield runs of points that are joined in one way, and whether that is beyond the band.
-
-    A line is beyond the band if one of its ends is; neighbouring runs share a point.
-    """
+    """Yield runs of points, which share their ends, and whether one end of each line is beyond."""
     flags = np.asarray(beyond, dtype=bool)
     joined = flags[1:] | flags[:-1]
     if not joined.size:
@@ -94,10 +91,7 @@ def down_to(beyond: ArrayLike) -> RowFlags:
 
 
 def short_number(value: float) -> str:
-    """Return a number for an axis: plain where it stays short, else with a power of ten.
-
-    The font has raised figures; set as mathematics each number would take 5 ms.
-    """
+    """Return a number for an axis: plain where it stays short, else with raised figures."""
     if value <= 0.0 or 0.99e-4 < value < 0.99e5:
         return f"{value:g}"
     factor, _, exponent = f"{value:.0e}".partition("e")

@@ -202,21 +202,14 @@ class TableStress(Checked):
 
     kind: ClassVar[str] = "table"
 
-    speed: Sequence[float] = checked(_numbers, rule=checks.positive_vector, unit="m/s")
+    speed: Sequence[float] = checked(_numbers, rule=checks.increasing_vector, unit="m/s")
     """The speeds, rising [m/s]."""
-    stress_at: Sequence[float] = checked(_numbers, rule=checks.vector, unit="Pa")
+    stress_at: Sequence[float] = checked(_numbers, rule=checks.not_negative_vector, unit="Pa")
     """Interfacial shear stress at each [Pa]."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        speed, stress = np.array(self.speed), np.array(self.stress_at)
-        if speed.size < 2 or speed.size != stress.size or not (np.diff(speed) > 0.0).all():
-            raise InputError(
-                "speed must rise over at least 2 values, with one stress_at each; "
-                f"got {speed.size} and {stress.size}"
-            )
-        if (stress < 0.0).any():
-            raise InputError(f"stress_at must not be negative [Pa]; got {stress.min():g}")
+        checks.same_length(2, speed=np.array(self.speed), stress_at=np.array(self.stress_at))
 
     def stress(self, speed: ArrayLike, temperature: ArrayLike | None = None) -> Array:
         """Return tau_f [Pa] at speeds [m/s], same shape."""
@@ -253,9 +246,8 @@ def shear_stress_to_dict(law: InterfacialShearStress) -> dict[str, Any]:
 
 
 def adhesive_friction(shear_stress: float, contact_fraction: float, pressure: float) -> float:
-    """Return mu_adh [-] of a shear stress [Pa], A_r/A_0 [-] and the nominal pressure [Pa].
+    """Return mu_adh [-] of a shear stress [Pa], A_r/A_0 [-], which may be NaN, and pressure [Pa].
 
-    NaN if the contact fraction is NaN, that of a wave that did not converge.
     Raises `InputError` if a value cannot be used.
     """
     if isinstance(contact_fraction, float) and math.isnan(contact_fraction):

@@ -3,11 +3,10 @@
 A wave of the chain has one temperature and one strain. In the direct contact a harmonic of
 wavenumber q meets the rubber at the temperature and the strain of its scale,
 
-    E*(w, q) = (f E'(a_T w) + i g E''(a_T w)) / b_T,     a_T, b_T, f and g functions of |q|
+    E*(w, q) = (f E'(a_T w) + i g E''(a_T w)) / b_T,     a_T, b_T, f and g functions of |q|,
 
-with the modulus ratios f and g exact: no relaxation times have to be fitted. Between the scales
-where they are known the logarithms of the factors are linear in log |q|. docs/derivations.md says
-which strain softens a scale, and how far typical laws may be off.
+whose logarithms are linear in log |q| between the scales. docs/derivations.md says which strain
+softens a scale, and how far typical laws may be off.
 """
 
 from __future__ import annotations
@@ -426,9 +425,8 @@ def with_defaults(
 ) -> Conditions | None:
     """Return conditions with what they leave open, or None if nothing changes rubber and contact.
 
-    Every tread is filled, and softens; a rubber with a temperature shift warms by its friction; a
-    dry road shears the real contact area. A case has typical laws where it states none of its own.
-    Raises `InputError` if an unfilled rubber is to soften.
+    Filled rubber softens, one with a temperature shift warms by its friction, a dry road shears the
+    real contact area. Raises `InputError` if an unfilled rubber is to soften.
     """
     effects = conditions or Conditions()
     if filled is False and effects.softening is not None:

@@ -1,12 +1,8 @@
 """Fixed-point iteration of a contact and the rubber it deforms, accelerated by a coarse mesh.
 
 Temperatures and strains x decide what the rubber is; the contact with that rubber has the
-temperatures and strains F(x), and the coupled solution is x = F(x). With f the same function on a
-coarse mesh, the argument after F(x_k) solves x = f(x) + F(x_k) - f(x_k) (defect correction: H. J.
-Stetter, Numer. Math. 29 (1978) 425, doi:10.1007/BF01432879), the last term changing along x as
-between the last two x_k. On one mesh the next argument is that of Anderson's acceleration (J. ACM
-12 (1965) 547, doi:10.1145/321296.321305). The iteration ends when the step to the next x would
-change the results of the coarse mesh by less than `RESULT_TOLERANCE`: docs/derivations.md.
+temperatures and strains F(x), and the coupled solution is x = F(x), by defect correction with the
+same function f on a coarse mesh, or on one mesh by Anderson's acceleration: docs/derivations.md.
 """
 
 from __future__ import annotations
@@ -61,10 +57,7 @@ class FixedPoint(Generic[S]):
 def solve_fixed_point(
     fine: _Solve[S], coarse: _Solve[S] | None, tolerance: float = STATE_TOLERANCE
 ) -> FixedPoint[S]:
-    """Return the solution that agrees with the state it assumes, to a tolerance of its components.
-
-    A `coarse` mesh that fails, or whose own fixed point is not found, is not used any more.
-    """
+    """Return the solution that agrees with its state, without a `coarse` mesh where that fails."""
     start = None if coarse is None else _evaluated(coarse, None, None)
     if coarse is None or start is None:
         start = fine(None, None)

@@ -1,14 +1,8 @@
 """Flash temperature of a sliding rubber: closed forms for a half-space, and what the road takes.
 
-The rubber moves with v along x over a heat source at rest. A harmonic q exp(i k . r) of the heat
-per area [W/m^2], lost at random depths Z and Z', in the steady state gives
-
-    T(0)    = q E exp(-m Z) / (kappa m),      m^2 = |k|^2 + i k_x v / D,   Re m > 0
-    T(lost) = q (E exp(-m |Z - Z'|) + (E exp(-m Z))^2) / (2 kappa m)
-
-at the surface, and on average where the energy is lost (H. S. Carslaw & J. C. Jaeger, Conduction of
-Heat in Solids, 2nd ed. (1959), sec. 10.2 and 10.7). docs/derivations.md has the uniform heat, the
-harmonics that begin with the contact, the means over depths, and the division with the road.
+Harmonics of the heat in the steady state, uniform heat, harmonics that begin with the contact, the
+means over the depths at which energy is lost, and the division with the road: docs/derivations.md
+(H. S. Carslaw & J. C. Jaeger, Conduction of Heat in Solids, 2nd ed. (1959), sec. 10.2 and 10.7).
 """
 
 from __future__ import annotations
@@ -158,10 +152,7 @@ def harmonic_at_surface(
 def harmonic_where_lost(
     m: ComplexArray, depth: DepthsOfLoss, thermal: ThermalProperties
 ) -> ComplexArray:
-    """Return the temperature of harmonics, averaged over their loss, per heat per area.
-
-    In [K m^2/W], shape of `m`.
-    """
+    """Return the temperature where harmonics lose their heat per area [K m^2/W], shape of `m`."""
     mean = depth.decay_between(m) + depth.decay(m) ** 2
     return np.asarray(mean / (2.0 * thermal.conductivity * m))
 
@@ -176,10 +167,7 @@ def uniform_at_surface(time: float, depth: DepthsOfLoss, thermal: ThermalPropert
 
 
 def uniform_where_lost(time: float, depth: DepthsOfLoss, thermal: ThermalProperties) -> float:
-    """Return the temperature of uniform heat, averaged over its loss, per heat per area.
-
-    Arguments, unit and errors as for `uniform_at_surface`.
-    """
+    """Return the temperature where uniform heat is lost; otherwise as `uniform_at_surface`."""
     length = _diffusion_length(time, thermal)
     if length == 0.0:
         return 0.0
@@ -192,9 +180,8 @@ def uniform_from_others(
 ) -> float:
     """Return the temperature of uniform heat where `which` loses energy, by all others.
 
-    `strength` is the heat of each, `at_surface` the temperature that a unit of it has there. A
-    source warms another depth as a source at this depth would warm its own: where one lies at the
-    surface, the rise is that of the other at the surface, and of two depths the deeper one decides.
+    `strength` is the heat of each, `at_surface` the temperature that a unit of it has there: of two
+    depths the deeper one decides.
     """
     pairs = enumerate(zip(strength, at_surface, strict=True))
     return sum(heat * min(top, at_surface[which]) for j, (heat, top) in pairs if j != which)
@@ -262,12 +249,10 @@ class PassingHarmonics:
 
     @cached_property
     def _sources(self) -> tuple[Array, Array, ComplexArray, NDArray[np.intp]]:
-        """Return roots and weights of times s, exp(-D m^2 s) of each different m, and its index.
-
-        The cubes of the nodes resolve depths of a thousandth of 2 sqrt(D t).
-        """
+        """Return roots and weights of times s, exp(-D m^2 s) of each different m, and its index."""
         different, inverse = np.unique(self.m[self._changing], return_inverse=True)
         nodes, width = 0.5 * (_TIMES + 1.0), 0.5 * _TIME_WEIGHTS
+        # the cubes of the nodes resolve depths of a thousandth of 2 sqrt(D t)
         root = math.sqrt(self.time)
         roots, d = root * nodes**3, self.thermal.diffusivity
         weights = 6.0 * root * nodes**2 * width * math.sqrt(d / math.pi) / self.thermal.conductivity
@@ -355,10 +340,7 @@ class Partition:
     counterface: float  # of the counterface, by a unit of friction; infinite if insulating
 
     def net(self, interface: float) -> float:
-        """Return the friction whose heat enters the rubber in the contact [-], of the interface's.
-
-        Negative where more heat of the hysteresis leaves the rubber than the interface loses.
-        """
+        """Return the part of the friction `interface` whose heat enters the rubber [-]."""
         into_road = (self.hysteresis + self.rubber * interface) / (self.rubber + self.counterface)
         return interface - into_road
 
@@ -366,10 +348,7 @@ class Partition:
 def settled_interface(
     friction_at: Callable[[float], float], rise: Callable[[float], float]
 ) -> float:
-    """Return the friction mu [-] of an interface that is at its rise: mu = friction_at(rise(mu)).
-
-    `friction_at` is a function of the temperature rise in the contact [K], which is `rise(mu)`.
-    """
+    """Return the friction mu [-] of an interface at its rise [K]: mu = friction_at(rise(mu))."""
     from scipy.optimize import brentq
 
     def excess(friction: float) -> float:

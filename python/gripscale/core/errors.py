@@ -89,10 +89,9 @@ def about_keys(table: str) -> Iterator[None]:
 def about_file(
     path: Path | str, kind: type[FileError] | type[InputError] = FileError
 ) -> Iterator[None]:
-    """Name the file in an `InputError` about values read from it.
+    """Name the file in an `InputError` about values read from it, raised as a `FileError`.
 
-    It is raised as a `FileError`: the values are to be mended in the file. As an `InputError` where
-    they meet values of the caller, such as where a profile is cropped, which may be wrong as well.
+    Or as an `InputError`, where they meet values of the caller, which may be wrong as well.
     """
     try:
         yield

@@ -1,7 +1,4 @@
-"""A finding: what a reader must know about a result, from where it is seen to where it is read.
-
-It is made where it is known, carried as data, ranked once and worded where it is shown.
-"""
+"""A finding: what a reader must know about a result, carried as data and ranked once."""
 
 from __future__ import annotations
 
@@ -29,11 +26,7 @@ class Severity(StrEnum):
 
 
 class Topic(IntEnum):
-    """What a finding is about; findings without a known effect stand in this order.
-
-    A part that was not solved well has no good number at all. Of the inputs the rubber makes the
-    friction, the surface how the load is shared. Where the result comes from changes no number.
-    """
+    """What a finding is about; findings without a known effect stand in this order."""
 
     MEASURED = -1
     """Measured friction beside the answer: it judges the answer, and stands first."""

@@ -1,8 +1,7 @@
 """Threads for independent tasks, and interrupts held back while a file is written.
 
-Threads use all cores, since kernel and transforms release Python's lock. xarray guards its files
-with one lock for all: an interrupt that arrives while it is taken would leave it taken, and the
-next file would wait for ever.
+xarray guards its files with one lock for all: an interrupt that arrives while it is taken would
+leave it taken, and the next file would wait for ever.
 """
 
 from __future__ import annotations
@@ -47,10 +46,7 @@ class Stopped(Exception):
 
 
 def look() -> None:
-    """Raise `Stopped` if the job of this thread is to end; do nothing in other threads.
-
-    For long work inside a job that does not have the job's event.
-    """
+    """Raise `Stopped` if the job of this thread is to end; do nothing in other threads."""
     stop = getattr(_here, "stop", None)
     if stop is not None and stop.is_set():
         raise Stopped

@@ -8,11 +8,7 @@ import gripscale._kernel as _kernel
 
 
 class Status(StrEnum):
-    """How a solution ended: `converged`, or the reason not to use its numbers.
-
-    Every member is, and compares equal to, its word; it carries what happened, what to do about it
-    and where the documentation says more.
-    """
+    """How a solution ended: `converged`, or why not to use its numbers; equal to its word."""
 
     CONVERGED = "converged"
     ITERATION_LIMIT = "iteration limit"

@@ -1,8 +1,6 @@
 """Units that files, case files and callers may name, and the units in which results are shown.
 
-Inside, and in result files, all values are in SI units. A result carries the units that its case
-states (`DISPLAY_UNITS`), and an axis of a study the unit of its values (`GIVEN`); plain numbers are
-shown in the usual unit.
+Inside, and in result files, all values are in SI units.
 """
 
 from __future__ import annotations

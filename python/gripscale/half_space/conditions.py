@@ -2,16 +2,8 @@
 
 An evaluation of the fixed point (`gripscale.conditions.fixed_point`) solves the whole contact with
 the rubber that a state of temperatures and strains, one of each an octave of wavelengths, makes of
-it. Each contact starts from the last one.
-
-The strain of a scale is that of `gripscale.conditions.conditions` in the contact.
-
-The harmonics of an octave lose mu_b p_0 v per nominal area, and the pattern of
-`gripscale.conditions.flash_temperature` distributes this heat along the surface. Summed over
-octaves it is exactly the friction work. It is lost at a mean depth of 3/2 over the wavenumber,
-averaged over the octave by the loss, and moves over the rubber while the footprint passes. The heat
-of an area term is lost at the surface, evenly over the contact; through it a counterface takes up
-its part of all heat.
+it. Each contact starts from the last one. docs/derivations.md has the strain of a scale and the
+heat of an octave.
 """
 
 from __future__ import annotations
@@ -80,12 +72,10 @@ _FELT = 20.0
 def _strain_of_line(
     spectrum: ComplexArray, number: Array, active: Mask, wavenumber: Array
 ) -> Array:
-    """Return the strains of a line: of its analytic signal, 2/sqrt(3) |e| in plane strain.
-
-    Of each scale on a grid that just resolves the waves that reach its depth.
-    """
+    """Return the strains of a line: of its analytic signal, 2/sqrt(3) |e| in plane strain."""
     out = []
     for scale in wavenumber:
+        # a grid that just resolves the waves that reach this depth
         waves = int(np.searchsorted(number[1:], _FELT * scale)) + 1
         blocks = active.size
         while blocks % 2 == 0 and blocks // 2 > 2 * waves:
@@ -96,9 +86,8 @@ def _strain_of_line(
         one_sided[:waves] = spectrum[:waves] * depth * np.exp(-depth) * centre
         signal = np.abs(scipy.fft.ifft(one_sided)) * (2.0 * blocks / active.size)
         in_contact = active.reshape(blocks, -1).sum(axis=1)
-        out.append(
-            2.0 / np.sqrt(3.0) * DEPTH_FACTOR * float(np.average(signal, weights=in_contact))
-        )
+        mean = float(np.average(signal, weights=in_contact))
+        out.append(2.0 / np.sqrt(3.0) * DEPTH_FACTOR * mean)
     return np.array(out)
 
 
@@ -145,22 +134,17 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
 
 
 def _loss_pattern(grid: Grid, half: ComplexArray, end: int) -> ComplexArray:
-    """Return the spectrum of the loss of waves with the half spectrum `half`, over its mean.
-
-    Of a line the waves end before number `end`, and a coarser grid has them all.
-    """
-    points, waves = grid.points, half.shape[0]
+    """Return the spectrum of the loss of `half` a spectrum over its mean; of a line up to `end`."""
     if len(grid.shape) > 1:
         density = np.abs(grid.forward_field(half)) ** 2
-    else:
-        while points % 2 == 0 and points // 2 >= 2 * end:
-            points //= 2
-        one_sided = np.zeros(points, dtype=complex)
-        waves = min(end, waves)
-        one_sided[:waves] = half[:waves]
-        density = np.abs(scipy.fft.ifft(one_sided)) ** 2
-    pattern = _without_mean(density / density.mean())
-    return pattern if len(grid.shape) > 1 else pattern[:waves] * (grid.points / points)
+        return _without_mean(density / density.mean())
+    points, waves = grid.points, min(end, half.shape[0])
+    while points % 2 == 0 and points // 2 >= 2 * end:  # a coarser grid has all the waves
+        points //= 2
+    one_sided = np.zeros(points, dtype=complex)
+    one_sided[:waves] = half[:waves]
+    density = np.abs(scipy.fft.ifft(one_sided)) ** 2
+    return _without_mean(density / density.mean())[:waves] * (grid.points / points)
 
 
 @dataclass(frozen=True)
@@ -221,8 +205,7 @@ def contact_source_temperature(
 ) -> tuple[GridTemperature, float]:
     """Return the rises of the rubber, and of the counterface's contact [K], by a unit of friction.
 
-    The heat is even over `contact` and at the surface; other arguments as for `grid_temperature`.
-    The counterface is at rest under the contact; insulating it would be infinitely hot.
+    The heat is even over `contact`, at the surface; an insulating counterface is infinitely hot.
     """
     pattern, at_surface = _without_mean(contact / contact.mean()), LossDepth(0.0)
 
@@ -312,10 +295,7 @@ class MeanWarming:
 
 
 def warming_of(contact: RoughContact, conditions: Conditions, footprint: float) -> MeanWarming:
-    """Return the rise by the heat of `conditions` in a contact that was solved without.
-
-    The rubber needs no shift. `footprint` is the length of the nominal contact [m].
-    """
+    """Return the rise by the heat of `conditions` in a contact solved without; `footprint` [m]."""
     if contact.speed == 0.0:
         return MeanWarming(0.0, 0.0)
     heats, rises = temperature(contact, conditions, footprint / contact.speed)
@@ -351,8 +331,7 @@ def solve_coupled_contact(
 ) -> RoughContact:
     """Return the contact on heights whose strains and temperatures are those of its rubber.
 
-    `quick` solves the contact like `solve` in less time; `time` is that of the nominal contact [s],
-    `goal` the tolerance of the contact [-]. Rubber that softens starts with a guess of its strains.
+    `quick` solves it like `solve` in less time; `time` is that of the nominal contact [s].
     """
     wavenumber, guess = _octaves(heights), None
     if conditions.softening is not None:
@@ -421,13 +400,8 @@ class _ContactEvaluation:
     def state(self, x: Array) -> StateByScale:
         """Return the rubber that the state `x` makes at every scale."""
         warming, strain = unpack_state(x)
-        return state_by_scale(
-            self.conditions,
-            self.rubber,
-            wavenumber=self.wavenumber,
-            warming=warming,
-            strain=strain,
-        )
+        at = {"wavenumber": self.wavenumber, "warming": warming, "strain": strain}
+        return state_by_scale(self.conditions, self.rubber, **at)
 
 
 def _octaves(heights: PeriodicHeights) -> Array:

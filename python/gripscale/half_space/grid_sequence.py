@@ -3,47 +3,8 @@
 A grid has four points in the shortest wave on it; the next has half the spacing and waves half as
 long. The shortest waves already enter on the grid before the last, with two points each, so that
 two grids solve the same surface and show the effect of the spacing. Finer grids follow if needed.
-
-A grid starts from the pressure p and gap g of the last, with the new roughness dh pressed flat:
-p + S dh - s g, S being the inverse of the half-space's response and s a stiffness of the order of
-its stiffest wave.
-
-With p(q) the Fourier coefficients of the pressure the friction is
-
-    mu = mean(p dh/dx) / p_0                                       from the contact traction
-    mu = sum_q q_x |p(q)|^2 2 Im M(q_x v) / (|q| |M|^2) / p_0       from the energy lost
-
-The second is the work that every harmonic of the pressure loses per sliding distance, so that the
-sum can be split by wavelength exactly.
-
-Contact fraction of a line: a contact ends between its last closed and the first open point. Near
-the end of a smooth contact the gap grows as (distance)^n, so gap^(1/n) at the two nearest open
-points extrapolates to zero there, as in `gripscale.theory.half_plane`. The symbol of K on a line is
-the product of two factors, that act to one side each; for E* ~ (i w)^a their orders are 1/2 and
-1/2 + a, and a gap opens as one more than the order that acts towards it (Wiener and Hopf: B. Noble,
-Methods Based on the Wiener-Hopf Technique, 1958, ch. VI). So n = 3/2 + a where the rubber leaves
-the contact towards +x, 3/2 at the other end, with a = 2/pi times the loss angle. Of a map: counted
-points overestimate the area by a share of the border. With n_s the number of neighbouring pairs of
-points of which one is in contact and one is not,
-
-    A/A_0 = (points in contact - (pi - 1 + ln 2)/24 n_s) / points
-
-V. A. Yastrebov, G. Anciaux & J.-F. Molinari, Tribol. Int. 114 (2017) 161,
-doi:10.1016/j.triboint.2017.04.023. The position of a border is uncertain by 0.5 steps on a line and
-0.7 on a map (two straight borders may both be half a step out), and the points of one straight
-stretch of border err together: with m their numbers in each stretch, the error of the fraction is
-that uncertainty times sqrt(sum m^2) over all points.
-
-Errors of the last grid: with d_n the change from n/2 to n points in the smallest wave, the error at
-n is estimated as
-
-    contact fraction    max(c d_n, c^2 d_(n/2)) + s d_n, and the error of the borders in quadrature
-    friction            the same max, or |mu - mu_diss| and that max of mu_diss if larger,
-
-c = 0.4: halving the spacing divides errors by two at least (measured on random surfaces; the tests
-compare the estimates with grids four times finer), and one small change may be chance. s is the
-share of the borders of a line that the grid before did not have: where small gaps or contacts still
-appear, as next to full contact, the spacing does not divide the error yet.
+docs/derivations.md has the start of a grid, the two frictions, the contact fraction between points,
+and how the errors are estimated.
 """
 
 from __future__ import annotations
@@ -95,8 +56,7 @@ def lost_by_harmonic(compliance: ComplexArray, grid: Grid, pressure: Array) -> A
 def grid_contact_fraction(active: Mask, gap: Array, loss_angle: float = 0.0) -> float:
     """Return real over nominal contact area of a periodic line or map [-].
 
-    `loss_angle` [rad] is that of the shortest waves, positive in a slide towards +x; only a line
-    takes it.
+    A line takes the `loss_angle` [rad] of the shortest waves, positive in a slide towards +x.
     """
     if active.ndim == 2:
         border = sum(int((active != np.roll(active, 1, axis=axis)).sum()) for axis in (0, 1))
@@ -130,27 +90,20 @@ def border_error(active: Mask) -> float:
 
 
 def errors(same_surface: Sequence[GridRecord]) -> tuple[float, float]:
-    """Return the errors of contact fraction and friction [-] of the last and finest grid.
-
-    NaN if there is only one grid, zero for full contact, which is in closed form.
-    """
+    """Return the errors of area and friction [-] of the last grid; NaN of one, zero if full."""
     last = same_surface[-1]
     if last.full:
         return 0.0, 0.0
     if len(same_surface) == 1:
         return math.nan, math.nan
-    area, traction, dissipation = (
-        max(
-            _ERROR_RATIO ** (1 + age) * abs(b - a)
-            for age, (a, b) in enumerate(reversed(list(pairwise(values))[1 - ERROR_GRIDS :]))
-        )
-        for values in (
-            [grid.contact_fraction for grid in same_surface],
-            [grid.friction for grid in same_surface],
-            [grid.friction_from_dissipation for grid in same_surface],
-        )
-    )
-    before = same_surface[-2]
+
+    def error(name: str) -> float:
+        changes = [getattr(b, name) - getattr(a, name) for a, b in pairwise(same_surface)]
+        newest_first = enumerate(reversed(changes[1 - ERROR_GRIDS :]), start=1)
+        return float(max(_ERROR_RATIO**age * abs(change) for age, change in newest_first))
+
+    area, traction = error("contact_fraction"), error("friction")
+    dissipation, before = error("friction_from_dissipation"), same_surface[-2]
     # of a map the share of new borders is zero: `border_error` times the points falls there
     borders = [(grid.border_error * grid.points) ** 2 for grid in (before, last)]
     new = max(0.0, 1.0 - borders[0] / borders[1]) if borders[1] > 0.0 else 0.0

@@ -1,8 +1,4 @@
-"""The contact on the last solved grid of a sequence, in a file: a solution that stopped resumes.
-
-The file `grid.npz` holds pressure, gap and the numbers of all grids so far, and a key of what is
-solved. It is replaced after each grid and removed at the end.
-"""
+"""The contact on the last solved grid of a sequence, in a file: a solution that stopped resumes."""
 
 from __future__ import annotations
 
@@ -44,10 +40,7 @@ class KeptGrid:
         return cls(Path(folder) / "grid.npz", content_hash(inputs))
 
     def load(self, sequence: GridSequence, plan: list[Level]) -> list[GridRecord]:
-        """Return the numbers of the grids that were solved, of which the sequence gets the last.
-
-        They leave the `plan`. There are none if the file is of another problem.
-        """
+        """Return the numbers of solved grids, which leave the `plan`; none of another problem."""
         if not self.path.exists():
             return []
         with np.load(self.path) as data:
@@ -65,19 +58,13 @@ class KeptGrid:
 
     def save(self, solved: LevelContact, records: list[GridRecord]) -> None:
         """Replace the file by the contact on the last grid."""
-        contact = solved.contact
-        names = ("iterations", "settled", "products", "missing")
-        numbers = {name: getattr(contact, name) for name in names}
+        contact, names = solved.contact, ("iterations", "settled", "products", "missing")
+        arrays: dict[str, Any] = {"pressure": contact.pressure, "gap": contact.gap}
+        arrays["records"] = json.dumps([asdict(record) for record in records])
+        arrays["numbers"] = json.dumps({name: getattr(contact, name) for name in names})
 
         def write(part: Path) -> None:
             with part.open("wb") as file:
-                np.savez(
-                    file,
-                    key=self.key,
-                    records=json.dumps([asdict(record) for record in records]),
-                    numbers=json.dumps(numbers),
-                    pressure=contact.pressure,
-                    gap=contact.gap,
-                )
+                np.savez(file, key=self.key, **arrays)
 
         write_whole(self.path, write)

@@ -1,33 +1,14 @@
-"""From measured lines to the isotropic surface they lie on: a law measured on synthetic surfaces.
-
-A line is solved in plane strain, as if the surface were grooves across the sliding direction. On an
-isotropic surface rubber escapes sideways, and high places beside the line carry load in its place.
-On maps of eleven families (`python -m studies.line_to_map`) the contact of the map over that of its
-lines follows how far the heights of a line reach up and, the more so the fewer of them carry, how
-far its summits stand out of the places that carry beside them:
+"""From measured lines to the isotropic surface they lie on: laws measured on synthetic surfaces.
 
     ln f = a_0 + a_1 t + a_2 (T / P)^(1/3) + a_3 S,    ln g likewise,
-    t = (z_1 - mean height) / rms,    T = (z_0.5 - z_2) / rms,
-    P = pressure * largest wave / (|M| * rms),    S = ln(E'(e) / E'(2 e)),
+    A_map = erf(f^(1 - A/2) erfinv(A)),    ln(mu_map / mu) = (1 - A^4) ln g + A^4 ln 1.11,
 
-z_u is the height that u % of a line exceeds, f for small areas A of contact, g for friction, M the
-plane-strain modulus of the largest wave where it slides. Softened rubber is strained more under a
-map than under its lines: S is what twice their strain e at the smallest wave would soften it.
-Towards full contact the areas meet and the friction of the map is 1.11 times that of its lines:
-
-    A_map = erf(f^(1 - A/2) erfinv(A)),    ln(mu_map / mu) = (1 - A^4) ln g + A^4 ln 1.11.
-
-Speed and cut-off change the ratios by less than their scatter: 20 m/s for 0.3 m/s by 3 and 4 %.
-
-The factor of large strain on a direct contact: a law measured on windows of profiles.
-The finite-strain block over the half-space, on the same windows (`python -m studies.large_strain`),
-follows the nominal pressure over the modulus, x = p_0/|E*|, and the contact fraction A of the
-half-space:
+with t, T, P and S of `LineUnderLoad` (`python -m studies.line_to_map`), and the factors of large
+strain on a direct contact, with x = p_0/|E*| (`python -m studies.large_strain`):
 
     area:      ln f = 0.069 (x/A) (1 - A)^0.5,        friction:  ln g = -0.175 x / A^0.5.
 
-E* is that of a seventh of the largest wave as it slides, softened and warmed. The scatter from
-window to window grows as the mean does. No map was solved, and x was at most 1.1.
+docs/isotropic-maps.md and docs/direct-contact.md say what they rest on.
 """
 
 from __future__ import annotations
@@ -104,8 +85,8 @@ FULL_CONTACT_FRICTION = 1.11
 FREEDOM = 64
 # The largest t and (T / P)^(1/3) of the fit: beyond, the law is a guess.
 FITTED_TO = (4.1, 8.5)
-# What the law misses of the change of the logarithm of both ratios on one surface, over that of the
-# logarithm of the lines' area: rms over pressures a factor of ten apart.
+# What the law misses of changes of ln of both ratios on one surface, over that of ln area of lines:
+# rms over pressures a factor of ten apart.
 LOAD_SENSITIVITY = 0.10
 
 
@@ -149,22 +130,11 @@ def line_under_load(
 ) -> LineUnderLoad:
     """Return how far lines reach up, and how hard they are pressed for their height.
 
-    Raises `InputError` if an argument is out of its range, or no piece has two different heights.
-
-    Parameters
-    ----------
-    profile : Profile or sequence of Profile
-        Measured lines; missing heights are left out. Heights count from the mean of pieces of
-        sixteen largest waves, or of the whole line where it is shorter; the mean over all pieces
-        counts.
-    rubber : Rubber
-        At the temperature of the contact.
-    largest_wavelength : float
-        Longest wave of the roughness [m].
-    pressure, speed : float
-        Nominal pressure [Pa] and sliding speed [m/s]; zero is the relaxed rubber.
-    contact : RoughContact, optional
-        That of the line under the load, where its rubber is softened or warmed.
+    Heights, without those missing, count from the mean of pieces of sixteen largest waves [m]; the
+    mean over all pieces counts. The rubber is at the temperature of the contact, under a nominal
+    `pressure` [Pa] at a `speed` [m/s], relaxed at zero; where it is softened or warmed, `contact`
+    is that of the line. Raises `InputError` if an argument is out of its range, or no piece has two
+    different heights.
     """
     longest = checks.positive("largest_wavelength", largest_wavelength, unit="m")
     pressed = checks.positive("pressure", pressure, unit="Pa")
@@ -203,7 +173,7 @@ def _further_softening(contact: RoughContact) -> float:
 
 
 _WAVE = 1.0 / 7.0  # wave of the modulus over the largest wave: 4 mm on the shipped road
-# Mean of the logarithm and its standard deviation, over what both are proportional to.
+# Mean of the logarithm and its standard deviation, over what both are proportional to; x <= 1.1.
 AREA_GROWTH, AREA_SCATTER = 0.069, 0.08
 FRICTION_GROWTH, FRICTION_SCATTER = -0.175, 0.16
 

@@ -1,13 +1,8 @@
 """Traces: a contact along a line as a drawing needs it.
 
 A trace holds the lowest and highest values of pieces of the line, half of them equally long, the
-others single points in the stretches with most friction. Its size does not depend on the number of
-points. A stretch has a share in the friction
-
-    mu = sum_i p_i h'_i / (N p_0)
-
-as it has in the load, sum_i p_i = N p_0. Behind a summit p h' is below zero: over a stretch much
-shorter than a summit a share may exceed 1, and over several summits it does not.
+others single points in the stretches with most friction, sum_i p_i h'_i / (N p_0). Behind a summit
+p h' is below zero: over a stretch much shorter than a summit its share may exceed 1.
 """
 
 from __future__ import annotations
@@ -30,11 +25,7 @@ _SOURCE = "gripscale direct contact"
 
 
 def strongest_stretches(amount: Array, active: Mask, points: int, count: int) -> list[int]:
-    """Return the first points of the stretches with the largest sums of an amount, largest first.
-
-    At most `count` stretches of so many points; they do not overlap, and begin and end out of
-    contact where there is any such point.
-    """
+    """Return the first points of separate stretches of largest sums, cut where out of contact."""
     sums = _window_sums(amount, points)
     cut = active[: sums.size] | active[points - 1 :]
     sums[cut & ~cut.all()] = -math.inf
@@ -69,18 +60,9 @@ def contact_trace(
     the line, and over `block_x` and `block_y` the largest `field_pressure` [Pa], NaN out of
     contact, at `field_x` and `field_y` [m]. Raises `InputError` if the stretch is not positive.
 
-    Parameters
-    ----------
-    contact : RoughContact
-        Of a line, or of a map: then along its section with the strongest stretch.
-    stretch : float, optional
-        Length of the stretch with most friction [m]; by default 4 mm, at least 20 of the smallest
-        waves and at most a quarter of the line.
-    pieces : int
-        Most pieces of the trace: half of them are equally long, the others are the points of the
-        stretches with most friction.
-    derivative : array, optional
-        d ln friction / d height [1/m] of each point, shape of the grid.
+    A map is cut along its section with the strongest `stretch` [m]: by default 4 mm, at least 20 of
+    the smallest waves and at most a quarter of the line. `derivative` is d ln friction / d height
+    [1/m] of each point, shape of the grid.
     """
     x, step = contact.x, contact.grid.spacing[0]
     least = max(STRETCH, LEAST_WAVES * contact.smallest_wavelength)

@@ -86,12 +86,7 @@ def _with_basis(
     surface: Surface,
     load: Load,
 ) -> xr.Dataset:
-    """Return an answer with what it rests on (`gripscale.model.BASIS`).
-
-    The profiles are independent: their sampling errors add up in squares, and how they lie under
-    the load counts by their length. A map is no line, and
-    what the step from lines to a surface needs is NaN.
-    """
+    """Return an answer with what it rests on (`gripscale.model.BASIS`); NaN what a map has not."""
     longest = float(surface.sines.wavelength[0])
     piece, line = PIECE * longest, LineUnderLoad(*[math.nan] * 4)
     measured = surface.measured
@@ -118,16 +113,13 @@ def _with_basis(
         _weighted(area, [contact.missing_share for contact in contacts]),
     )
     variables = {
-        name: xr.Variable((), number, {"units": "1", "long_name": text, "source": "direct"})
+        name: labelled((), number, "1", text, "direct")
         for (name, text), number in zip(model.BASIS.items(), numbers, strict=True)
     }
     # the nominal pressure is the same: their loads are as their lengths
-    weights = dict(
-        zip(SHARES_BY_SLOPE, (friction, np.asarray(lengths, dtype=float), area), strict=True)
-    )
-    for name, text in SHARES_BY_SLOPE.items():
-        parts = [contact.shares_by_slope[name].values for contact in contacts]
-        share = _weighted(weights[name], parts)
+    weights = (friction, np.asarray(lengths, dtype=float), area)
+    for (name, text), weight in zip(SHARES_BY_SLOPE.items(), weights, strict=True):
+        share = _weighted(weight, [contact.shares_by_slope[name].values for contact in contacts])
         variables[f"total_{name}"] = labelled("slope", share, "1", text, "direct")
     return answer.assign(variables)
 
@@ -153,34 +145,24 @@ def _answer_by_length(
     load: Load,
     cut_off_exponents: Sequence[CutOffExponents] = (),
 ) -> xr.Dataset:
-    """Return `data` over `profile` with the answers of the profiles averaged by length [m].
+    """Return `data` over `profile` with the results `parts` of profiles averaged by length [m].
 
-    `parts` are their results, with the attributes of `TOTALS` without `total_`, `extrapolation`
-    and `status`. `why_not` says why a profile does not count: then there are no totals.
+    `why_not` says why a profile does not count: then there are no totals.
     """
     weight = np.asarray(lengths) / np.sum(lengths)
-    bad = [
-        f"profile {number} of {len(parts)}: {why}"
-        for number, why in enumerate(why_not, start=1)
-        if why
-    ]
-    totals = {
-        total: math.nan
-        if bad
-        else float(weight @ [getattr(part, total.removeprefix("total_")) for part in parts])
+    bad = [f"profile {n} of {len(parts)}: {why}" for n, why in enumerate(why_not, start=1) if why]
+    values = {
+        total: np.array([getattr(part, total.removeprefix("total_")) for part in parts])
         for total in model.TOTALS
     }
     attrs = {"units": "1", "long_name": "share of the length"}
     weighted = data.assign(weight=("profile", weight, attrs))
-    beyond = of_sum(
-        [part.extrapolation for part in parts],
-        weight * [part.friction_from_dissipation for part in parts],
-    )
-    exponents = NOT_CONVERGED
+    area, _, friction = (weight * each for each in values.values())
+    beyond = of_sum([part.extrapolation for part in parts], friction)
+    totals, exponents = dict.fromkeys(values, math.nan), NOT_CONVERGED
     if not bad:
-        names = ("contact_fraction", "friction_from_dissipation")
-        added = [weight * [getattr(part, name) for part in parts] for name in names]
-        exponents = of_mean(cut_off_exponents, *added)
+        totals = {total: float(weight @ each) for total, each in values.items()}
+        exponents = of_mean(cut_off_exponents, area, friction)
     status = "; ".join(bad) or Status.CONVERGED
     words = [str(part.status) for part, why in zip(parts, why_not, strict=True) if why]
     return model.predicted_answer(
@@ -248,10 +230,7 @@ class DirectContact(Checked, model.Model):
         *,
         coarse: bool = False,
     ) -> RoughContact:
-        """Return the contact of one profile of a surface, or of its map.
-
-        Arguments as of `solve_rough_contact`.
-        """
+        """Return the contact of a profile or map of a surface, as `solve_rough_contact` does."""
         smallest = self.smallest_wavelength
         if smallest is None and not self.periodic:
             smallest = smallest_wavelength(surface, measured)
@@ -295,12 +274,10 @@ class DirectContact(Checked, model.Model):
 
         changes = dict(condition_changes(contact, rubber, solve))
         numbers = np.array(list(changes.values())).reshape(-1, 2).T
-        data = {
-            name: labelled("condition", values, "1", text, "direct")
-            for (name, text), values in zip(CONDITION_ERRORS.items(), numbers, strict=True)
-        }
         labels = np.array(list(changes), dtype=object)
-        answer = answer.assign_coords(condition=("condition", labels)).assign(data)
+        answer = answer.assign_coords(condition=("condition", labels))
+        for (name, text), values in zip(CONDITION_ERRORS.items(), numbers, strict=True):
+            answer[name] = labelled("condition", values, "1", text, "direct")
         signed = {"series": changes[SERIES]} if SERIES in changes else {}
         others: dict[str, Load] = {}
         longest = 0.0 if surface.waves is None else float(surface.sines.wavelength[0])
@@ -356,9 +333,7 @@ QUICK = {"smallest_roughening": 0.1, "roughening_iterations": 12, "rescue_column
 class BlockOnProfile(Checked, model.Model):
     """Model of measured profiles: each cleaned profile in one block, averaged by length.
 
-    The profiles must be short: a block resolves about a hundred waves (see
-    `gripscale.half_space.windows`). The load time is that of the load, while the footprint passes.
-
+    Profiles must be short (`gripscale.half_space.windows`): a block resolves about a hundred waves.
     The fields are arguments of `gripscale.solve_profile`.
     """
 
@@ -374,8 +349,7 @@ class BlockOnProfile(Checked, model.Model):
     ) -> xr.Dataset:
         """Return the answer, with each profile over `profile`; `on_progress` gets each result.
 
-        Raises `InputError` if the surface has no profile, or one with more waves than a block
-        resolves.
+        Raises `InputError` without a profile, or for one with more waves than a block resolves.
         """
         results = []
         for profile in _measurement(surface, "the block on a profile needs a profile").cleaned:

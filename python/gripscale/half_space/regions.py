@@ -1,16 +1,10 @@
-"""Regions of a periodic grid: connected points, and whether a region reaches its own image.
+"""Regions of a periodic grid, joined along its axes, and pools of trapped water under a contact.
 
-A region percolates along an axis if a path within it ends in the next period of that axis. Points
-are connected to their neighbours along the axes, not along diagonals.
-
-Pools of trapped water under a contact: each keeps its volume at a uniform pressure.
-With the pressure p_c of the contact, that of pool k p_k over its open points chi_k, and its volume
-V_k,
+A region percolates along an axis if a path within it ends in the next period of that axis. Each
+pool k keeps its volume V_k at a uniform pressure p_k over its open points chi_k: with p_c of the
+contact,
 
     u = K (p_c + sum_k p_k chi_k),    sum of the gap over chi_k = V_k    or    p_k = 0, sum >= V_k.
-
-A point of a pool is in contact where the pressure there exceeds that of the pool, which would lift
-the rubber otherwise. Volumes are sums of the gap over points [m].
 """
 
 from __future__ import annotations
@@ -104,10 +98,7 @@ class Pools:
         return np.asarray(self.filled[self.label] & ~active)
 
     def averaging(self, where: _Index, active: Mask) -> tuple[Averaged, Array]:
-        """Return what replaces values at the points `where` by the means of their pools.
-
-        And the mean gap of the pool of each point [m], zero in contact.
-        """
+        """Return what averages values at points over their pools, and the pools' mean gaps [m]."""
         label = np.where(active[where], 0, self.label[where])
         count = np.maximum(np.bincount(label, minlength=self.volume.size), 1)
         pooled = np.flatnonzero(label)

@@ -285,7 +285,8 @@ class Response:
     @cached_property
     def _map(self) -> Map:
         """Filters and contacts of the map in single precision."""
-        return Map(*self.grid.shape, self.workers, partial(_require_time, self.deadline))
+        rows, columns = self.grid.shape
+        return Map(rows, columns, self.workers, partial(_require_time, self.deadline))
 
     def _filtered_single(self, values: Single, transfer: SingleComplex) -> Single:
         if values.ndim == 1:

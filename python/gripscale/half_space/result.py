@@ -1,18 +1,10 @@
 """Result of the direct contact, as numbers and as a labelled Dataset.
 
-By octave of wavelength, `wavelength` being its lower end, the Dataset holds
-
-- `friction`: the energy lost in the harmonics of the pressure of these wavelengths 2 pi/|q|, in
-  the contact with the whole surface. The octaves sum to `friction_from_dissipation` exactly. Waves
-  shorter than the smallest of the surface belong to the edges of the contact.
-- `contact_fraction`: of another contact, with only the waves of the surface not shorter than
-  `wavelength`, on a grid of four points in it; NaN where none was solved.
-
-The effect of the cut-off follows from the grids of the solution. A grid has four points in the
-shortest wave on it, and the next one twice as many with waves half as long: two solutions whose
-cut-offs are an octave apart, with the same resolution. The friction by octave of the last contact
-does not replace them: without its smallest waves the larger ones have more contact and lose more,
-so that without an octave friction changes by less than is lost in it (docs/cut-off.md).
+By octave of wavelength, `wavelength` being its lower end, the Dataset holds the `friction` lost in
+the harmonics 2 pi/|q| of the pressure, which sums to `friction_from_dissipation` exactly, and the
+`contact_fraction` of another contact, with only the waves of the surface not shorter than
+`wavelength`, NaN where none was solved. The effect of the cut-off follows from such contacts:
+docs/cut-off.md.
 """
 
 from __future__ import annotations
@@ -84,14 +76,11 @@ SHARES_BY_SLOPE = {
 
 
 def shares_by_slope(contact: RoughContact) -> xr.Dataset:
-    """Return the shares of friction, load and contact area by slope of the surface.
-
-    The friction from the contact traction, sum_i p_i h'_i / (N p_0), is a sum over the points of
-    the grid, so that a class of slopes has a share in it as in the load and in the contact area.
+    """Return the shares of friction from traction, load and contact area by slope of the surface.
 
     The result has `friction_by_slope`, `load_by_slope` and `contact_by_slope` [-] over `slope`, the
-    lower end of the classes of dh/dx along the sliding direction, up or down: 0 to 0.25, to 0.5, to
-    1, to 2 and above. Each sums to 1; the friction is NaN where there is none.
+    lower end of the classes of |dh/dx|: 0 to 0.25, to 0.5, to 1, to 2 and above. Each sums to 1;
+    the friction is NaN where there is none.
     """
     slope = contact.grid.slope(contact.height)
     index = np.digitize(np.abs(slope), SLOPES[1:], right=True).reshape(-1)
@@ -245,11 +234,7 @@ class RoughContact(Pictured):
 
     @property
     def usable(self) -> bool:
-        """Whether the contact counts in an answer.
-
-        Without a tolerance every contact has a grid equally coarse: without those whose frictions
-        disagree the others would be a selection.
-        """
+        """Whether the contact counts in an answer; it does if its frictions disagree."""
         return self.status in (Status.CONVERGED, Status.FRICTIONS_DISAGREE)
 
     @property
@@ -297,10 +282,7 @@ class RoughContact(Pictured):
 
     @property
     def extrapolation(self) -> Extrapolation:
-        """Share of the friction lost in harmonics beyond the rubber's measured frequencies.
-
-        Heat shifts them: each harmonic counts with a_T of its scale times its frequency.
-        """
+        """Share of the friction lost beyond the measured frequencies, which heat shifts."""
         if self.speed == 0.0:
             return NOTHING_BEYOND
         omega = np.broadcast_to(self.grid.along * self.speed, self.grid.spectrum_shape)
@@ -394,10 +376,7 @@ class RoughContact(Pictured):
 
     @property
     def friction_by_layer(self) -> Array:
-        """Friction from the energy lost in each layer [-], that in contact first.
-
-        The layers sum to `friction_from_dissipation`; one rubber is one layer.
-        """
+        """Parts of `friction_from_dissipation` lost in each layer [-], that in contact first."""
         if self.layers is None:
             return np.array([self._lost.sum()])
         losses = self.body.losses_by_layer(self.grid)
@@ -416,7 +395,7 @@ class RoughContact(Pictured):
 
     @property
     def friction_by_wavelength(self) -> xr.Dataset:
-        """Friction and contact fraction by octave of wavelength, see the module."""
+        """Friction and contact fraction by octave of wavelength, as the head of the module says."""
         number = np.broadcast_to(self.grid.wavenumber, self.grid.spectrum_shape).reshape(-1)[1:]
         lost = self.lost_by_harmonic().reshape(-1)[1:]
         # a wave of exactly the lower end belongs to the octave, rounding or not
@@ -428,12 +407,16 @@ class RoughContact(Pictured):
             index = round(float(octave.max() - np.log2(grid.cut_off / self.smallest_wavelength)))
             if grid.settled and 0 <= index < order.size:
                 fraction[index] = grid.contact_fraction
-        ends = self.smallest_wavelength * 2.0**order
         columns = {
             "friction": (friction, "1", "friction of the octave", _SOURCE),
             "running_friction": (np.cumsum(friction), "1", "friction down to the octave", _SOURCE),
             "contact_fraction": (fraction, "1", "contact fraction without shorter waves", _SOURCE),
-            "wavelength": (ends, "m", "lower end of octave", "input"),
+            "wavelength": (
+                self.smallest_wavelength * 2.0**order,
+                "m",
+                "lower end of octave",
+                "input",
+            ),
         }
         data = {name: labelled("wavelength", *column) for name, column in columns.items()}
         return xr.Dataset(data).set_coords("wavelength")
@@ -453,12 +436,11 @@ class RoughContact(Pictured):
 
         for name, (unit, text) in _NUMBERS.items():
             add(name, (), float(getattr(self, name)), unit, text)
-        for table, holder in (
-            (OUTSIDE_BAND, self.extrapolation),
-            (CUT_OFF_EXPONENTS, self.cut_off_exponents),
-        ):
-            for total, (part, text) in table.items():
-                add(total.removeprefix("total_"), (), getattr(holder, part), "1", text)
+        beyond, exponents = self.extrapolation, self.cut_off_exponents
+        for total, (part, text) in OUTSIDE_BAND.items():
+            add(total.removeprefix("total_"), (), getattr(beyond, part), "1", text)
+        for total, (part, text) in CUT_OFF_EXPONENTS.items():
+            add(total.removeprefix("total_"), (), getattr(exponents, part), "1", text)
         octaves = self.friction_by_wavelength
         data["octave_friction"] = octaves["friction"].variable
         data["octave_running_friction"] = octaves["running_friction"].variable
@@ -497,12 +479,12 @@ class RoughContact(Pictured):
         add("status", (), np.array(str(self.status), dtype=object), "1", "")
         return xr.Dataset(
             data,
-            coords={
+            {
                 "share": list(_SHARES),
                 "slope": list(SLOPES),
-                "wavelength": octaves["wavelength"].variable,
+                "wavelength": octaves.wavelength.variable,
             },
-            attrs={
+            {
                 "title": "Direct contact of rubber with a whole rough surface",
                 "rubber": f"{self.rubber.name}; {self.rubber.source}".strip("; "),
                 "rubber_parameters": json.dumps(self.rubber.to_dict()),

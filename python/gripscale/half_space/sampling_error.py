@@ -1,35 +1,9 @@
 """How well one measured surface represents its road: standard errors from pieces of one contact.
 
-The contact of a road under a nominal pressure is a ratio: contact length (or friction force) over
-load, both summed over pieces of the surface. A piece that happens to be high carries more load and
-has more contact, at about the same ratio. So the error of the ratio r = sum(y) / sum(p) comes from
-the residuals of the pieces,
-
-    var(r) / r^2 = m / (m - 1) sum((y_i - r p_i)^2) / sum(y)^2,    m = sum(p)^2 / sum(p^2)
-
-(W. G. Cochran, Sampling Techniques, 3rd ed. (1977), sec. 6.4), without another solution. m is the
-number of pieces that carry (L. Kish, Survey Sampling (1965), sec. 11.7): at low pressure a few
-pieces have all of the load, and the others tell nothing of the scatter. The
-friction force of a piece is that of the losses: pressure times the part of the slope of the rubber
-that its losses make. The traction would do for the sum but not for a piece, because elastic forces
-of one piece on another cancel in the sum only.
-
-Few such pieces fit into a map, and neighbours are not independent: without waves beyond its longest
-one piece has what the next lacks. The error of a map is that of its low frequencies, as of a time
-series (U. K. Mueller, J. Econometrics 141 (2007) 1331, doi:10.1016/j.jeconom.2007.01.019). With
-cosines c_j whose half waves are at least as long as the longest wave, one along each side at least,
-and the residuals e = y/sum(y) - p/sum(p) of small parts,
-
-    var(r)/r^2 = sum_j (sum(c_j e))^2 / tr M,   M_jk = sum(e^2 (c_j - <c_j>)(c_k - <c_k>))/sum(e^2),
-
-with < > weighted by the load, as r is a ratio. M is the covariance of independent residuals at the
-same places: 1 for an even load, less for few summits. The degrees of freedom are
-(tr M)^2 / tr(M^2) (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110).
-
-How far friction and area change with conditions, thickness or moduli that may be true as well.
-Strain and temperature of every scale stay those of the solved contact, the rubber that they make is
-another: one contact for each thing that is not known, started from the solved one. The answer of
-strain and temperature to the change is of second order.
+The contact is a ratio of sums over pieces: their residuals say how well it is known, of a map their
+low frequencies (docs/derivations.md). How far friction and area change with conditions, thickness
+or moduli that may be true as well follows from one contact for each, started from the solved one,
+with its strain and temperature of every scale.
 """
 
 from __future__ import annotations
@@ -59,15 +33,14 @@ class SamplingError(NamedTuple):
 
     contact_fraction: float
     friction: float
-    pieces: float  # pieces that carry, from which they are estimated
+    pieces: float  # that carry, from which they are estimated: one more than degrees of freedom
 
 
 def sampling_error(contact: RoughContact, piece: float) -> SamplingError:
     """Return the relative standard errors of a contact as an estimate for its road.
 
-    The pieces of a line are equal and at least as long as `piece` [m], the waves of a map as well.
-    NaN for fewer than four, or load on one alone; of friction also at rest, and where it is not
-    positive. `pieces` is one more than the degrees of freedom.
+    The pieces of a line, the waves of a map, are at least as long as `piece` [m]. NaN for fewer
+    than four, or load on one alone; of friction also at rest, and where it is not positive.
     """
     piece = checks.positive("piece", piece, unit="m")
     of_map = len(contact.grid.shape) > 1
@@ -138,8 +111,7 @@ def _losses(contact: RoughContact) -> Array:
 def friction_residuals(contact: RoughContact, piece: float) -> Array:
     """Return y/sum(y) - p/sum(p) of the friction force y and the load p of each piece [-].
 
-    Two contacts of one surface have the same pieces: the differences of their residuals make the
-    error of the ratio of the two frictions.
+    Their differences between two contacts of one surface make the error of the ratio of frictions.
     """
     piece = checks.positive("piece", piece, unit="m")
     load = _by_piece(contact.pressure, contact, piece)
@@ -201,9 +173,8 @@ def condition_changes(
 ) -> Iterator[tuple[str, LogChange]]:
     """Yield what is not known of rubber and iterated conditions of a contact, with its changes.
 
-    Each has the size of a standard error: measured moduli are likelier than their series, to which
-    the answer keeps. They may be those of no linear solid, but a steady slide needs only E* at the
-    frequency of each wave. `solve` returns the contact with another rubber, or one at each scale.
+    Each has the size of a standard error; measured moduli are likelier than their series. `solve`
+    returns the contact with another rubber, or one at each scale.
     """
     by_scale = contact.by_scale
     if contact.speed > 0.0 and rubber.admissible is not None and rubber.admissible.omega.size:

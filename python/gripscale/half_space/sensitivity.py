@@ -1,43 +1,12 @@
 """What decides the friction of a direct contact: its derivatives, from one adjoint solution.
 
-With the points in contact A, the response K of the half-space (`gripscale.half_space.response`),
-heights h, pressures p of mean p_0 and the rigid approach u_0, the contact and its friction from the
-energy lost are
+With K the response of the half-space, A the points in contact, N points and mu = p . D p / (N p_0),
 
-    (K p)_A + u_0 = h_A,    mean p = p_0,    mu = p . D p / (N p_0),    D(q) = -q_x Im K(q),
+    (K^T lam)_A + nu = 2 (D p)_A / (N p_0),    sum lam = 0,    lam = 0 outside A,
+    d mu / d h(x) = lam(x),    d mu / d ln p_0 = nu N p_0 - mu,    d mu = Re sum_q c(q) dM/M.
 
-on N points. The multipliers of these equations, lam at the points in contact and nu, follow from
-the same linear system with the transposed response, which is that of the rubber sliding the other
-way:
-
-    (K^T lam)_A + nu = 2 (D p)_A / (N p_0),    sum lam = 0,    lam = 0 outside A.
-
-Then, for a fixed A,
-
-    d mu / d h(x)    = lam(x)
-    d mu / d ln p_0  = nu N p_0 - mu
-    d mu             = Re sum_q c(q) dM/M,    c(q) = w(q)/N conj(lam + i q_x p/(N p_0)) p K,
-
-w being the weight of a wave in the half spectrum and lam, p their transforms. The set A may be
-taken as fixed, because the pressure vanishes at its borders: what a shifted border adds is of
-second order. On a grid a border shifts point by point, and an asperity that comes into contact on a
-line bends mu(p_0): see `tests/verification/test_sensitivity.py`. The friction from the traction,
-p . h'/(N p_0), has the same derivative only where points are many: on a measured road with four
-points in the smallest wave its d ln mu/d ln E' is -1.53 where fine grids have -1.07.
-
-The modulus M = E*/(1 - nu^2) of a wave depends on E*(q_x v) = E' + i E'', and so
-
-    dM/M = g (E' dln E' + i E'' dln E'') / E*,   g = dln M/dln E* = 1 + G/(B + G) - 4G/(B + 4G),
-
-with G = E*/3 and B three times the bulk modulus. For a layer of finite thickness, M = 2/(|q| K) has
-in addition g <- g - (d ln F/d nu) d nu/d ln G, see `gripscale.theory.layers`. Summed over the waves
-of a band of frequencies, these are the effects of E' and E'' in the band. Speed and temperature
-change E* of every wave.
-
-The contact fraction has no such derivative, because the borders decide it: with the square of the
-pressure near the border in place of the step, the adjoint is off by 10 to 50 % of differences on
-lines of 1,280 to 20,480 points. Its derivatives are differences of contacts that start from the
-solved one.
+docs/derivations.md has c(q), the change of M with E' and E'', and why A may be taken as fixed. The
+contact fraction has no such derivative: its are differences of contacts.
 """
 
 from __future__ import annotations
@@ -172,13 +141,12 @@ class FrictionAdjoint:
         friction = contact.friction_from_dissipation
         storage, loss = modulus_changes(contact, self.layer)
         scalars = scalar_changes(contact, self.layer)
-        by = {name: float(self.by_modulus(change).sum()) for name, change in scalars.items()}
         return {
             "temperature": math.nan,
             "ln_storage": bands.sums(self.by_modulus(storage)) / friction,
             "ln_loss": bands.sums(self.by_modulus(loss)) / friction,
             "ln_modulus": self.by_log_terms() / friction,
-            **{name: value / friction for name, value in by.items()},
+            **{name: float(self.by_modulus(by).sum()) / friction for name, by in scalars.items()},
             "ln_pressure": self.by_log_pressure / friction,
             "ln_cut_off": contact.cut_off_exponents.friction,
         }
@@ -192,10 +160,7 @@ def _on_grid(change: ComplexArray, grid: Grid) -> ComplexArray:
 def half_space_of(
     contact: RoughContact, *, speed: float | None = None, warmer: float = 0.0
 ) -> HalfSpace:
-    """Return the rubber of a contact at another speed [m/s], or `warmer` [K].
-
-    Under conditions each scale keeps its strain and its own temperature rise.
-    """
+    """Return the rubber of a contact, strained as it is, at another speed [m/s] or `warmer` [K]."""
     sliding, scales = contact.speed if speed is None else speed, contact.by_scale
 
     def warmed(rubber: Rubber) -> Rubber:
@@ -233,10 +198,9 @@ def relative_change(contact: RoughContact, layer: int = 0) -> tuple[ComplexArray
 
 
 def scalar_changes(contact: RoughContact, layer: int = 0) -> dict[str, ComplexArray]:
-    """Return the derivatives of ln M of each wave by speed, bulk modulus and temperature [1/K].
+    """Return the derivatives of ln M of each wave, over the half spectrum, by names of `TEXTS`.
 
-    Over the half spectrum, by the end of their name in a Dataset; without a shift of every rubber
-    there is none by temperature. The bulk modulus is that of a layer.
+    By temperature [1/K] only with a shift of every rubber. The bulk modulus is that of a layer.
     """
     grid = contact.grid
 
@@ -271,10 +235,7 @@ class Bands:
 
     @classmethod
     def of(cls, contact: RoughContact, per_decade: int, shift: float = 1.0) -> Bands:
-        """Return the bands of a contact, `shift` times the frequencies before the contact.
-
-        A scale that heat has warmed excites the rubber at a_T of the scale times its frequency.
-        """
+        """Return the bands of a contact, `shift` times its frequencies; heat shifts them, too."""
         grid = contact.grid
         omega = np.broadcast_to(np.abs(grid.along) * contact.speed * shift, grid.spectrum_shape)
         if contact.by_scale is not None:
@@ -311,21 +272,17 @@ class ContactFractionDifferences:
     def log_derivatives(self, bands: Bands) -> Derivatives:
         """Return the derivatives of ln(A_r/A_0); those of E' and E'' by band."""
         contact = self.contact
-        moduli = {
-            name: np.array(
-                [
-                    self.by_modulus(np.where(bands.of_wave == band, change, 0.0))
-                    for band in range(bands.centre.size)
-                ]
-            )
-            for name, change in zip(
-                ("ln_storage", "ln_loss"), modulus_changes(contact, self.layer), strict=True
-            )
-        }
+
+        def by_band(change: ComplexArray) -> Array:
+            each = (np.where(bands.of_wave == n, change, 0.0) for n in range(bands.centre.size))
+            return np.array([self.by_modulus(part) for part in each])
+
+        storage, loss = modulus_changes(contact, self.layer)
         scalars = scalar_changes(contact, self.layer)
         return {
             "temperature": math.nan,
-            **moduli,
+            "ln_storage": by_band(storage),
+            "ln_loss": by_band(loss),
             **{name: self.by_modulus(change) for name, change in scalars.items()},
             "ln_pressure": self.by_log_pressure(),
             "ln_cut_off": contact.cut_off_exponents.contact_fraction,
@@ -366,11 +323,10 @@ def contact_sensitivity(
 ) -> xr.Dataset:
     """Return the derivatives of the friction of a direct contact by all of its inputs.
 
-    One linear system is solved, whatever the number of inputs. The friction is that from the energy
-    lost. Under conditions the rubber of each scale keeps its strain and its temperature rise: the
-    effect of an input on them is left out (`settled` in the attributes). Raises `InputError` if the
-    contact is at rest, has no friction or not this layer, or is something else; if the rubber has
-    no shift to the reference temperature.
+    The friction is that from the energy lost. Under conditions the rubber of each scale keeps its
+    strain and temperature rise (`settled` in the attributes). Raises `InputError` if the contact is
+    at rest, has no friction or not this layer, or if the rubber has no shift to the reference
+    temperature.
 
     Parameters
     ----------
@@ -394,11 +350,11 @@ def contact_sensitivity(
         Over `frequency` [rad/s], the centre of a band: `d_ln_friction_d_ln_storage` and
         `d_ln_friction_d_ln_loss` [-], of E' and E'' in the band; the bands add up, and the lowest
         holds the relaxed modulus. Scalars: `d_ln_friction_d_ln_speed`, `..._ln_pressure`,
-        `..._ln_bulk_modulus`, `..._ln_cut_off` (the last from the contact with twice the cut-off),
-        and `d_ln_friction_d_temperature`
-        [1/K], NaN without a shift. Over `term`: `d_ln_friction_d_ln_modulus` [-], of the moduli of
-        the Prony series with `relaxation_time` [s], infinite for the equilibrium modulus. Over `x`
-        [m], and `y` of a map: `d_friction_d_height` [1/m], of the height of one point of the grid.
+        `..._ln_bulk_modulus`, `..._ln_cut_off` (from the contact with twice the cut-off), and
+        `d_ln_friction_d_temperature` [1/K], NaN without a shift. Over `term`:
+        `d_ln_friction_d_ln_modulus` [-], of the moduli of the Prony series with `relaxation_time`
+        [s], infinite for the equilibrium modulus. Over `x` [m], and `y` of a map:
+        `d_friction_d_height` [1/m], of the height of one point of the grid.
     """
     checks.instance("contact", contact, RoughContact)
     checks.whole("layer", layer, least=0, most=len(contact.body.rubbers) - 1)

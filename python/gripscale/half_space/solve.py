@@ -58,12 +58,7 @@ LEAST_FRICTION = 0.01  # friction below which its error is relative to this valu
 LARGEST_MISMATCH = 0.5
 """Largest difference of the two frictions of a grid without a tolerance, relative to the larger.
 
-Nothing else judges such a grid. Of 509 random contacts (`tests/half_space/rough_cases.py`, lines of
-1024 points and maps of 32 x 32, four points in the smallest wave) 100 exceed it. Their friction
-from traction is off that of a grid four times finer by 136 % (median; 69 % or more in nine of ten)
-and negative in 42; friction from dissipation is off by 10 % (median). In the other 409 friction
-from traction is off by 4 % (median; 33 % or less in nine of ten), and negative in 6, by 0.0005 at
-most.
+docs/derivations.md says how contacts beyond it do.
 """
 NEGLIGIBLE_FRICTION = 1e-3  # friction below which their difference is relative to this value
 
@@ -97,9 +92,8 @@ def solve_rough_contact(
     A `status` other than "converged" says why not to trust the numbers. Raises `ExtrapolationError`
     if the rubber would be extrapolated and `extrapolate` is "refuse", `ConvergenceError` if the
     time limit ends before any grid is solved, and `InputError` if an argument is out of its range,
-    the first full grid has more than `most_points`, a size is beyond what single precision can
-    hold, or the rubber at rest is a melt: the pressure is more than ten times the equilibrium
-    modulus.
+    the first full grid has more than `most_points`, a size is beyond single precision, or the
+    pressure is more than ten times the equilibrium modulus of rubber at rest, a melt.
 
         >>> contact = gs.solve_rough_contact(rubber, road, pressure="3 bar", speed="1 km/h")
         >>> f"{contact.contact_fraction:.2f}"
@@ -117,12 +111,11 @@ def solve_rough_contact(
     speed : float
         Sliding speed [m/s]; zero is static contact of the relaxed rubber.
     smallest_wavelength : float, optional
-        Cut-off of the surface [m], at least two steps of it. A Gaussian (ISO 16610) transmits half
-        the amplitude of a wave of this length, less of shorter ones. By default four steps; a
-        `periodic` surface keeps all its waves then.
+        Cut-off of the surface [m], at least two steps of it: a Gaussian (ISO 16610) transmits half
+        of this wave. By default four steps; a `periodic` surface keeps all its waves then.
     periodic : bool
-        Take the surface as one period. Otherwise its ends are joined by subtracting the smooth part
-        that carries the jump between them; for a line, the straight line through its ends.
+        Take the surface as one period. Otherwise the smooth part that carries the jump between its
+        ends is subtracted; for a line, the straight line through them.
     steepest : float
         Largest slope that rubber follows [-]: the `upper_envelope` fills steeper flanks before the
         cut-off. Infinity keeps all.

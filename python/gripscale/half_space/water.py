@@ -3,11 +3,7 @@
 The load is raised in steps. After each, the open regions that do not percolate are pools with the
 water they hold (`gripscale.half_space.regions`), which later steps press upon: B. N. J. Persson, U.
 Tartaglino, O. Albohr & E. Tosatti, Nature Materials 3 (2004) 882, doi:10.1038/nmat1255. Regions
-that percolate drain, and their water has no pressure: the sliding is slow (`gripscale.flow` says
-how slow). Water does not compress.
-
-A film of the mean thickness d fills the surface at rest up to one level; a pool then holds what
-lies below that level, and may have room left.
+that percolate drain without pressure, as in slow sliding. A film fills the surface up to one level.
 """
 
 from __future__ import annotations
@@ -36,9 +32,8 @@ from gripscale.theory.half_plane import GridContact
 # Missing pressure over pressure at the end: the volume of the smallest pools then is kept to a
 # thousandth.
 POOL_TOLERANCE = 1e-7
-# First load over the load, and the steps that raise it by equal ratios, of 5 %. A region that
-# closes within a step is trapped at its end, with less water. Half the steps change the friction of
-# a map by up to 3 %, where the contact percolates.
+# First load over the load, and the steps that raise it by equal ratios, of 5 %. Half the steps
+# change the friction of a map by up to 3 %, where the contact percolates.
 FIRST_LOAD, LOAD_STEPS = 0.1, 48
 # Load over the load at which a region that is closed under the first load, and was here already,
 # has its water: all but this share of what closes at the first touch.
@@ -47,10 +42,9 @@ _ERRORS = ("contact_fraction_error", "friction_error")
 
 
 def with_water(contact: RoughContact, film: float, *, workers: int) -> RoughContact:
-    """Return a dry contact with trapped water, solved on its grid and more coarsely.
+    """Return a dry contact with trapped water, solved on its grid and one of half the points.
 
-    The coarse solution has half the points each way and half the steps of load. Errors are those of
-    the dry contact and the change of wet over dry between the two.
+    Errors are those of the dry contact, and the change of wet over dry between the two grids.
     """
     response = Response.of(contact.body, contact.grid, workers)
     load = contact.nominal_pressure
@@ -116,10 +110,7 @@ def _under_rising_load(
 def _trapped(
     pools: Pools, contact: GridContact, height: Array, level: float, touched: Mask
 ) -> Pools:
-    """Return the pools of a contact, with the water that was in them under the load before.
-
-    What was `touched` before has no water yet.
-    """
+    """Return the pools of a contact with the water they had before, none where it `touched`."""
     active, gap = contact.active.reshape(-1), contact.gap.reshape(-1)
     opened = np.where(active, 0.0, np.maximum(gap, 0.0))
     depth = np.minimum(opened, np.maximum(level - height.reshape(-1), 0.0))

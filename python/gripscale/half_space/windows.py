@@ -23,17 +23,9 @@ def windows(
 ) -> list[Profile | HeightMap]:
     """Return the surface cut into as many windows as fit, centred.
 
-    Windows with fewer than half their heights are left out. Raises `InputError` if a window would
-    have fewer than 16 points along an axis or be longer than the surface, or if no window has half
-    of its heights.
-
-    Parameters
-    ----------
-    surface : Profile or HeightMap
-        The surface.
-    length : float or (float, float)
-        Length of the windows along x, and for a map along y [m]. With one length the windows of a
-        map are as wide as the map.
+    `length` is that of the windows along x, and for a map along y [m]; with one length they are as
+    wide as the map. Windows with fewer than half their heights are left out. Raises `InputError` if
+    none is left, or one would have fewer than 16 points along an axis or exceed the surface.
     """
     lengths = tuple(length) if isinstance(length, tuple | list) else (length,)
     axes = surface_axes(surface)
@@ -70,10 +62,9 @@ def windows(
 
 
 def spread_windows(profiles: Sequence[Profile], length: float, most: int) -> list[Profile]:
-    """Return at most `most` windows of the profiles, each made `one_period`.
+    """Return at most `most` windows of a `length` [m], spread evenly, each made `one_period`.
 
-    The profiles are cut into `windows` of `length` [m], the returned ones spread evenly. Raises
-    `InputError` as `windows` does, or if `most` is not a whole number from 1.
+    Raises `InputError` as `windows` does, or if `most` is not a whole number from 1.
     """
     number = checks.whole("most", most, least=1, most=100_000)
     lines = checks.instances("profiles", profiles, Profile)
@@ -85,10 +76,9 @@ def spread_windows(profiles: Sequence[Profile], length: float, most: int) -> lis
 def surface_of_sines(stack: SineStack, length: Quantity, seed: int) -> Profile:
     """Return a periodic line of superposed sine waves, each with a random phase from a `seed`.
 
-    `length` is the period [m], at least the largest wavelength of the `stack`. Each wavelength is
-    changed to the nearest that divides it, and its amplitude in proportion, so that slopes are
-    kept. Raises `InputError` if an argument is out of its range, or there would be more than ten
-    million points.
+    Each wavelength is changed to the nearest that divides the period, `length` [m], and its
+    amplitude in proportion: slopes are kept. Raises `InputError` if an argument is out of its
+    range, as a period below the largest wavelength, or for more than ten million points.
     """
     checks.instance("stack", stack, SineStack)
     period = checks.positive("length", length, unit="m")

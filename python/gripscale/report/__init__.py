@@ -11,7 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gripscale.core.errors import using_extra
+from gripscale.core.errors import FileError, using_extra
+from gripscale.io.folders import write_text
 
 if TYPE_CHECKING:
     from gripscale.report.elements import Page
@@ -22,17 +23,18 @@ __all__ = ["write_page"]
 def write_page(page: Callable[[], Page], output: str | Path) -> Path:
     """Write the HTML page that a function composes and return its path.
 
-    Garbage is not collected meanwhile: imports and a page leave little, and a collection takes a
-    tenth of the time. Raises `FileError` if the page cannot be written, `InputError` if the
-    libraries of `gripscale[report]` are not installed.
+    Raises `FileError` if the page cannot be written, `InputError` without `gripscale[report]`.
     """
     collecting = gc.isenabled()
-    gc.disable()
+    gc.disable()  # a page leaves little garbage, and collecting takes a tenth of the time
     try:
         with using_extra("report", "a report", "bokeh", "jinja2", "markupsafe"):
-            from gripscale.report.build import write
+            from gripscale.report.build import render
 
-            return write(page(), Path(output))
+            path = Path(output)
+            if not path.parent.is_dir():
+                raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
+            return write_text(path, render(page()))
     finally:
         if collecting:
             gc.enable()

@@ -1,4 +1,4 @@
-"""From a page to its file: render and write."""
+"""From a page to its HTML."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import base64
 import hashlib
 from functools import cache
 from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
 from bokeh.resources import Resources
@@ -14,16 +13,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from gripscale.charts.bokeh_parts import document
-from gripscale.core.errors import FileError
-from gripscale.io.folders import write_text
 from gripscale.report.elements import Page, with_code
-
-
-def write(page: Page, output: Path) -> Path:
-    """Write a page; raise `FileError` if that fails."""
-    if not output.parent.is_dir():
-        raise FileError(f"{output} cannot be written: there is no folder {output.parent}")
-    return write_text(output, render(page))
 
 
 def render(page: Page) -> str:

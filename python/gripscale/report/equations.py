@@ -32,10 +32,7 @@ def method_equations() -> dict[str, Equation]:
 
 
 def method_section(*methods: Sequence[str]) -> Section:
-    """Return what the models that were run say of themselves (`gripscale.model.Model.method`).
-
-    Each method is texts and names of equations; nothing else is shown.
-    """
+    """Return what the models that were run say of themselves (`gripscale.model.Model.method`)."""
     by_name = method_equations()
     items = dict.fromkeys(item for method in methods for item in method)
     return Section("method", "Method", [by_name.get(item) or Text(item) for item in items])
