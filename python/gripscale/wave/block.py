@@ -1,10 +1,5 @@
 """The finite-strain block: a rubber block pressed on, and slid over, one wave or profile.
 
-The block is one wavelength wide and periodic, in plane strain: a permanent network plus one
-temporary network per Maxwell element (Lubliner, Mech. Res. Commun. 12 (1985) 93). The compiled
-kernel solves the static or steady state in the frame of the wave; this module is the only one that
-builds a `ScaleResult` from its solution.
-
 A measured profile is made `gripscale.surface.low_pass.one_period` and pressed into one block, all
 its waves in one solution: no separation of scales, no random phases, and no small strain.
 """
@@ -97,20 +92,14 @@ class FiniteStrainBlock(Checked):
         `gripscale.solve_scale`. Raises `InputError` if `start` is of another solver or was read
         from a file, or `workers` is not a whole number from 1 to 1024.
         """
+        profile, load, mesh = problem.profile, problem.load, self.mesh
+        length = profile.wavelength
         if problem.thickness is not None:
-            depth = min(self.mesh.depth, problem.thickness / problem.profile.wavelength)
-            if depth != self.mesh.depth:
-                block = replace(self, mesh=replace(self.mesh, depth=depth))
-                return block.solve(replace(problem, thickness=None), start, workers=workers)
+            mesh = replace(mesh, depth=min(mesh.depth, problem.thickness / length))
         first = None if start is None else kernel.solution_of(start)
         solution = kernel.solve_steady(
-            problem, self.mesh, self.settings, self.tolerance, first, self.time_limit, workers
+            problem, mesh, self.settings, self.tolerance, first, self.time_limit, workers
         )
-        return self._result(problem, solution)
-
-    def _result(self, problem: WaveProblem, solution: kernel.Solution) -> ScaleResult:
-        profile, load = problem.profile, problem.load
-        length = profile.wavelength
         details = {
             "contact_edges": [(start * length, end * length) for start, end in solution.contacts],
             "load_steps": solution.load_steps,
@@ -119,8 +108,8 @@ class FiniteStrainBlock(Checked):
             "columns": solution.columns,
             "coarser_columns": solution.judged_by or 0,
             "rows": solution.rows,
-            "depth": self.mesh.depth,
-            "element_order": self.mesh.element_order,
+            "depth": mesh.depth,
+            "element_order": mesh.element_order,
         }
         if solution.too_narrow is not None:
             expected, smallest = solution.too_narrow
@@ -129,12 +118,11 @@ class FiniteStrainBlock(Checked):
         if solution.waves_carried:
             details["smallest_wave_carried"] = length / solution.waves_carried
         if solution.judged_by is None:
+            why = f"no coarser mesh than {solution.columns} columns was solved"
             if not math.isfinite(solution.friction):
                 why = "nothing was solved"
             elif solution.status not in _SOLVED:
                 why = f"the solution ended early, {solution.status}"
-            else:
-                why = f"no coarser mesh than {solution.columns} columns was solved"
             details["no_error_estimate"] = why
         return ScaleResult(
             wavelength=length,
@@ -235,8 +223,8 @@ def solve_scale(
     residual_tolerance : float, optional
         Largest residual force over the applied force, and gap over the amplitude [-].
     """
-    problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
-    load = problem.load
+    load = WaveLoad(pressure, speed, load_time)
+    problem = WaveProblem(rubber, Sine(wavelength, amplitude), load)
     require_load_bearing(rubber, load.pressure, math.inf if load.speed == 0.0 else 0.0)
     block = FiniteStrainBlock.of(
         columns=columns,
@@ -257,8 +245,6 @@ COLUMNS_PER_WAVE = 12
 FEWEST_PER_WAVE = 6
 # Ratio of heights of neighbouring rows, at most one as wide as high at the surface.
 ROW_GROWTH = 1.12
-
-
 # Range of the heights after filtering, over that before, below which only round-off remains.
 _ROUND_OFF = 1e-12
 
@@ -345,8 +331,7 @@ def solve_profile(
             least = FEWEST_PER_WAVE * heights.wavelength / _COLUMNS[-1]
             raise InputError(
                 f"smallest_wavelength must be at least {least:.4g} m, {FEWEST_PER_WAVE} of "
-                f"{_COLUMNS[-1]} columns; got waves down to "
-                f"{smallest:.4g} m"
+                f"{_COLUMNS[-1]} columns; got waves down to {smallest:.4g} m"
             )
         wanted = COLUMNS_PER_WAVE * waves
         columns = next((count for count in _COLUMNS if count >= wanted), _COLUMNS[-1])
@@ -357,10 +342,10 @@ def solve_profile(
         graded = math.log1p((ROW_GROWTH - 1.0) * depth * count) / math.log(ROW_GROWTH)
         rows = round(min(following, graded))
     block = FiniteStrainBlock.of(columns=columns, rows=rows, depth=depth, **options)
-    thorough = {"rescue_columns": _COLUMNS[-1]}
-    block = replace(block, settings={**block.settings, **thorough, **(settings or {})})
-    problem = WaveProblem(rubber, heights, WaveLoad(pressure, speed, load_time))
-    load = problem.load
+    chosen = {**block.settings, "rescue_columns": _COLUMNS[-1], **(settings or {})}
+    block = replace(block, settings=chosen)
+    load = WaveLoad(pressure, speed, load_time)
+    problem = WaveProblem(rubber, heights, load)
     require_load_bearing(rubber, load.pressure, math.inf if load.speed == 0.0 else 0.0)
     result = block.solve(problem, start, workers=workers)
     in_contact = result.x[result.pressure > 0.0]
