@@ -138,17 +138,9 @@ def solve_chain(
 class Chain(Checked, model.Model):
     """Model of sine waves: each wave receives the pressure that leaves the contact of the larger.
 
-    Raises `InputError` if `pressure_classes` is no whole number from 1 to 64, or `extrapolate`
-    another word.
-
-    The other fields are arguments of `solve_chain`.
-
-    Parameters
-    ----------
-    solver : WaveSolver
-        Solver of one wave.
-    rubber_at : RubberAt, optional
-        Rubber of each wave; a frozen dataclass, so that stored results can be named by it.
+    Its fields are arguments of `solve_chain`; a frozen dataclass as `rubber_at` lets stored results
+    be named by it. Raises `InputError` if `pressure_classes` is no whole number from 1 to 64, or
+    `extrapolate` another word.
     """
 
     name: ClassVar[str] = "chain"

@@ -23,11 +23,10 @@ from gripscale.wave.problem import Sine
 
 
 def solve_coupled_chain(solver: ChainSolve, rubber: Rubber, conditions: Conditions) -> ChainResult:
-    """Return the prediction whose strains and temperatures are those of its rubber.
+    """Return the prediction whose strains and temperatures, among its details, are of its rubber.
 
-    The details of each wave hold its strain, temperature and modulus ratios; the Newton iterations
-    are those of all evaluations. The status of the last wave is `conditions not settled` if the
-    iteration did not converge.
+    Newton iterations are those of all evaluations. The status of the last wave is `conditions not
+    settled` if the iteration did not converge.
     """
     fine, quick = _ChainEvaluation(solver, rubber, conditions), None
     if isinstance(solver.solver, RefinableSolver):

@@ -1,6 +1,6 @@
 """Temperature of the rubber on every wave of a chain, by the friction heat of all waves.
 
-With mu_j the friction of wave j and p_l the pressure on wave l, the temperature rise on wave i is
+With friction mu_j and pressure p_j of the waves, the temperature rise on wave i is
 
     uniform, for the time footprint/v           v p_1 sum_j mu_j
     + the harmonics of each wave l <= i         v p_l (mu_l own pattern + sum_(j > l) mu_j contact)

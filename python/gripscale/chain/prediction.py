@@ -2,14 +2,12 @@
 
     A_r/A_0  = prod A_i / lambda_i,    mu_r = sum mu_i
 
-Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. A wave hands the pressure in its contact
-down to the next one: its mean, p_(i+1) = p_i lambda_i / A_i (equation 1), or N classes of equal
-load, from low to high pressure, which keep load and contact area exactly:
+Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. A wave hands down the pressure in its
+contact: its mean (equation 1), or N classes of equal load with areas a_n over the nominal area,
 
-    a_n = int dF / p    over the n-th of N equal shares of the load F,    p_n = p_1 / (N a_n)
+    a_n = int dF / p    over the n-th of N equal shares of the load F,    p_n = p_1 / (N a_n).
 
-with a_n the area of the class over the nominal area. The contacts of the next wave under all p_n
-are divided into N classes again, so that the cost grows as waves times classes, not as a tree.
+The contacts of the next wave under all p_n are divided into N classes again.
 """
 
 from __future__ import annotations

@@ -23,14 +23,15 @@ from gripscale.surface.profile import RESOLVED_STEPS
 from gripscale.surface.resampling import fill_gaps
 from gripscale.wave import kernel
 from gripscale.wave.problem import Mesh, SampledProfile, Sine, WaveLoad, WaveProblem
-from gripscale.wave.result import ScaleResult
+from gripscale.wave.result import EQUILIBRIUM, ScaleResult
 
 # Statuses of solutions that reached the whole pressure.
-_SOLVED = (
-    Status.CONVERGED,
-    Status.TOLERANCE_NOT_MET,
-    Status.FRICTIONS_DISAGREE,
-    Status.CONTACT_TOO_NARROW,
+_SOLVED = (*EQUILIBRIUM, Status.CONTACT_TOO_NARROW)
+
+# What a result has from the solution of the kernel as it is.
+_NUMBERS = (
+    *("contact_fraction", "contact_fraction_error", "friction", "friction_from_dissipation"),
+    *("friction_error", "newton_iterations", "residual", "min_stretch", "max_stretch", "pressure"),
 )
 
 
@@ -63,19 +64,14 @@ class FiniteStrainBlock(Checked):
 
     @classmethod
     def of(
-        cls,
-        *,
-        tolerance: float | None = None,
-        time_limit: float | None = None,
-        max_iterations: int | None = None,
-        residual_tolerance: float | None = None,
-        **mesh: Any,
+        cls, *, tolerance: float | None = None, time_limit: float | None = None, **options: Any
     ) -> FiniteStrainBlock:
         """Return the block of the keyword arguments of `solve_scale`; `InputError` for others."""
-        checks.allowed_names("option", mesh, Mesh.__dataclass_fields__)
-        options = {"max_iterations": max_iterations, "residual_tolerance": residual_tolerance}
-        settings = {name: value for name, value in options.items() if value is not None}
-        return cls(Mesh(**mesh), tolerance, settings, time_limit)
+        of_kernel = ("max_iterations", "residual_tolerance")
+        checks.allowed_names("option", options, (*Mesh.__dataclass_fields__, *of_kernel))
+        settings = {name: options.pop(name, None) for name in of_kernel}
+        chosen = {name: value for name, value in settings.items() if value is not None}
+        return cls(Mesh(**options), tolerance, chosen, time_limit)
 
     def coarser(self) -> FiniteStrainBlock:
         """Return the block on half the columns and two thirds of the rows, a sixth of the work."""
@@ -130,22 +126,13 @@ class FiniteStrainBlock(Checked):
             pressure_received=load.pressure,
             speed=load.speed,
             load_time=load.load_time,
-            contact_fraction=solution.contact_fraction,
-            friction=solution.friction,
-            friction_from_dissipation=solution.friction_from_dissipation,
             status=Status(solution.status),
-            newton_iterations=solution.newton_iterations,
-            residual=solution.residual,
-            min_stretch=solution.min_stretch,
-            max_stretch=solution.max_stretch,
             x=solution.x * length,
-            pressure=solution.pressure,
             rubber=problem.rubber,
             model=self.name,
             deformed_mesh=(solution.mesh_x * length, solution.mesh_z * length),
             details=details,
-            contact_fraction_error=solution.contact_fraction_error,
-            friction_error=solution.friction_error,
+            **{name: getattr(solution, name) for name in _NUMBERS},
             friction_bound=math.nan if solution.friction_bound is None else solution.friction_bound,
             loss_by_depth=(
                 length * np.append(0.0, np.cumsum(solution.row_heights)),
@@ -179,8 +166,7 @@ def solve_scale(
     The block is one wavelength wide and periodic, in plane strain at finite deformation: the
     rubber's permanent network plus one temporary network per Maxwell element (Lubliner, Mech. Res.
     Commun. 12 (1985) 93), frictionless unilateral contact with z = amplitude cos(2 pi x /
-    wavelength). The steady state is one non-linear solve in the frame of the wave
-    (Wriggers & Reinelt, Comput. Methods Appl. Mech. Engrg. 198 (2009) 1996, treat it in time).
+    wavelength). The steady state is one non-linear solve in the frame of the wave.
 
     The `status` of the result is `converged`, or the reason not to use the numbers. Raises
     `InputError` if a value is not a number or out of its range, or the pressure is more than ten
@@ -226,16 +212,9 @@ def solve_scale(
     load = WaveLoad(pressure, speed, load_time)
     problem = WaveProblem(rubber, Sine(wavelength, amplitude), load)
     require_load_bearing(rubber, load.pressure, math.inf if load.speed == 0.0 else 0.0)
-    block = FiniteStrainBlock.of(
-        columns=columns,
-        rows=rows,
-        depth=depth,
-        element_order=element_order,
-        tolerance=tolerance,
-        time_limit=time_limit,
-        max_iterations=max_iterations,
-        residual_tolerance=residual_tolerance,
-    )
+    mesh = {"columns": columns, "rows": rows, "depth": depth, "element_order": element_order}
+    of_kernel = {"max_iterations": max_iterations, "residual_tolerance": residual_tolerance}
+    block = FiniteStrainBlock.of(tolerance=tolerance, time_limit=time_limit, **mesh, **of_kernel)
     return block.solve(problem, start, workers=workers)
 
 

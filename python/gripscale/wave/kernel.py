@@ -102,11 +102,7 @@ def _checked_call(call: Callable[[], _T]) -> _T:
 
 @runtime_checkable
 class WaveSolver(Protocol):
-    """Solves one wave; the fields of the solver hold its mesh and accuracy.
-
-    A frozen dataclass. Its fields and the problem decide its results: stored results are named by
-    them.
-    """
+    """Solves one wave: a frozen dataclass, by whose fields stored results are named."""
 
     @property
     def name(self) -> str:

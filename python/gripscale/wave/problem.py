@@ -16,10 +16,9 @@ SMALLEST_SHARE = 1e-9
 
 
 class Sine(Checked):
-    """A rigid sine wave z = amplitude cos(2 pi x / wavelength), crest at x = 0.
+    """A rigid sine wave z = amplitude cos(2 pi x / wavelength), both above zero [m].
 
-    Wavelength and amplitude (half peak-to-valley height) [m] are above zero. Raises `InputError`
-    for others.
+    The amplitude is half the peak-to-valley height. Raises `InputError` for others.
     """
 
     wavelength: float = checked(checks.positive, unit="m")

@@ -27,6 +27,8 @@ from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+# Statuses of a wave in which the forces on its nodes vanish.
+EQUILIBRIUM = (Status.CONVERGED, Status.TOLERANCE_NOT_MET, Status.FRICTIONS_DISAGREE)
 LARGE_MISMATCH = 0.05  # relative difference of the two frictions above which a result is in doubt
 
 

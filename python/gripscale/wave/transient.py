@@ -125,13 +125,9 @@ def solve_transient(
     run = kernel.solve_stages(
         rubber, profile, block.mesh, block.settings, programme, first, block.time_limit, workers
     )
+    moments = ("time", "distance", "speed", "pressure", "friction", "contact_fraction")
     return TransientResult(
-        time=run.time,
-        distance=run.distance,
-        speed=run.speed,
-        pressure=run.pressure,
-        friction=run.friction,
-        contact_fraction=run.contact_fraction,
+        **{name: getattr(run, name) for name in moments},
         indentation=run.approach * profile.wavelength,
         status=Status(run.status),
         newton_iterations=run.newton_iterations,
