@@ -127,37 +127,20 @@ def solve_chain(
     **options
         Of a solver given by name: columns, rows, depth, tolerance ...
     """
-    chain = Chain(
-        solver=wave_solver(solver, options),
-        rubber_at=rubber_at,
-        pressure_classes=pressure_classes,
-        extrapolate=extrapolate,
-        conditions=conditions,
-    )
+    one_wave = wave_solver(solver, options)
+    chain = Chain(one_wave, rubber_at, pressure_classes, extrapolate, conditions)
+    load = Load(pressure, speed, footprint, load_time, thickness)
     return chain.solve(
-        rubber,
-        sines,
-        Load(pressure, speed, footprint, load_time, thickness),
-        smallest_wavelength=smallest_wavelength,
-        on_scale=on_scale,
-        start=start,
+        rubber, sines, load, smallest_wavelength=smallest_wavelength, on_scale=on_scale, start=start
     )
 
 
 class Chain(Checked, model.Model):
     """Model of sine waves: each wave receives the pressure that leaves the contact of the larger.
 
-    Raises `InputError` if `pressure_classes` is no whole number from 1 to 64, or `extrapolate`
-    another word.
-
-    The other fields are arguments of `solve_chain`.
-
-    Parameters
-    ----------
-    solver : WaveSolver
-        Solver of one wave.
-    rubber_at : RubberAt, optional
-        Rubber of each wave; a frozen dataclass, so that stored results can be named by it.
+    Its fields are arguments of `solve_chain`; a frozen dataclass as `rubber_at` lets stored results
+    be named by it. Raises `InputError` if `pressure_classes` is no whole number from 1 to 64, or
+    `extrapolate` another word.
     """
 
     name: ClassVar[str] = "chain"
@@ -183,10 +166,11 @@ class Chain(Checked, model.Model):
             raise InputError(
                 "rubber_at must be None with conditions, which give the rubber; got both"
             )
-        if self.conditions is not None and self.conditions.water is not None:
+        water = None if self.conditions is None else self.conditions.water
+        if water is not None:
             raise InputError(
-                f"water of the chain must be left out: waves have no pools; got "
-                f"{self.conditions.water:g} m. The direct contact of a map has them"
+                f"water of the chain must be left out: waves have no pools; got {water:g} m. The "
+                "direct contact of a map has them"
             )
 
     def with_conditions(self, conditions: Conditions | None) -> Chain:
@@ -205,8 +189,7 @@ class Chain(Checked, model.Model):
     ) -> ChainResult:
         """Return the prediction; arguments and errors as for `solve_chain`."""
         checks.instance("sines", sines, SineStack)
-        pairs = zip(sines.wavelength.tolist(), sines.amplitude.tolist(), strict=True)
-        waves = [Sine(*pair) for pair in pairs]
+        waves = list(map(Sine, sines.wavelength.tolist(), sines.amplitude.tolist()))
         if smallest_wavelength is not None:
             least = checks.positive("smallest_wavelength", smallest_wavelength, unit="m")
             largest = waves[0].wavelength
@@ -223,11 +206,9 @@ class Chain(Checked, model.Model):
             require_measured(before, [wave.wavelength for wave in waves], load.speed)
         empty = ChainResult(rubber, sines, load, [], len(waves), conditions)
         chain = ChainSolve(empty, waves, self.solver, self.pressure_classes, on_scale)
-        if conditions is None:
-            return chain(self.rubber_at, start)
-        if not conditions.iterated:
-            return chain(lambda wave, so_far: before, start)
-        return solve_coupled_chain(chain, rubber, conditions)
+        if conditions is not None and conditions.iterated:
+            return solve_coupled_chain(chain, rubber, conditions)
+        return chain(self.rubber_at or (lambda wave, so_far: before), start)
 
     def predict(
         self, rubber: Rubber, surface: Surface, load: Load, *, on_progress: OnProgress = None

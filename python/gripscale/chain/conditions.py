@@ -1,8 +1,7 @@
 """The chain under conditions that depend on its solution: softening by strain, and friction heat.
 
 An evaluation of the fixed point (`gripscale.conditions.fixed_point`) solves all waves with the
-rubber that a state of temperatures and strains, one of each a wave, makes of it. The waves then
-have new temperatures and strains. Each wave starts from its last solution.
+rubber that a temperature and a strain of each make of it, which gives new ones.
 """
 
 from __future__ import annotations
@@ -19,41 +18,35 @@ from gripscale.conditions.conditions import SLOPE_FACTOR, Conditions, RubberStat
 from gripscale.conditions.fixed_point import Iteration, pack_state, solve_fixed_point, unpack_state
 from gripscale.core import Array, Status
 from gripscale.rubber import Rubber
+from gripscale.wave.kernel import RefinableSolver
 from gripscale.wave.problem import Sine
 
 
 def solve_coupled_chain(solver: ChainSolve, rubber: Rubber, conditions: Conditions) -> ChainResult:
-    """Return the prediction whose strains and temperatures are those of its rubber.
+    """Return the prediction whose strains and temperatures, among its details, are of its rubber.
 
-    The details of each wave hold its strain, temperature and modulus ratios; the Newton iterations
-    are those of all evaluations. The status of the last wave is `conditions not settled` if the
-    iteration did not converge.
+    Newton iterations are those of all evaluations. The status of the last wave is `conditions not
+    settled` if the iteration did not converge.
     """
-    coarse = solver.coarser()
-    fine = _ChainEvaluation(solver, rubber, conditions)
-    quick = None if coarse is None else replace(fine, solver=coarse)
+    fine, quick = _ChainEvaluation(solver, rubber, conditions), None
+    if isinstance(solver.solver, RefinableSolver):
+        coarse = replace(solver, solver=solver.solver.coarser(), on_scale=None)
+        quick = replace(fine, solver=coarse)
     fixed_point = solve_fixed_point(fine, quick)
     solved, x = fixed_point.last.solution, fixed_point.last.x
     assert x is not None
     state = WaveStates(conditions, rubber, *unpack_state(x))
     rises = None if conditions.heat is None else chain_warming(conditions, solved)
     scales = []
+    passes = {"passes": fixed_point.fine, "coarse_passes": fixed_point.coarse}
     for number, wave in enumerate(solved.scales):
-        details: dict[str, float] = {
-            "passes": fixed_point.fine,
-            "coarse_passes": fixed_point.coarse,
-        }
+        details = {**wave.details, **passes}
         if "load_steps" in wave.details:
             details["load_steps"] = fine.load_steps[number]
         rise = None if rises is None else rises[number]
         details |= state.details(number, wave.angular_frequency, rise)
-        scales.append(
-            replace(
-                wave,
-                newton_iterations=fine.newton_iterations[number],
-                details={**wave.details, **details},
-            )
-        )
+        iterations = fine.newton_iterations[number]
+        scales.append(replace(wave, newton_iterations=iterations, details=details))
     if not fixed_point.converged:
         scales[-1] = replace(scales[-1], status=Status.CONDITIONS_NOT_SETTLED)
     return replace(solved, scales=scales)
@@ -85,8 +78,7 @@ class WaveStates:
 
     def details(self, number: int, omega: float, rise: Warming | None) -> dict[str, float]:
         """Return what the results of a wave hold about its strain and temperature."""
-        out: dict[str, float] = {}
-        state = self.at(number, omega)
+        state, out = self.at(number, omega), dict[str, float]()
         if self.conditions.softening is not None:
             out |= {
                 "strain": self.strain[number],
@@ -121,7 +113,7 @@ class _ChainEvaluation:
 
     def __call__(self, x: Array | None, last: ChainResult | None) -> Iteration[ChainResult]:
         """Return the evaluation of `x`; without it waves in full contact soften the cold rubber."""
-        start = last if self.solver.warm else None
+        start = last if isinstance(self.solver.solver, RefinableSolver) else None
         if x is None and self.conditions.softening is not None:
             slopes = [2.0 * math.pi * w.amplitude / w.wavelength for w in self.solver.waves]
             strain = SLOPE_FACTOR * np.sqrt(0.5 * np.cumsum(np.square(slopes)))
@@ -139,7 +131,7 @@ class _ChainEvaluation:
         if self.conditions.heat is not None:
             rise = np.array([wave.total for wave in chain_warming(self.conditions, solved)])
         if self.conditions.softening is not None:
-            strain = np.array(strains(solved.scales, self.conditions.strain_norm))
+            strain = strains(solved.scales, self.conditions.strain_norm)
         friction = [solved.friction] if solved.load.speed > 0.0 else []  # none at rest
         return Iteration(solved, x, pack_state(rise, strain), [solved.contact_fraction, *friction])
 
@@ -152,9 +144,7 @@ def chain_warming(conditions: Conditions, solved: ChainResult) -> list[Warming]:
     time = load.footprint / load.speed if load.speed > 0.0 else 0.0
 
     def friction_at(rise: float) -> float:
-        warm = None if kelvin is None else kelvin + rise
-        return conditions.adhesive_friction(
-            solved.contact_fraction, load.pressure, load.speed, warm
-        )
+        warm, contact = None if kelvin is None else kelvin + rise, solved.contact_fraction
+        return conditions.adhesive_friction(contact, load.pressure, load.speed, warm)
 
     return warming(heats, conditions, friction_at, speed=load.speed, time=time)

@@ -1,6 +1,6 @@
 """Temperature of the rubber on every wave of a chain, by the friction heat of all waves.
 
-With mu_j the friction of wave j and p_l the pressure on wave l, the temperature rise on wave i is
+With friction mu_j and pressure p_j of the waves, the temperature rise on wave i is
 
     uniform, for the time footprint/v           v p_1 sum_j mu_j
     + the harmonics of each wave l <= i         v p_l (mu_l own pattern + sum_(j > l) mu_j contact)
@@ -178,21 +178,20 @@ def _mean(temperature: ComplexArray, weight: ComplexArray) -> Array:
     return np.asarray(2.0 * (temperature * weight.conj()).real.sum(axis=-1))
 
 
-def strains(waves: Sequence[ScaleResult], norm: StrainNorm) -> list[float]:
+def strains(waves: Sequence[ScaleResult], norm: StrainNorm) -> Array:
     """Return the strain amplitude [-] on each wave, largest wave first.
 
     Raises `InputError` for the norm "stretch" if the solver has no stretches.
     """
     if norm == "slope":
         squares = np.cumsum([(SLOPE_FACTOR * contact_slope(wave)) ** 2 for wave in waves])
-        return [float(e) for e in np.sqrt(squares)]
-    out = [max(wave.max_stretch - 1.0, 1.0 - wave.min_stretch) for wave in waves]
-    for wave, strain in zip(waves, out, strict=True):
-        if not math.isfinite(strain):
-            raise InputError(
-                f'strain_norm must be "slope" for a solver without stretches; got "stretch" '
-                f"with {wave.model}"
-            )
+        return np.asarray(np.sqrt(squares))
+    out = np.array([max(wave.max_stretch - 1.0, 1.0 - wave.min_stretch) for wave in waves])
+    if not np.isfinite(out).all():
+        raise InputError(
+            f'strain_norm must be "slope" for a solver without stretches; got "stretch" '
+            f"with {waves[0].model}"
+        )
     return out
 
 

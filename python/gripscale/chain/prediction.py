@@ -1,15 +1,13 @@
-"""ChainResult of the chain: the solved waves, and area and friction down to each of them.
+"""Result of the chain: the solved waves, and area and friction down to each of them.
 
     A_r/A_0  = prod A_i / lambda_i,    mu_r = sum mu_i
 
-Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. A wave hands the pressure in its contact
-down to the next one: its mean, p_(i+1) = p_i lambda_i / A_i (equation 1), or N classes of equal
-load, from low to high pressure, which keep load and contact area exactly:
+Lind & Wangenheim 2014, IMECE2014-37998, equations 2 and 3. A wave hands down the pressure in its
+contact: its mean (equation 1), or N classes of equal load with areas a_n over the nominal area,
 
-    a_n = int dF / p    over the n-th of N equal shares of the load F,    p_n = p_1 / (N a_n)
+    a_n = int dF / p    over the n-th of N equal shares of the load F,    p_n = p_1 / (N a_n).
 
-with a_n the area of the class over the nominal area. The contacts of the next wave under all p_n
-are divided into N classes again, so that the cost grows as waves times classes, not as a tree.
+The contacts of the next wave under all p_n are divided into N classes again.
 """
 
 from __future__ import annotations
@@ -34,13 +32,12 @@ from gripscale.model import Load
 from gripscale.rubber import Rubber
 from gripscale.rubber.extrapolation import Extrapolation, of_sum
 from gripscale.surface import SineStack
-from gripscale.wave.kernel import RefinableSolver, WaveSolver
+from gripscale.wave.kernel import WaveSolver
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
-from gripscale.wave.result import CHAIN, LW, ScaleResult, waves_to_dataset
+from gripscale.wave.result import CHAIN, LW, ScaleResult, padded, waves_to_dataset
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
 
 # Name of the pressures of the classes [Pa], among the details of a wave.
 CLASS_PRESSURES = "class_pressures"
@@ -178,14 +175,12 @@ class ChainResult(Pictured):
     @property
     def running_contact_fraction(self) -> Array:
         """A_r/A_0 down to each wave (equation 2); NaN from a failed wave on."""
-        each = self._of_converged([s.contact_fraction for s in self.scales])
-        return np.asarray(np.cumprod(each), dtype=float)
+        return np.asarray(np.cumprod(self._of_converged("contact_fraction")), dtype=float)
 
     @property
     def running_friction(self) -> Array:
         """Friction coefficient down to each wave (equation 3); NaN from a failed wave on."""
-        each = self._of_converged([s.friction for s in self.scales])
-        return np.asarray(np.cumsum(each), dtype=float)
+        return np.cumsum(self._of_converged("friction"))
 
     @property
     def contact_fraction(self) -> float:
@@ -200,7 +195,7 @@ class ChainResult(Pictured):
     @property
     def friction_from_dissipation(self) -> float:
         """Friction coefficient of all waves from the energy lost in the rubber [-]."""
-        each = self._of_converged([s.friction_from_dissipation for s in self.scales])
+        each = self._of_converged("friction_from_dissipation")
         return float(each.sum()) if self.scales else math.nan
 
     @property
@@ -224,8 +219,8 @@ class ChainResult(Pictured):
     @property
     def extrapolation(self) -> Extrapolation:
         """Share of the friction that uses the rubber beyond its measured frequencies."""
-        friction = self._of_converged([s.friction for s in self.scales])
-        return of_sum([scale.extrapolation for scale in self.scales], friction)
+        each = [scale.extrapolation for scale in self.scales]
+        return of_sum(each, self._of_converged("friction"))
 
     @property
     def cut_off_exponents(self) -> CutOffExponents:
@@ -242,10 +237,8 @@ class ChainResult(Pictured):
     @property
     def why(self) -> str:
         """`converged`, or which wave failed and why."""
-        return "converged" if self.converged else self.failure()
-
-    def failure(self) -> str:
-        """Return a sentence about the last wave, which did not converge."""
+        if self.converged:
+            return "converged"
         scale = self.scales[-1]
         return (
             f"{self.last_wave()} did not converge: {scale.why} after {scale.newton_iterations} "
@@ -276,13 +269,9 @@ class ChainResult(Pictured):
         classes = [
             np.ravel(s.details.get(CLASS_PRESSURES, s.pressure_received)) for s in self.scales
         ]
-        most = max((len(pressures) for pressures in classes), default=0)
-        if most > 1:
-            padded = [np.pad(p, (0, most - len(p)), constant_values=np.nan) for p in classes]
-            words = "pressure on each class of equal load"
-            data[CLASS_PRESSURES] = labelled(
-                ("scale", "pressure_class"), np.array(padded), "Pa", words, CHAIN
-            )
+        if any(len(pressures) > 1 for pressures in classes):
+            dims, words = ("scale", "pressure_class"), "pressure on each class of equal load"
+            data[CLASS_PRESSURES] = labelled(dims, padded(classes), "Pa", words, CHAIN)
         totals = {total: getattr(self, total.removeprefix("total_")) for total in model.TOTALS}
         data = data.assign_attrs(
             title="Real contact area and friction of rubber on a rough surface",
@@ -309,9 +298,9 @@ class ChainResult(Pictured):
         """Draw area and friction down to each wave; see `gripscale.questions.contact_figure`."""
         return gripscale.questions.contact_figure({"chain": self.to_dataset()})
 
-    def _of_converged(self, values: Sequence[float]) -> Array:
-        converged = np.array([scale.converged for scale in self.scales], dtype=bool)
-        return np.where(converged, np.array(values, dtype=float), math.nan)
+    def _of_converged(self, name: str) -> Array:
+        """Return a number of each wave, NaN where it did not converge."""
+        return np.array([getattr(s, name) if s.converged else math.nan for s in self.scales])
 
 
 class RubberAt(Protocol):
@@ -347,29 +336,22 @@ class ChainSolve:
     classes: int  # number of pressure classes
     on_scale: Callable[[ChainResult], None] | None
 
-    def __call__(self, rubber_at: RubberAt | None, start: ChainResult | None) -> ChainResult:
+    def __call__(self, rubber_at: RubberAt, start: ChainResult | None) -> ChainResult:
         """Return the prediction with the rubber of each wave, each from its wave of `start`."""
         result, load = self.empty, self.empty.load
         classes, length = PressureClasses.uniform(load.pressure), load.footprint
         for number, wave in enumerate(self.waves):
             first = start.scales[number] if start and number < len(start.scales) else None
-            solid = result.rubber if rubber_at is None else rubber_at(wave, result)
-            time = load.time_under(length)
-            solved = [
-                self.solver.solve(
-                    WaveProblem(
-                        solid, wave, WaveLoad(float(pressure), load.speed, time), load.thickness
-                    ),
-                    first,
-                )
-                for pressure in classes.pressure
-            ]
+            solid, time = rubber_at(wave, result), load.time_under(length)
+            loads = [WaveLoad(pressure, load.speed, time) for pressure in classes.pressure.tolist()]
+            problems = [WaveProblem(solid, wave, each, load.thickness) for each in loads]
+            solved = [self.solver.solve(problem, first) for problem in problems]
             scale = classes.combined(solved)
             result = replace(result, scales=[*result.scales, scale])
             if self.on_scale is not None:
                 self.on_scale(result)
             if not scale.converged:
-                raise ChainError(result.failure(), result)
+                raise ChainError(result.why, result)
             if not passes_pressure(scale):
                 raise ChainError(
                     f"{result.last_wave()} has a contact fraction of {scale.contact_fraction:g}; "
@@ -379,14 +361,3 @@ class ChainSolve:
             length = scale.contact_length
             classes = classes.handed_down(solved, self.classes)
         return result
-
-    def coarser(self) -> ChainSolve | None:
-        """Return a solve that takes a fraction of the time, if the solver has a coarser version."""
-        if not isinstance(self.solver, RefinableSolver):
-            return None
-        return replace(self, solver=self.solver.coarser(), on_scale=None)
-
-    @property
-    def warm(self) -> bool:
-        """Whether a wave can start from its last solution."""
-        return isinstance(self.solver, RefinableSolver)

@@ -24,11 +24,11 @@ Index = tuple[int, ...]
 
 CONVERGED = "converged"  # status of an answer whose numbers may be used
 
-# Numbers of the whole surface that an answer may have.
-_NUMBERS = (*model.TOTALS, model.ADHESIVE_FRICTION, *model.OUTSIDE_BAND, *model.CUT_OFF_EXPONENTS)
-
 # All an answer says of the whole surface.
-SURFACE = (*_NUMBERS, model.WHY_NO_EXPONENT, model.STATUS, model.STATUS_WORD)
+SURFACE = (
+    *(*model.TOTALS, model.ADHESIVE_FRICTION, *model.OUTSIDE_BAND, *model.CUT_OFF_EXPONENTS),
+    *(model.WHY_NO_EXPONENT, model.STATUS, model.STATUS_WORD),
+)
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,6 @@ class Point:
     label: str
     """Name of the task while it is solved; different from all others."""
     task: Task
-    """What is solved."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +63,7 @@ class Design:
     def dataset(self, answers: Mapping[str, xr.Dataset]) -> xr.Dataset:
         """Return the answers, given by the keys of their tasks, over the dimensions.
 
-        With `prediction_status` (of a refused point the refusal, of a missing one nothing), its
-        word, `prediction_key` and `seconds` of each point.
+        With status (of a refused point the refusal), its word, key and `seconds` of each point.
         """
         shape = tuple(self.sizes.values())
         status, words, keys = (np.full(shape, "", dtype=object) for _ in range(3))
@@ -73,12 +71,11 @@ class Design:
         parts: dict[Index, xr.Dataset] = {}
         for index, refusal in self.refused.items():
             status[index] = refusal
+        statuses = [model.STATUS, model.STATUS_WORD]
         for point in self.points:
             key = point.task.key
             answer = answers[key]
-            parts[point.index] = answer.drop_vars(
-                [model.STATUS, model.STATUS_WORD], errors="ignore"
-            )
+            parts[point.index] = answer.drop_vars(statuses, errors="ignore")
             status[point.index] = str(answer[model.STATUS].item())
             words[point.index] = str(model.status_words(answer).item())
             keys[point.index] = key
@@ -104,13 +101,6 @@ def surface_numbers(answer: xr.Dataset, _: Task) -> xr.Dataset:
     return answer[[name for name in SURFACE if name in answer]]
 
 
-# Names of `error_of_total`, where it is kept.
-ESTIMATED_ERRORS = {
-    "total_contact_fraction_error": "error of the contact fraction as the model estimates it",
-    "total_friction_error": "error of the friction coefficient as the model estimates it",
-}
-
-
 def error_of_total(data: xr.Dataset, name: str) -> float:
     """Return the error of a total as its model estimates it: of profiles by weight, of waves added.
 
@@ -131,6 +121,9 @@ def error_of_total(data: xr.Dataset, name: str) -> float:
     return float(values)
 
 
+_TOTALS_WITH_ERRORS = {"contact_fraction": "contact fraction", "friction": "friction coefficient"}
+
+
 def basis_numbers(answer: xr.Dataset) -> xr.Dataset:
     """Return what an answer from a measured surface rests on, with its estimated errors.
 
@@ -138,28 +131,18 @@ def basis_numbers(answer: xr.Dataset) -> xr.Dataset:
     """
     if not set(model.BASIS) <= set(answer):
         return xr.Dataset()
-    errors = {
-        name: ((), error_of_total(answer, name.removeprefix("total_").removesuffix("_error")),
-               variable_attributes(text))
-        for name, text in ESTIMATED_ERRORS.items()
-    }  # fmt: skip
+    errors = {}
+    for name, words in _TOTALS_WITH_ERRORS.items():
+        attrs = variable_attributes(f"error of the {words} as the model estimates it")
+        errors[f"total_{name}_error"] = ((), error_of_total(answer, name), attrs)
     return answer[[*model.BASIS]].assign(errors)
 
 
 def solve_design(design: Design, bench: Bench, pick: Pick = surface_numbers) -> xr.Dataset:
-    """Return the answers of a design over its dimensions.
+    """Return the answers of a design, solved on a bench, over its dimensions.
 
-    Raises `InputError` or `FileError` as `Bench.solve`.
-
-    Parameters
-    ----------
-    design : Design
-        What is solved.
-    bench : Bench
-        Where it is solved.
-    pick : callable
-        Reduces an answer, with its task, to a Dataset of what is stacked, with
-        `prediction_status`; by default the numbers of the whole surface.
+    `pick` reduces an answer, with its task, to a Dataset of what is stacked, with
+    `prediction_status`. Raises `InputError` or `FileError` as `Bench.solve`.
     """
     return design.dataset(bench.solve(design.tasks, pick))
 

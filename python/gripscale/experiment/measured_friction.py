@@ -74,8 +74,6 @@ def _column(name: str, array: ArrayLike) -> Array:
 class MeasuredFriction(Checked, eq=False):
     """Measured friction coefficients over sliding speed, in the order they were given in.
 
-    What is computed for the points, such as `gripscale.questions.Predicted`, has the same order.
-
     Raises `InputError` if the lengths differ or a value is out of its range.
 
     Parameters
@@ -122,17 +120,11 @@ class MeasuredFriction(Checked, eq=False):
 
 
 def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) -> MeasuredFriction:
-    """Read measured friction from a text, CSV or Excel file, in the order of its rows.
+    """Read measured friction from a text, CSV or Excel (.xlsx) file, in the order of its rows.
 
-    Raises `FileError` if the file is missing or unreadable, a column is missing or named twice, or
-    a unit or a value cannot be used. Raises `InputError` if `sheet` is missing or none of the file.
-
-    Parameters
-    ----------
-    path : str or Path
-        The file; Excel: .xlsx.
-    sheet : str or int, optional
-        Name of the Excel sheet or its number from 1, where several hold numbers.
+    `sheet` is the name of the Excel sheet or its number from 1, where several hold numbers. Raises
+    `FileError` if the file is missing or unreadable, a column is missing or named twice, or a unit
+    or a value cannot be used; `InputError` if `sheet` is missing or none of the file.
     """
     path = file_path(path)
     table = read_table(
@@ -156,11 +148,11 @@ def read_measured_friction(path: str | Path, *, sheet: str | int | None = None) 
                     f"The unit of {word} in {path.name} is not stated and {_UNITS[word]} is "
                     f"assumed: write it in the title, such as '{word} [{list(UNITS[word])[1]}]'."
                 )
-    absent = [word for word in ("speed", "friction") if word not in columns]
-    if absent:
-        titles = table.titles or "no titles"
-        text = f"{path}: expected a column named {absent[0]}; got {titles}"
-        raise FileError(text, missing=absent[0])
+    for word in ("speed", "friction"):
+        if word not in columns:
+            titles = table.titles or "no titles"
+            text = f"{path}: expected a column named {word}; got {titles}"
+            raise FileError(text, missing=word)
     with about_file(path):
         return MeasuredFriction(**columns, source=str(path), assumed=" ".join(assumed))
 
@@ -181,16 +173,15 @@ def speed_doubts(measured: MeasuredFriction, speed: float) -> list[Finding]:
     """
     low, high = float(measured.speed.min()), float(measured.speed.max())
     most = PLAUSIBLE["speed"][1]
-    where = f"The measured speeds, {plain(low, 3)} to {plain(high, 3)} m/s, are"
     if high > most:
-        return [_doubt(f"{where} not all below {most:g} m/s: is their unit right?")]
-    if speed > 0.0 and (low > _FAR * speed or high < speed / _FAR):
+        odd = f"not all below {most:g} m/s"
+    elif speed > 0.0 and (low > _FAR * speed or high < speed / _FAR):
         side = "above" if low > speed else "below"
-        of_case = f"that of the case, {plain(speed, 3)} m/s"
-        return [
-            _doubt(f"{where} all more than {_FAR:g} times {side} {of_case}: is their unit right?")
-        ]
-    return []
+        odd = f"all more than {_FAR:g} times {side} that of the case, {plain(speed, 3)} m/s"
+    else:
+        return []
+    measured_speeds = f"The measured speeds, {plain(low, 3)} to {plain(high, 3)} m/s,"
+    return [_doubt(f"{measured_speeds} are {odd}: is their unit right?")]
 
 
 def _doubt(sentence: str) -> Finding:
@@ -261,12 +252,10 @@ MEASURED = {
 
 def measured_variables(measured: MeasuredFriction) -> dict[str, xr.Variable]:
     """Return the columns of a measurement as variables over `measurement`."""
-    columns = {
-        f"measured_{name}": labelled(
-            "measurement", getattr(measured, name), unit, text, measured.source
-        )
-        for name, (unit, text) in MEASURED.items()
-    }
+    columns = {}
+    for name, (unit, text) in MEASURED.items():
+        values = getattr(measured, name)
+        columns[f"measured_{name}"] = labelled("measurement", values, unit, text, measured.source)
     if measured.assumed:
         columns["measured_friction"].attrs["assumed"] = measured.assumed
     return columns
@@ -318,12 +307,9 @@ def measured_series(data: xr.Dataset) -> Iterator[MeasuredSeries]:
                 words.append(f"{temperature - ZERO_CELSIUS:.0f} °C")
             if several and not math.isnan(pressure):
                 words.append(pressure_unit.text(float(pressure), 3))
-            speed, friction, spread = (
-                data[f"measured_{name}"].values[rows] for name in ("speed", "friction", "spread")
-            )
-            yield MeasuredSeries(
-                ", ".join(words), float(temperature), speed, friction, spread, rows
-            )
+            names, state = ("speed", "friction", "spread"), ", ".join(words)
+            speed, friction, spread = (data[f"measured_{name}"].values[rows] for name in names)
+            yield MeasuredSeries(state, float(temperature), speed, friction, spread, rows)
 
 
 def nearest_series(measured: MeasuredFriction, temperature: float | None) -> MeasuredSeries:
@@ -331,5 +317,5 @@ def nearest_series(measured: MeasuredFriction, temperature: float | None) -> Mea
     series = list(measured_series(xr.Dataset(measured_variables(measured))))
     if temperature is None:
         return series[0]
-    kelvin = [float(np.nan_to_num(part.temperature, nan=temperature)) for part in series]
-    return series[int(np.argmin(np.abs(np.array(kelvin) - temperature)))]
+    away = [np.nan_to_num(abs(part.temperature - temperature), nan=0.0) for part in series]
+    return series[int(np.argmin(away))]

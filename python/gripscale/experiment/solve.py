@@ -3,14 +3,10 @@
 Answers are written by the calling thread only, in whatever order they come; an answer depends on
 its task alone, so neither the order nor the number of workers changes a bit of it.
 
-On one machine the workers are threads: a model spends nearly all its time in the compiled kernel,
-which leaves Python's lock free, and threads need no guard in the caller's script. On many cores
-`client="processes"` is worth its start (docs/uncertainty.md); the script then needs the guard
-`if __name__ == "__main__"`.
-
-On a Dask cluster (`pip install gripscale[cluster]`) answers come back to the caller, which stores
-them: the workers need gripscale but no common file system. A worker that dies loses only the
-prediction it was solving; its tasks go to the others.
+The workers are threads, because the compiled kernel leaves Python's lock free. Processes are worth
+their start on many cores (docs/uncertainty.md); the script then needs the guard
+`if __name__ == "__main__"`. Workers of a Dask cluster need no common file system; one that dies
+loses only the prediction it was solving.
 """
 
 from __future__ import annotations
@@ -80,16 +76,10 @@ class Bench:
     def solve(self, tasks: Mapping[str, Task], pick: Pick | None = None) -> dict[str, xr.Dataset]:
         """Return the answer of every task by its key; only what the store lacks is solved.
 
-        Raises `InputError` if an input cannot be used, or the cluster cannot be reached. Raises
-        `FileError` if an answer cannot be written.
-
-        Parameters
-        ----------
-        tasks : mapping
-            Tasks by label. Equal tasks are solved once.
-        pick : callable, optional
-            What is kept of an answer; all of it by default. The attributes `prediction_key` and
-            `seconds` are always kept.
+        `tasks` by label; equal ones are solved once. `pick` is what is kept of an answer beside the
+        attributes `prediction_key` and `seconds`; by default all of it. Raises `InputError` if an
+        input cannot be used or the cluster cannot be reached, `FileError` if an answer cannot be
+        written.
         """
         wanted: dict[str, tuple[str, Task]] = {}
         for label, task in tasks.items():
@@ -229,7 +219,6 @@ def cluster(client: Any, workers: int) -> Iterator[_Solve]:
                 )
 
         def solve(tasks: list[Task]) -> Generator[Solved, None, None]:
-            # whole tasks: what an answer rests on may come from parts its numbers do not need
             futures = [client.submit(_alone, task, key=f"gripscale-{task.key}") for task in tasks]
             stream = distributed.as_completed(futures, loop=client.loop, with_results=True)
             try:

@@ -1,8 +1,7 @@
 """One prediction to make: everything its result depends on, its key, and its solution.
 
-The key is a hash of all inputs, to the last bit, and of the software that solves them. Equal keys
-mean equal results, so a result stored under its key never has to be found again and can never be a
-stale one.
+The key is a hash of all inputs, to the last bit, and of the software that solves them: a result
+stored under its key cannot be a stale one.
 """
 
 from __future__ import annotations
@@ -121,13 +120,7 @@ class Store:
 
     A file is written beside its place and renamed into it, so a file that is there is whole. One
     that cannot be read back all the same (a disk that was full, a power cut) counts as not there.
-
-    Raises `FileError` if the folder cannot be made.
-
-    Parameters
-    ----------
-    folder
-        Made if it is not there.
+    The folder is made if it is not there; `FileError` if it cannot be.
     """
 
     def __init__(self, folder: str | Path) -> None:
@@ -147,8 +140,5 @@ class Store:
         return data if data.attrs.get("prediction_key") == key else None
 
     def put(self, key: str, solved: xr.Dataset) -> Path:
-        """Write the prediction of `key`; return the path of its file.
-
-        Raises `FileError` if it cannot be written.
-        """
+        """Write the prediction of `key`, else raise `FileError`; return the path of its file."""
         return netcdf.save(solved, self.path(key))

@@ -6,9 +6,8 @@ high, h_0 = min(width of an element, depth/rows), whose heights sum up to the de
     P = J^(-2/3) (F H - 1/3 (H : C) F^-T) + p J F^-T,   sigma = P F^T / J
     H = G_inf b + (G(t) - G_inf) 1 + T^-1{ (G(t) - G*(w_k)) T{Y} },   Y = J^(2/3) C^-1
 
-with the letters of docs/export.md, where its forces on the nodes vanish as those of the kernel do.
-Lubliner, Mech. Res. Commun. 12 (1985) 93; Holzapfel, Nonlinear Solid Mechanics (2000), section 6.4.
-The VTK User's Guide, 11th ed. (2010), section 19.3; VTK file formats, docs.vtk.org.
+with the letters of docs/export.md (Lubliner, Mech. Res. Commun. 12 (1985) 93; Holzapfel, Nonlinear
+Solid Mechanics (2000), section 6.4). VTK User's Guide, 11th ed. (2010), section 19.3.
 """
 
 from __future__ import annotations
@@ -23,11 +22,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from gripscale.core import Array, InputError, Status, checks
+from gripscale.core import Array, InputError, checks
 from gripscale.io.folders import write_bytes
 from gripscale.io.text_table import file_path
 from gripscale.wave import ScaleResult
-from gripscale.wave.result import waves_from_dataset
+from gripscale.wave.result import EQUILIBRIUM, waves_from_dataset
 
 
 @dataclass(frozen=True)
@@ -131,10 +130,6 @@ def lagrange(order: int) -> tuple[Array, Array]:
         shape = [0.5 * s * (s - 1.0), 1.0 - s * s, 0.5 * s * (s + 1.0)]
         slope = [s - 0.5, -2.0 * s, s + 0.5]
     return np.stack(shape, axis=1), np.stack(slope, axis=1)
-
-
-# Statuses of a wave in which the forces on its nodes vanish.
-EQUILIBRIUM = (Status.CONVERGED, Status.TOLERANCE_NOT_MET, Status.FRICTIONS_DISAGREE)
 
 
 @dataclass(frozen=True)
@@ -248,8 +243,7 @@ def write_vtu(
     _array(part, "offsets", corners * np.arange(1, count + 1))
     _array(part, "types", np.full(count, CELL_TYPES[corners], dtype=np.uint8))
     ET.indent(root)
-    text = ET.tostring(root, xml_declaration=True, encoding="utf-8")
-    return write_bytes(path, text)
+    return write_bytes(path, ET.tostring(root, xml_declaration=True, encoding="utf-8"))
 
 
 def _array(into: ET.Element, name: str, values: NDArray[np.generic], **others: str) -> None:
@@ -282,13 +276,11 @@ def write_mesh(result: ScaleResult, path: str | Path) -> Path:
     x, z = result.deformed_mesh
     rest_x, rest_z = block.nodes()
     contact_pressure = np.zeros(block.shape)
-    contact_pressure[0, :-1] = result.pressure
-    contact_pressure[0, -1] = result.pressure[0]
+    contact_pressure[0] = np.append(result.pressure, result.pressure[0])
     cell_data = {}
     if result.status in EQUILIBRIUM and result.rubber is not None:
         solved = block_stress(result)
-        stress = solved.element_mean(solved.cauchy)
-        weights = np.broadcast_to(block.weights, solved.jacobian.shape)
+        stress, weights = solved.element_mean(solved.cauchy), block.weights
         areas = (weights * solved.jacobian).sum(axis=(2, 3))
         cell_data = {
             "stress": stress.reshape(-1, 9),

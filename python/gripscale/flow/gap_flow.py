@@ -12,6 +12,7 @@ one of them does not percolate; its evidence is in docs/seals.md.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -111,6 +112,7 @@ class GapFlow(Pictured):
         low, high = np.transpose(self.flow_factor_interval)
         x, y = (step * np.arange(n) for step, n in zip(self.spacing, self.gap.shape, strict=True))
         narrow = [each.gap if each else 0.0 for each in self.junction]
+        fields = ("axis", "x", "y")
         variables = {
             "flow_factor": ("axis", self.flow_factor, "1", "flow over that of the mean gap"),
             "flow_factor_low": ("axis", low, "1", "its lower end by the error of the grid"),
@@ -120,12 +122,7 @@ class GapFlow(Pictured):
             "closed_fraction": ((), self.contact_fraction, "1", "closed points over all points"),
             "junction_gap": ("axis", narrow, "m", "height of the critical junction"),
             "gap": (("x", "y"), self.gap, "m", "gap between rubber and surface"),
-            "fluid_pressure": (
-                ("axis", "x", "y"),
-                self.pressure,
-                "1",
-                "over the fall along a period",
-            ),
+            "fluid_pressure": (fields, self.pressure, "1", "over the fall along a period"),
             "x": ("x", x, "m", "x"),
             "y": ("y", y, "m", "y"),
         }
@@ -142,7 +139,8 @@ def gap_flow(
 ) -> GapFlow:
     """Return the flow of a fluid through the gap of a contact.
 
-    The gap is that of the dry contact: the pressure of the fluid does not widen it.
+    The gap is that of the dry contact: the pressure of the fluid does not widen it. Raises
+    `InputError` for the contact of a line, or a gap with missing or negative values.
 
         >>> gap = 1e-6 * (1.0 + 0.5 * np.sin(2.0 * np.pi * np.arange(64) / 64))
         >>> flow = gs.gap_flow(np.tile(gap[:, None], (1, 64)), spacing=(1e-6, 1e-6))
@@ -156,28 +154,22 @@ def gap_flow(
         The contact of a map; or a periodic gap [m], zero where closed, shape (nx, ny).
     spacing : pair of float, optional
         Distance of the points of an array along x and y [m].
-
-    Raises
-    ------
-    InputError
-        If the contact is that of a line, or the gap has missing or negative values.
     """
     gap, steps = _gap_and_spacing(contact, spacing)
     mean = float(gap.mean())
     closed = gap <= NARROWEST * mean
     relative = np.where(closed, 0.0, gap / (mean or 1.0))
     factors, pressure, density, percolates = _flow(relative, steps)
-    intervals = _intervals(relative, steps, factors)
-    junctions = [
+    along_x, along_y = (
         _critical_junction(relative, steps, axis, mean) if open_path else None
         for axis, open_path in enumerate(percolates)
-    ]
+    )
     return GapFlow(
         flow_factor=factors,
-        flow_factor_interval=intervals,
+        flow_factor_interval=_intervals(relative, steps, factors),
         mean_gap=mean,
         percolates=percolates,
-        junction=(junctions[0], junctions[1]),
+        junction=(along_x, along_y),
         contact_fraction=float(closed.mean()),
         gap=gap,
         spacing=steps,
@@ -230,7 +222,7 @@ def _flow(
         network = Multigrid(_matrix(conductance, through))
         for axis in (0, 1):
             carrying = regions.where(ways[:, axis])
-            faces = [np.where(carrying, each, 0.0) for each in conductance]
+            faces = np.where(carrying, conductance, 0.0)
             inflow = spacing[axis] * (faces[axis] - np.roll(faces[axis], 1, axis))
             outset = spacing[axis] ** 2 * float(faces[axis].sum())
             deviation = np.zeros(gap.shape)
@@ -252,30 +244,25 @@ def _flow(
     return (factors[0], factors[1]), pressure, density, open_ways
 
 
-def _conductances(gap: Array, spacing: tuple[float, float]) -> list[Array]:
-    """Return the conductance from each cell to the next along x and along y."""
+def _conductances(gap: Array, spacing: tuple[float, float]) -> Array:
+    """Return the conductance from each cell to the next along x and along y, shape (2, nx, ny)."""
     cubed, ratio = gap**3, spacing[1] / spacing[0]
-    out = []
+    out = np.empty((2, *gap.shape))
     for axis, shape in enumerate((ratio, 1.0 / ratio)):
         following = np.roll(cubed, -1, axis)
         total = cubed + following
-        out.append(2.0 * shape * cubed * following / np.where(total > 0.0, total, 1.0))
+        out[axis] = 2.0 * shape * cubed * following / np.where(total > 0.0, total, 1.0)
     return out
 
 
-def _matrix(conductance: Sequence[Array], through: Mask) -> csr_array:
+def _matrix(conductance: Array, through: Mask) -> csr_array:
     """Return the matrix of the cells that flow goes `through`."""
-    number = np.full(through.shape, -1)
-    number[through] = np.arange(int(through.sum()))
-    first, second, values = [], [], []
-    for axis, faces in enumerate(conductance):
-        linked = faces > 0.0
-        first.append(number[linked])
-        second.append(np.roll(number, -1, axis)[linked])
-        values.append(faces[linked])
-    return laplacian(
-        np.concatenate(first), np.concatenate(second), np.concatenate(values), int(through.sum())
-    )
+    number, count = np.full(through.shape, -1), int(through.sum())
+    number[through] = np.arange(count)
+    linked = conductance > 0.0
+    first = np.broadcast_to(number, linked.shape)[linked]
+    second = np.stack([np.roll(number, -1, axis) for axis in (0, 1)])[linked]
+    return laplacian(first, second, conductance[linked], count)
 
 
 def _intervals(
@@ -286,11 +273,8 @@ def _intervals(
         return (math.nan, math.nan), (math.nan, math.nan)
     nx, ny = (n // 2 for n in gap.shape)
     wide = 2.0 * spacing[0], 2.0 * spacing[1]
-    coarse = [
-        _flow(gap[i::2, j::2][:nx, :ny], wide, COARSE_FLOW_TOLERANCE)[0]
-        for i in (0, 1)
-        for j in (0, 1)
-    ]
+    parts = (gap[i::2, j::2][:nx, :ny] for i, j in np.ndindex(2, 2))
+    coarse = [_flow(part, wide, COARSE_FLOW_TOLERANCE)[0] for part in parts]
     out = []
     for factor, others in zip(factors, np.transpose(coarse), strict=True):
         if factor == 0.0:
@@ -308,14 +292,12 @@ def _critical_junction(
 ) -> Junction:
     """Return the point with the least gap of the path with the largest least gap, by bisection."""
     values = np.unique(gap[gap > 0.0])
-    low, high = 0, values.size
-    while high - low > 1:
-        middle = (low + high) // 2
-        if periodic_regions(gap >= values[middle]).percolates[:, axis].any():
-            low = middle
-        else:
-            high = middle
-    regions = periodic_regions(gap >= values[low])
+
+    def is_closed(least: float) -> bool:
+        return not periodic_regions(gap >= least).percolates[:, axis].any()
+
+    least = values[bisect_left(values, True, lo=1, key=is_closed) - 1]
+    regions = periodic_regions(gap >= least)
     path = regions.where(regions.percolates[:, axis])
-    i, j = np.argwhere(path & (gap == values[low]))[0]
-    return Junction(float(i * spacing[0]), float(j * spacing[1]), float(values[low] * mean))
+    i, j = np.argwhere(path & (gap == least))[0]
+    return Junction(float(i * spacing[0]), float(j * spacing[1]), float(least * mean))

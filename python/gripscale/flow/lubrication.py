@@ -1,12 +1,9 @@
 """Water under a block: squeeze-out while it passes.
 
-The contact under rising pressures gives its pressure p_c and flow factor phi against the mean gap h
-(`gap_curve`). A block of length L, wide across it, sinks into water of viscosity eta by the mean
-pressure p_0 (Stefan's equation without contact and with phi = 1; docs/wet-roads.md):
+A block of length L, wide across it, sinks into water of viscosity eta by the mean pressure p_0,
+with the contact pressure p_c and flow factor phi of a `gap_curve` (docs/wet-roads.md):
 
     -dh/dt = (p_0 - p_c(h)) phi(h) h^3 / (eta L^2)
-
-Inertia is left out: it counts above a reduced Reynolds number rho v <h^2> / (eta L) of about one.
 """
 
 from __future__ import annotations
@@ -78,11 +75,6 @@ class GapCurve:
         """Return the friction per nominal area [Pa] of the contact under pressures [Pa]."""
         return np.asarray(np.interp(pressure, self.pressure, self.friction) * pressure)
 
-    def final_gap(self, pressure: float) -> float:
-        """Return the mean gap under a pressure without water [m]."""
-        order = np.log(self.pressure)
-        return float(np.exp(np.interp(math.log(pressure), order, np.log(self.mean_gap))))
-
 
 def gap_curve(
     rubber: Rubber | Layers, surface: HeightMap, *, pressure: float, speed: float, **options: Any
@@ -137,7 +129,8 @@ def squeeze_out(
     load = checks.positive("pressure", pressure, unit="Pa")
     size = checks.positive("length", length, unit="m") ** 2
     thickness = checks.positive("viscosity", viscosity, unit="Pa s")
-    last = curve.final_gap(load)
+    last_log = np.interp(math.log(load), np.log(curve.pressure), np.log(curve.mean_gap))
+    last = float(np.exp(last_log))
     if first <= last:
         return SqueezeOut(np.zeros(1), np.array([first]), np.ones(1))
     gap = last + (first - last) * np.geomspace(1.0, NEARLY, INSTANTS)

@@ -171,11 +171,8 @@ def _power_laws(inputs: PaperInputs) -> list[Panel]:
 def single_factor(inputs: PaperInputs, road: str) -> tuple[SineStack, SineStack]:
     """Return waves fitted with two factors and with one, same number and smallest wavelength."""
     stack, curve = next(iter(inputs.stacks[road].values())), inputs.correlation(road)
-    smallest, scales = float(stack.wavelength[-1]), len(stack)
-    return (
-        fit_sines(curve, scales=scales, smallest_wavelength=smallest),
-        fit_sines(curve, scales=scales, smallest_wavelength=smallest, single_factor=True),
-    )
+    same = dict[str, Any](scales=len(stack), smallest_wavelength=float(stack.wavelength[-1]))
+    return fit_sines(curve, **same), fit_sines(curve, **same, single_factor=True)
 
 
 def _waves(inputs: PaperInputs) -> list[Panel]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -82,22 +82,19 @@ class PaperInputs:
 
         With an amplitude given, that one is the first wave fitted to the first pair of factors.
         """
-        return {surface: self._magnified(surface) for surface in self.surfaces}
-
-    def _magnified(self, surface: str) -> dict[str, SineStack]:
-        curve, sines = self.correlation(surface), self.surfaces[surface].sines
-        smallest = float(sines.wavelength[-1])
-
-        def fitted(factors: FactorPair, **start: Any) -> SineStack:
-            s, a = factors
-            start = {**start, "smallest_wavelength": smallest}
-            return fit_sines(curve, s_wavelength=s, s_amplitude=a, **start)
-
-        pairs = self.factors[surface]
-        first = sines if pairs[0][1] is None else fitted(pairs[0])
-        length, height = float(first.wavelength[0]), float(first.amplitude[0])
-        stacks = [fitted(pair, first_wavelength=length, first_amplitude=height) for pair in pairs]
-        return {f"{s.s_wavelength:g}/{s.s_amplitude:.3g}": s for s in stacks}
+        out = {}
+        for surface, road in self.surfaces.items():
+            pairs, first = self.factors[surface], road.sines
+            smallest = float(first.wavelength[-1])
+            fitted = partial(fit_sines, self.correlation(surface), smallest_wavelength=smallest)
+            s, a = pairs[0]
+            if a is not None:
+                first = fitted(s_wavelength=s, s_amplitude=a)
+            length, height = float(first.wavelength[0]), float(first.amplitude[0])
+            fitted = partial(fitted, first_wavelength=length, first_amplitude=height)
+            stacks = [fitted(s_wavelength=s, s_amplitude=a) for s, a in pairs]
+            out[surface] = {f"{s.s_wavelength:g}/{s.s_amplitude:.3g}": s for s in stacks}
+        return out
 
     def worst_fit(self, surface: str) -> str:
         """Return the pair of factors whose waves fit the correlation worst."""

@@ -9,25 +9,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from gripscale.core import Array, InputError, in_mm
-from gripscale.reproduction.figures import (
-    STATIC,
-    Lines,
-    Results,
-    pair_name,
-    self_affine,
-    single_factor,
-    speed_name,
-)
+from gripscale.reproduction import figures
 from gripscale.reproduction.inputs import FAST, FASTEST, PAPER_FACTORS, SPEED, PaperInputs
 from gripscale.rubber import springpot_modulus, styrene_butadiene
-from gripscale.rubber.measured_rubber import MeasuredRubber
 
 Verdict = tuple[str, str, bool | None, str]
 
@@ -44,39 +35,35 @@ class Evidence(NamedTuple):
     """What a statement about a figure is judged by."""
 
     inputs: PaperInputs
-    solved: Results  # the predictions of the figure
-    rest: Results  # those of Fig. 5a, which 5b compares with
+    solved: figures.Results  # the predictions of the figure
+    rest: figures.Results  # those of Fig. 5a, which 5b compares with
 
 
 def _maxwell_solid(evidence: Evidence) -> Iterator[Verdict]:
     for name, compound in evidence.inputs.compounds.items():
-        errors = _modulus_errors(compound)
+        fit, rubber = compound.fit, compound.rubber
         why = "the rows scatter about the best series"
-        if compound.fit is not None and compound.fit.inconsistencies:
-            why = (
-                "no linear solid has the measured E' and E'' of "
-                f"{len(compound.fit.inconsistencies)} stretches of frequency (Kramers-Kronig)"
-            )
-        if errors:
-            number = f"E' {errors[0]:.1%}, E'' {errors[1]:.1%}"
-            yield name, number, max(errors) <= _MODULUS_ERROR, why
-
-
-def _modulus_errors(compound: MeasuredRubber) -> list[float]:
-    """Return the rms errors of E' and E''; nothing for a series that came without its moduli."""
-    if compound.fit is not None:
-        return [compound.fit.rms_storage, compound.fit.rms_loss]
-    if compound.rubber != styrene_butadiene():
-        return []
-    omega = np.geomspace(*(compound.rubber.valid_band or (1e-2, 1e10)), 200)
-    fitted, wanted = compound.rubber.complex_modulus(omega), springpot_modulus(omega)
-    ratios = fitted.real / wanted.real, fitted.imag / wanted.imag
-    return [float(np.sqrt(np.mean((ratio - 1.0) ** 2))) for ratio in ratios]
+        if fit is not None:
+            storage, loss = fit.rms_storage, fit.rms_loss
+            if fit.inconsistencies:
+                why = (
+                    "no linear solid has the measured E' and E'' of "
+                    f"{len(fit.inconsistencies)} stretches of frequency (Kramers-Kronig)"
+                )
+        elif rubber == styrene_butadiene():
+            omega = np.geomspace(*(rubber.valid_band or (1e-2, 1e10)), 200)
+            fitted, wanted = rubber.complex_modulus(omega), springpot_modulus(omega)
+            ratios = fitted.real / wanted.real, fitted.imag / wanted.imag
+            storage, loss = (float(np.sqrt(np.mean((ratio - 1.0) ** 2))) for ratio in ratios)
+        else:  # a series that came without its moduli
+            continue
+        number = f"E' {storage:.1%}, E'' {loss:.1%}"
+        yield name, number, max(storage, loss) <= _MODULUS_ERROR, why
 
 
 def _power_law(evidence: Evidence) -> Iterator[Verdict]:
     for road in evidence.inputs.surfaces:
-        fit = self_affine(evidence.inputs, road)
+        fit = figures.self_affine(evidence.inputs, road)
         if isinstance(fit, InputError):
             yield road, "no fit", False, str(fit)
             continue
@@ -93,7 +80,7 @@ def _power_law(evidence: Evidence) -> Iterator[Verdict]:
 def _two_factors(evidence: Evidence) -> Iterator[Verdict]:
     paper = math.log(PAPER_FACTORS[0][1]) / math.log(PAPER_FACTORS[0][0])
     for road, surface in evidence.inputs.surfaces.items():
-        two, single = (s.residual or math.nan for s in single_factor(evidence.inputs, road))
+        two, single = (s.residual or math.nan for s in figures.single_factor(evidence.inputs, road))
         stack = surface.sines
         exponent = math.log(stack.s_amplitude or 1.0) / math.log(stack.s_wavelength or math.e)
         why = (
@@ -119,7 +106,7 @@ def _order_of_pairs(evidence: Evidence) -> Iterator[Verdict]:
 def _at(evidence: Evidence, road: str) -> str:
     """Return where a chain for pairs of factors was solved: at rest, or sliding as in Fig. 5b."""
     first, *_ = evidence.solved[road].values()
-    return f"{road}, {evidence.inputs.rubber}, {speed_name(float(first.nominal_speed))}"
+    return f"{road}, {evidence.inputs.rubber}, {figures.speed_name(float(first.nominal_speed))}"
 
 
 def _same_way(evidence: Evidence) -> Iterator[Verdict]:
@@ -204,16 +191,16 @@ def _ratio(rest: xr.Dataset, moving: xr.Dataset) -> Array:
 
 def _falls_with_speed(evidence: Evidence) -> Iterator[Verdict]:
     rubber = evidence.inputs.rubber
-    predictions = [p for name, p in evidence.solved[rubber].items() if name != STATIC]
+    predictions = [p for name, p in evidence.solved[rubber].items() if name != figures.STATIC]
     ratios = [_ratio(slow, fast) for slow, fast in pairwise(predictions)]
     grows = [f"{float(ratio.max()):.2f}" for ratio in ratios if (ratio >= 1.0).any()]
     rest = _ratio(predictions[0], predictions[-1])
-    why = (
-        f"from a speed to the next the area is up to {', '.join(grows)} times as large: the modulus"
-        " of this rubber does not rise with frequency there"
-        if grows
-        else "the modulus of this rubber rises as much between the speeds at large waves"
-    )
+    why = "the modulus of this rubber rises as much between the speeds at large waves"
+    if grows:
+        why = (
+            f"from a speed to the next the area is up to {', '.join(grows)} times as large: the "
+            "modulus of this rubber does not rise with frequency there"
+        )
     length = predictions[0].wavelength.values
     where = f"{evidence.inputs.surface}, {rubber}, {len(predictions)} speeds over four decades"
     ends = [f"{rest[i]:.2f} at {length[: rest.size][i] * 1e3:.3g} mm" for i in (0, -1)]
@@ -319,9 +306,9 @@ def _sooner(evidence: Evidence) -> Iterator[Verdict]:
         wavelengths = {name: float(p.wavelength[peaks[name]]) for name, p in predictions.items()}
         inside = {name for name, p in predictions.items() if peaks[name] < p.sizes["scale"] - 1}
         ordered = all(later >= earlier for earlier, later in pairwise(wavelengths.values()))
-        holds: bool | None = ordered and len({wavelengths[name] for name in inside}) >= 2
-        if sum(_reached(prediction) for prediction in predictions.values()) < 2:
-            holds = None
+        several = len({wavelengths[name] for name in inside}) >= 2
+        judgeable = sum(map(_reached, predictions.values())) >= 2
+        holds = ordered and several if judgeable else None
         number = "maximum at " + ", ".join(
             f"{value * 1e3:.3g} mm ({name}{'' if name in inside else ', the smallest'})"
             for name, value in wavelengths.items()
@@ -330,7 +317,7 @@ def _sooner(evidence: Evidence) -> Iterator[Verdict]:
         yield f"{evidence.inputs.surface}, {rubber}", number, holds, why
 
 
-def _lossiest(rubber: str, speed: float, predictions: Lines, inputs: PaperInputs) -> str:
+def _lossiest(rubber: str, speed: float, predictions: figures.Lines, inputs: PaperInputs) -> str:
     """Return which wave excites the largest loss factor of a rubber at a speed, in words."""
     omega = np.geomspace(1e-2, 1e12, 2000)
     highest = float(omega[int(inputs.compounds[rubber].rubber.loss_factor(omega).argmax())])
@@ -346,7 +333,7 @@ class Pair(NamedTuple):
     """Two compounds at one speed, the second against the first, wave by wave."""
 
     names: tuple[str, str]
-    lines: Lines
+    lines: figures.Lines
     speed: float
     where: str
     lead: Array  # in friction
@@ -354,14 +341,13 @@ class Pair(NamedTuple):
 
 
 def _pairs(evidence: Evidence) -> Iterator[Pair]:
-    for names in evidence.inputs.pairs:
-        for speed in (SPEED, FAST):
-            lines = evidence.solved[pair_name(names, speed)]
-            first, second = (lines[name] for name in names)
-            where = f"{speed_name(speed)}, {names[1]} against {names[0]}"
-            lead = (second.friction - first.friction).values
-            ratio = (second.loss_factor / first.loss_factor).values
-            yield Pair(names, lines, speed, f"{evidence.inputs.surface}, {where}", lead, ratio)
+    for names, speed in product(evidence.inputs.pairs, (SPEED, FAST)):
+        lines = evidence.solved[figures.pair_name(names, speed)]
+        first, second = (lines[name] for name in names)
+        where = f"{figures.speed_name(speed)}, {names[1]} against {names[0]}"
+        lead = (second.friction - first.friction).values
+        ratio = (second.loss_factor / first.loss_factor).values
+        yield Pair(names, lines, speed, f"{evidence.inputs.surface}, {where}", lead, ratio)
 
 
 def _alike_at_large_waves(evidence: Evidence) -> Iterator[Verdict]:

@@ -62,13 +62,12 @@ def reproduce_paper(
         key: data.isel(scale=np.flatnonzero(np.isfinite(data.running_contact_fraction)))
         for key, data in solved.items()
     }
-    results: dict[str, Results] = {
-        name: {
+    results: dict[str, Results] = {}
+    for name, panels in wanted.items():
+        results[name] = {
             panel: {line: converged[task.key] for line, task in lines.items()}
             for panel, lines in panels.items()
         }
-        for name, panels in wanted.items()
-    }
     folder, statements = FigureFolder(Path(output), ("png", "pdf")), list[Statement]()
     for name in names:
         sheet = draw(name, inputs, results[name])

@@ -1,10 +1,5 @@
 """The finite-strain block: a rubber block pressed on, and slid over, one wave or profile.
 
-The block is one wavelength wide and periodic, in plane strain: a permanent network plus one
-temporary network per Maxwell element (Lubliner, Mech. Res. Commun. 12 (1985) 93). The compiled
-kernel solves the static or steady state in the frame of the wave; this module is the only one that
-builds a `ScaleResult` from its solution.
-
 A measured profile is made `gripscale.surface.low_pass.one_period` and pressed into one block, all
 its waves in one solution: no separation of scales, no random phases, and no small strain.
 """
@@ -28,14 +23,15 @@ from gripscale.surface.profile import RESOLVED_STEPS
 from gripscale.surface.resampling import fill_gaps
 from gripscale.wave import kernel
 from gripscale.wave.problem import Mesh, SampledProfile, Sine, WaveLoad, WaveProblem
-from gripscale.wave.result import ScaleResult
+from gripscale.wave.result import EQUILIBRIUM, ScaleResult
 
 # Statuses of solutions that reached the whole pressure.
-_SOLVED = (
-    Status.CONVERGED,
-    Status.TOLERANCE_NOT_MET,
-    Status.FRICTIONS_DISAGREE,
-    Status.CONTACT_TOO_NARROW,
+_SOLVED = (*EQUILIBRIUM, Status.CONTACT_TOO_NARROW)
+
+# What a result has from the solution of the kernel as it is.
+_NUMBERS = (
+    *("contact_fraction", "contact_fraction_error", "friction", "friction_from_dissipation"),
+    *("friction_error", "newton_iterations", "residual", "min_stretch", "max_stretch", "pressure"),
 )
 
 
@@ -68,19 +64,14 @@ class FiniteStrainBlock(Checked):
 
     @classmethod
     def of(
-        cls,
-        *,
-        tolerance: float | None = None,
-        time_limit: float | None = None,
-        max_iterations: int | None = None,
-        residual_tolerance: float | None = None,
-        **mesh: Any,
+        cls, *, tolerance: float | None = None, time_limit: float | None = None, **options: Any
     ) -> FiniteStrainBlock:
         """Return the block of the keyword arguments of `solve_scale`; `InputError` for others."""
-        checks.allowed_names("option", mesh, Mesh.__dataclass_fields__)
-        options = {"max_iterations": max_iterations, "residual_tolerance": residual_tolerance}
-        settings = {name: value for name, value in options.items() if value is not None}
-        return cls(Mesh(**mesh), tolerance, settings, time_limit)
+        of_kernel = ("max_iterations", "residual_tolerance")
+        checks.allowed_names("option", options, (*Mesh.__dataclass_fields__, *of_kernel))
+        settings = {name: options.pop(name, None) for name in of_kernel}
+        chosen = {name: value for name, value in settings.items() if value is not None}
+        return cls(Mesh(**options), tolerance, chosen, time_limit)
 
     def coarser(self) -> FiniteStrainBlock:
         """Return the block on half the columns and two thirds of the rows, a sixth of the work."""
@@ -97,20 +88,14 @@ class FiniteStrainBlock(Checked):
         `gripscale.solve_scale`. Raises `InputError` if `start` is of another solver or was read
         from a file, or `workers` is not a whole number from 1 to 1024.
         """
+        profile, load, mesh = problem.profile, problem.load, self.mesh
+        length = profile.wavelength
         if problem.thickness is not None:
-            depth = min(self.mesh.depth, problem.thickness / problem.profile.wavelength)
-            if depth != self.mesh.depth:
-                block = replace(self, mesh=replace(self.mesh, depth=depth))
-                return block.solve(replace(problem, thickness=None), start, workers=workers)
+            mesh = replace(mesh, depth=min(mesh.depth, problem.thickness / length))
         first = None if start is None else kernel.solution_of(start)
         solution = kernel.solve_steady(
-            problem, self.mesh, self.settings, self.tolerance, first, self.time_limit, workers
+            problem, mesh, self.settings, self.tolerance, first, self.time_limit, workers
         )
-        return self._result(problem, solution)
-
-    def _result(self, problem: WaveProblem, solution: kernel.Solution) -> ScaleResult:
-        profile, load = problem.profile, problem.load
-        length = profile.wavelength
         details = {
             "contact_edges": [(start * length, end * length) for start, end in solution.contacts],
             "load_steps": solution.load_steps,
@@ -119,8 +104,8 @@ class FiniteStrainBlock(Checked):
             "columns": solution.columns,
             "coarser_columns": solution.judged_by or 0,
             "rows": solution.rows,
-            "depth": self.mesh.depth,
-            "element_order": self.mesh.element_order,
+            "depth": mesh.depth,
+            "element_order": mesh.element_order,
         }
         if solution.too_narrow is not None:
             expected, smallest = solution.too_narrow
@@ -129,12 +114,11 @@ class FiniteStrainBlock(Checked):
         if solution.waves_carried:
             details["smallest_wave_carried"] = length / solution.waves_carried
         if solution.judged_by is None:
+            why = f"no coarser mesh than {solution.columns} columns was solved"
             if not math.isfinite(solution.friction):
                 why = "nothing was solved"
             elif solution.status not in _SOLVED:
                 why = f"the solution ended early, {solution.status}"
-            else:
-                why = f"no coarser mesh than {solution.columns} columns was solved"
             details["no_error_estimate"] = why
         return ScaleResult(
             wavelength=length,
@@ -142,22 +126,13 @@ class FiniteStrainBlock(Checked):
             pressure_received=load.pressure,
             speed=load.speed,
             load_time=load.load_time,
-            contact_fraction=solution.contact_fraction,
-            friction=solution.friction,
-            friction_from_dissipation=solution.friction_from_dissipation,
             status=Status(solution.status),
-            newton_iterations=solution.newton_iterations,
-            residual=solution.residual,
-            min_stretch=solution.min_stretch,
-            max_stretch=solution.max_stretch,
             x=solution.x * length,
-            pressure=solution.pressure,
             rubber=problem.rubber,
             model=self.name,
             deformed_mesh=(solution.mesh_x * length, solution.mesh_z * length),
             details=details,
-            contact_fraction_error=solution.contact_fraction_error,
-            friction_error=solution.friction_error,
+            **{name: getattr(solution, name) for name in _NUMBERS},
             friction_bound=math.nan if solution.friction_bound is None else solution.friction_bound,
             loss_by_depth=(
                 length * np.append(0.0, np.cumsum(solution.row_heights)),
@@ -191,8 +166,7 @@ def solve_scale(
     The block is one wavelength wide and periodic, in plane strain at finite deformation: the
     rubber's permanent network plus one temporary network per Maxwell element (Lubliner, Mech. Res.
     Commun. 12 (1985) 93), frictionless unilateral contact with z = amplitude cos(2 pi x /
-    wavelength). The steady state is one non-linear solve in the frame of the wave
-    (Wriggers & Reinelt, Comput. Methods Appl. Mech. Engrg. 198 (2009) 1996, treat it in time).
+    wavelength). The steady state is one non-linear solve in the frame of the wave.
 
     The `status` of the result is `converged`, or the reason not to use the numbers. Raises
     `InputError` if a value is not a number or out of its range, or the pressure is more than ten
@@ -235,19 +209,12 @@ def solve_scale(
     residual_tolerance : float, optional
         Largest residual force over the applied force, and gap over the amplitude [-].
     """
-    problem = WaveProblem(rubber, Sine(wavelength, amplitude), WaveLoad(pressure, speed, load_time))
-    load = problem.load
+    load = WaveLoad(pressure, speed, load_time)
+    problem = WaveProblem(rubber, Sine(wavelength, amplitude), load)
     require_load_bearing(rubber, load.pressure, math.inf if load.speed == 0.0 else 0.0)
-    block = FiniteStrainBlock.of(
-        columns=columns,
-        rows=rows,
-        depth=depth,
-        element_order=element_order,
-        tolerance=tolerance,
-        time_limit=time_limit,
-        max_iterations=max_iterations,
-        residual_tolerance=residual_tolerance,
-    )
+    mesh = {"columns": columns, "rows": rows, "depth": depth, "element_order": element_order}
+    of_kernel = {"max_iterations": max_iterations, "residual_tolerance": residual_tolerance}
+    block = FiniteStrainBlock.of(tolerance=tolerance, time_limit=time_limit, **mesh, **of_kernel)
     return block.solve(problem, start, workers=workers)
 
 
@@ -257,8 +224,6 @@ COLUMNS_PER_WAVE = 12
 FEWEST_PER_WAVE = 6
 # Ratio of heights of neighbouring rows, at most one as wide as high at the surface.
 ROW_GROWTH = 1.12
-
-
 # Range of the heights after filtering, over that before, below which only round-off remains.
 _ROUND_OFF = 1e-12
 
@@ -345,8 +310,7 @@ def solve_profile(
             least = FEWEST_PER_WAVE * heights.wavelength / _COLUMNS[-1]
             raise InputError(
                 f"smallest_wavelength must be at least {least:.4g} m, {FEWEST_PER_WAVE} of "
-                f"{_COLUMNS[-1]} columns; got waves down to "
-                f"{smallest:.4g} m"
+                f"{_COLUMNS[-1]} columns; got waves down to {smallest:.4g} m"
             )
         wanted = COLUMNS_PER_WAVE * waves
         columns = next((count for count in _COLUMNS if count >= wanted), _COLUMNS[-1])
@@ -357,10 +321,10 @@ def solve_profile(
         graded = math.log1p((ROW_GROWTH - 1.0) * depth * count) / math.log(ROW_GROWTH)
         rows = round(min(following, graded))
     block = FiniteStrainBlock.of(columns=columns, rows=rows, depth=depth, **options)
-    thorough = {"rescue_columns": _COLUMNS[-1]}
-    block = replace(block, settings={**block.settings, **thorough, **(settings or {})})
-    problem = WaveProblem(rubber, heights, WaveLoad(pressure, speed, load_time))
-    load = problem.load
+    chosen = {**block.settings, "rescue_columns": _COLUMNS[-1], **(settings or {})}
+    block = replace(block, settings=chosen)
+    load = WaveLoad(pressure, speed, load_time)
+    problem = WaveProblem(rubber, heights, load)
     require_load_bearing(rubber, load.pressure, math.inf if load.speed == 0.0 else 0.0)
     result = block.solve(problem, start, workers=workers)
     in_contact = result.x[result.pressure > 0.0]

@@ -39,11 +39,7 @@ def solve_steady(
     workers: int | None,
 ) -> Solution:
     """Return the static or steadily sliding solution; Ctrl-C and the end of a job interrupt it."""
-    load, rubber = problem.load, problem.rubber
-    inputs = {
-        **_body(rubber, problem.profile, mesh),
-        "load": {"pressure": load.pressure, "speed": load.speed, "load_time": load.load_time},
-    }
+    inputs = {**_body(problem.rubber, problem.profile, mesh), "load": vars(problem.load)}
     work = _work(workers, time_limit)
     return _checked_call(lambda: _kernel.solve_steady(inputs, settings, tolerance, start, work))
 
@@ -59,8 +55,7 @@ def solve_stages(
     workers: int | None,
 ) -> _kernel.Run:
     """Return the moments of a programme in time, with status and iterations."""
-    body = _body(rubber, profile, mesh)
-    work = _work(workers, time_limit)
+    body, work = _body(rubber, profile, mesh), _work(workers, time_limit)
     return _checked_call(lambda: _kernel.solve_transient(body, settings, list(stages), start, work))
 
 
@@ -81,14 +76,9 @@ def _work(workers: int | None, time_limit: float | None) -> dict[str, Any]:
 
 
 def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> dict[str, Any]:
-    if isinstance(profile, Sine):
-        heights = {"kind": "sine", "wavelength": profile.wavelength, "amplitude": profile.amplitude}
-    else:
-        heights = {
-            "kind": "sampled",
-            "wavelength": profile.wavelength,
-            "heights": profile.heights.tolist(),
-        }
+    heights = {"kind": "sine", **vars(profile)}
+    if isinstance(profile, SampledProfile):
+        heights |= {"kind": "sampled", "heights": profile.heights.tolist()}
     return {
         "rubber": {
             "equilibrium_modulus": rubber.equilibrium_modulus / 3.0,
@@ -98,12 +88,7 @@ def _body(rubber: Rubber, profile: Sine | SampledProfile, mesh: Mesh) -> dict[st
             "strain_energy": (rubber.strain_energy.kind, rubber.strain_energy.parameters()),
         },
         "profile": heights,
-        "mesh": {
-            "columns": mesh.columns,
-            "rows": mesh.rows,
-            "depth": mesh.depth,
-            "element_order": mesh.element_order,
-        },
+        "mesh": vars(mesh),
     }
 
 
@@ -117,11 +102,7 @@ def _checked_call(call: Callable[[], _T]) -> _T:
 
 @runtime_checkable
 class WaveSolver(Protocol):
-    """Solves one wave; the fields of the solver hold its mesh and accuracy.
-
-    A frozen dataclass. Its fields and the problem decide its results: stored results are named by
-    them.
-    """
+    """Solves one wave: a frozen dataclass, by whose fields stored results are named."""
 
     @property
     def name(self) -> str:

@@ -1,7 +1,4 @@
-"""The problem of one wave: a rubber, the rigid profile under it, and the load on it, in SI units.
-
-The mesh belongs to the finite-strain block, not to the problem.
-"""
+"""The problem of one wave: a rubber, the rigid profile under it, and the load on it, in SI."""
 
 from __future__ import annotations
 
@@ -19,10 +16,9 @@ SMALLEST_SHARE = 1e-9
 
 
 class Sine(Checked):
-    """A rigid sine wave z = amplitude cos(2 pi x / wavelength), crest at x = 0.
+    """A rigid sine wave z = amplitude cos(2 pi x / wavelength), both above zero [m].
 
-    Wavelength and amplitude (half peak-to-valley height) [m] are above zero. Raises `InputError`
-    for others.
+    The amplitude is half the peak-to-valley height. Raises `InputError` for others.
     """
 
     wavelength: float = checked(checks.positive, unit="m")
@@ -30,15 +26,13 @@ class Sine(Checked):
 
 
 def _heights(name: str, value: ArrayLike) -> Array:
-    """Return heights without their mean, read-only."""
+    """Return heights without their mean."""
     heights = checks.vector(name, value, unit="m")
     if heights.size < FEWEST_HEIGHTS:
         raise InputError(f"{name} must be at least {FEWEST_HEIGHTS}; got {heights.size}")
     if np.ptp(heights) == 0.0:
         raise InputError(f"{name} must differ; got {heights.size} times {heights[0]:g} m")
-    heights -= heights.mean()
-    heights.flags.writeable = False
-    return heights
+    return np.asarray(heights - heights.mean())
 
 
 class SampledProfile(Checked, eq=False):
@@ -98,11 +92,6 @@ class WaveProblem(Checked):
     load: WaveLoad
     thickness: float | None = checked(checks.positive, unit="m", default=None)
     """Of the rubber on a rigid base [m]; None: as deep as the solver has it."""
-
-    @property
-    def angular_frequency(self) -> float:
-        """Fundamental excitation 2 pi speed / wavelength [rad/s]."""
-        return 2.0 * math.pi * self.load.speed / self.profile.wavelength
 
 
 class Mesh(Checked):

@@ -1,8 +1,7 @@
 """Contact and friction of one wave, with the evidence for them, as an object and as a Dataset.
 
-Both directions of the conversion use `numbers.csv`: fields, the numbers of a `ScaleResult`; derived
-ones, which follow from these and are written for the reader; and details, which only some solvers
-have. Arrays along the waves are padded with NaN.
+`numbers.csv` lists fields of a `ScaleResult`; derived numbers, which follow from these and are
+written for the reader; and details, which only some solvers have.
 """
 
 from __future__ import annotations
@@ -28,7 +27,8 @@ from gripscale.rubber.extrapolation import WORTH_SAYING, Extrapolation
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-
+# Statuses of a wave in which the forces on its nodes vanish.
+EQUILIBRIUM = (Status.CONVERGED, Status.TOLERANCE_NOT_MET, Status.FRICTIONS_DISAGREE)
 LARGE_MISMATCH = 0.05  # relative difference of the two frictions above which a result is in doubt
 
 
@@ -259,20 +259,20 @@ def waves_to_dataset(results: Sequence[ScaleResult]) -> xr.Dataset:
             data[detail.name] = detail.variable(values)
 
     dims: tuple[str, ...] = ("scale", "surface_node")
-    x, pressure = _padded([r.x for r in results]), _padded([r.pressure for r in results])
+    x, pressure = padded([r.x for r in results]), padded([r.pressure for r in results])
     data["surface_x"] = labelled(dims, x, "m", "deformed abscissa, crest of the wave at 0", SOLVER)
     data["surface_pressure"] = labelled(dims, pressure, "Pa", "contact pressure", SOLVER)
     meshes = [result.deformed_mesh for result in results]
     if any(mesh is not None for mesh in meshes):
         dims, empty = ("scale", "layer", "column"), np.zeros((0, 0))
         for i, (name, words) in enumerate((("mesh_x", "abscissa"), ("mesh_z", "height"))):
-            positions = _padded([empty if mesh is None else mesh[i] for mesh in meshes])
+            positions = padded([empty if mesh is None else mesh[i] for mesh in meshes])
             data[name] = labelled(dims, positions, "m", f"{words} of the deformed nodes", SOLVER)
 
     rubbers = [r.rubber and json.dumps(r.rubber.to_dict()) for r in results]
     for name, long_name, texts in (
-        ("status", "converged, or why not", [str(result.status) for result in results]),
-        ("wave_solver", "solver of the wave", [result.model for result in results]),
+        ("status", "converged, or why not", [str(r.status) for r in results]),
+        ("wave_solver", "solver of the wave", [r.model for r in results]),
         ("rubber_parameters", "the rubber", [text or "" for text in rubbers]),
     ):
         data[name] = labelled("scale", np.array(texts, dtype=object), "1", long_name, SOLVER)
@@ -309,7 +309,7 @@ def waves_from_dataset(data: xr.Dataset) -> list[ScaleResult]:
     return out
 
 
-def _padded(arrays: Sequence[Array]) -> Array:
+def padded(arrays: Sequence[Array]) -> Array:
     """Return arrays of different sizes as one array, padded with NaN."""
     shapes = np.array([array.shape for array in arrays])
     out = np.full((len(arrays), *shapes.max(axis=0, initial=0)), math.nan)

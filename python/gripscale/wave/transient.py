@@ -66,14 +66,12 @@ class TransientResult(Described):
 
     def cycle(self, wavelengths: float = 1.0) -> dict[str, tuple[float, float, float]]:
         """Return mean, least and largest friction and contact over the last `wavelengths`."""
-        path = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(self.distance)))))
+        path = np.cumsum(np.abs(np.diff(self.distance, prepend=self.distance[0])))
         last = path[-1] - path <= wavelengths * self.wavelength
+        kept = {name: getattr(self, name)[last] for name in ("friction", "contact_fraction")}
         return {
-            name: (float(values[last].mean()), float(values[last].min()), float(values[last].max()))
-            for name, values in (
-                ("friction", self.friction),
-                ("contact_fraction", self.contact_fraction),
-            )
+            name: (float(values.mean()), float(values.min()), float(values.max()))
+            for name, values in kept.items()
         }
 
 
@@ -127,13 +125,9 @@ def solve_transient(
     run = kernel.solve_stages(
         rubber, profile, block.mesh, block.settings, programme, first, block.time_limit, workers
     )
+    moments = ("time", "distance", "speed", "pressure", "friction", "contact_fraction")
     return TransientResult(
-        time=run.time,
-        distance=run.distance,
-        speed=run.speed,
-        pressure=run.pressure,
-        friction=run.friction,
-        contact_fraction=run.contact_fraction,
+        **{name: getattr(run, name) for name in moments},
         indentation=run.approach * profile.wavelength,
         status=Status(run.status),
         newton_iterations=run.newton_iterations,
