@@ -187,6 +187,8 @@ def _rests_on(data: xr.Dataset) -> Iterator[str]:
         yield f"up to {percent_text(steep)} of the friction on slopes above 1"
     if LINES_TO_SURFACE in data.factor_label.values:
         yield ISOTROPY_ASSUMED
+    if INTERFACE in data:
+        yield f"{least_to_most(data[INTERFACE].values)} of the friction is the area term"
     if math.isfinite(sampling):
         if not {"surface", "rubber"} & set(view.dimensions(data)):
             yield "most of an interval is common to all points: their differences are known better"
