@@ -162,6 +162,9 @@ def roads_statistics_figure(data: xr.Dataset) -> Figure:
         ("spectrum", "wavenumber", CUBIC_MM, "spectrum $C_1$ [mm$^3$]"),
     ):
         curves = data.assign({name: data[name] / size})
+        if along == "wavenumber":
+            per_mm = along, data[along].values * MILLI, data[along].attrs | {"units": "rad/mm"}
+            curves = curves.assign_coords({along: per_mm})
         panel = view.panel(curves, name, along, flags=xr.DataArray(False))
         panels.append(replace(panel, y=PlotAxis(label, log=True)))
     return Sheet(panels, height=3.2).on_paper()
