@@ -1,88 +1,60 @@
-"""A question of your own: how large is the mean pressure where rubber really touches the road.
+"""A question of your own: the mean pressure where rubber really touches the road.
 
-A question is a function of a case that returns a `Result`. The class says what the result holds in
-words, as a table and on its page; `gs.load` gives a saved one back once the room is registered. A
-question of the package is a package with the same parts, and its line in `QUESTIONS`. Run as
-`python examples/toy_question.py [FOLDER]`.
+A function of a case returns a `Result`; its command: `python examples/toy_question.py CASE.toml`.
 """
 
-from __future__ import annotations
+from collections.abc import Iterator
 
-import sys
-from collections.abc import Sequence
-from pathlib import Path
-
-import numpy as np
+import typer
 import xarray as xr
 
 import gripscale as gs
-from gripscale.case_file import read_case
-from gripscale.core.finding import Finding
+from gripscale.charts.chart import Panel, PlotAxis, Series
+from gripscale.charts.draw import Picture, Sheet
 from gripscale.io.table import Column, Table
+from gripscale.questions import terminal
 from gripscale.questions.registry import QUESTIONS
 from gripscale.questions.result import Result
-from gripscale.report.elements import Card, Page, Section
 
-CASE = Path(__file__).parent / "road_and_tread" / "case.toml"
 KINDS = {"contact_pressure": ":ContactPressure"}
+QUESTIONS.append(__name__)
 
 
 class ContactPressure(Result):
-    """Mean pressure on the real contact area, with its interval."""
+    """Mean pressure on the real contact area, with its interval; saved, `gs.load` gives it back."""
 
     kind = "contact_pressure"
 
     @property
-    def pressure(self) -> float:
-        """Mean pressure on the real contact area [Pa]."""
-        return float(self.data.pressure)
-
-    @property
-    def lines(self) -> Sequence[str]:
-        """The pressure with its interval, and the nominal one."""
-        low, high = (float(end) / 1e6 for end in self.data.interval)
-        nominal = float(self.data.nominal_pressure) / 1e6
-        return (
-            f"Answer: p = {self.pressure / 1e6:.3g} MPa ({low:.3g} to {high:.3g}) in the contact",
-            f"  for a nominal pressure of {nominal:g} MPa",
-        )
-
-    @property
-    def findings(self) -> Sequence[Finding]:
-        """Nothing of its own: those of the answer hold."""
-        return ()
+    def lines(self) -> tuple[str, ...]:
+        p, low, high = self.data.pressure.values / 1e6
+        return (f"Answer: p = {p:.3g} MPa ({low:.3g} to {high:.3g}) in the contact",)
 
     def table(self) -> Table:
-        """Return the pressure as a table of one row."""
-        return Table("pressure", [Column("pressure", [self.pressure], "p", "MPa", 1e6)])
+        return Table("pressure", [Column("pressure", self.data.pressure.values, "p", "MPa", 1e6)])
 
-    def page_content(self) -> Page:
-        """Return the pressure as a page."""
-        card = Card("Pressure in the contact", f"{self.pressure / 1e6:.3g} MPa", self.lines[1])
-        table = Section("pressure", "Pressure", [self.table()])
-        return Page("Pressure in the contact", "", self.findings, [card], [table])
-
-
-QUESTIONS.append(__name__)
+    def pictures(self) -> Iterator[Picture]:
+        p, low, high = self.data.pressure.values[:, None] / 1e6
+        point = Series([0.0], p, marker="o", low=low, high=high)
+        figure = Sheet([Panel(PlotAxis(), PlotAxis("pressure [MPa]"), [point])]).on_paper()
+        yield Picture("pressure", figure, "Pressure in the contact", "A point with its interval")
 
 
 def contact_pressure(case: gs.Case) -> ContactPressure:
     """Return the mean pressure on the real contact area of a case."""
     answer = gs.answer(case)
-    area = np.array([answer.contact_fraction, *answer.contact_fraction_interval])
-    pressure, high, low = case.load.pressure / area
-    numbers = {"pressure": pressure, "nominal_pressure": case.load.pressure}
-    return ContactPressure(xr.Dataset({**numbers, "interval": ("end", [low, high])}))
+    areas = answer.contact_fraction, *reversed(answer.contact_fraction_interval)
+    pressure = "end", [case.load.pressure / area for area in areas]
+    return ContactPressure(xr.Dataset({"pressure": pressure}, attrs=case.attributes), answer.inputs)
 
 
-def main(folder: str = "results/examples") -> None:
-    """Ask it of the shipped road, save the result, and load it again."""
-    result = contact_pressure(read_case(CASE))
-    print(result)
-    path = Path(folder) / result.file
-    path.parent.mkdir(parents=True, exist_ok=True)
-    print("Loaded:", repr(gs.load(result.save(path))))
+@terminal.case_command
+def command(case: terminal.CasePath, output: terminal.OwnFolder = None) -> None:
+    """Print, save and draw the mean pressure on the real contact area of a case."""
+    work = terminal.CaseCommand(case)
+    work.open_results(output, "contact_pressure")
+    work.finish(contact_pressure(work.case), "figure")
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:2])
+    typer.run(command)
