@@ -184,3 +184,40 @@ impl MapFilter {
 fn padded(waves: usize) -> usize {
     waves.next_multiple_of(CACHE_PERIOD) + SHIFT
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f32::consts::TAU;
+
+    use super::*;
+    use crate::tests::fixture::{noise, serial};
+
+    /// Each wave times exp(-i q s): the map moved by s, round its period.
+    #[test]
+    fn a_map_is_moved_by_its_phases() {
+        for (rows, columns) in [(5, 6), (40, 34)] {
+            let filter = MapFilter::new(rows, columns);
+            let values: Vec<f32> = (0..rows * columns).map(|i| noise(i) as f32).collect();
+            let phase = |i: usize, k: usize| {
+                let turns = i as f32 / rows as f32 + 2.0 * k as f32 / columns as f32;
+                Complex32::from_polar(1.0, -TAU * turns)
+            };
+            let harmonics = columns / 2 + 1;
+            let factors: Vec<_> =
+                (0..rows * harmonics).map(|at| phase(at / harmonics, at % harmonics)).collect();
+            let mut memory = vec![Complex32::default(); filter.memory()];
+            let mut moved = vec![0.0; values.len()];
+            let read = |i: usize, buffers: &mut RowBuffers| {
+                buffers.row.copy_from_slice(&values[i * columns..][..columns]);
+            };
+            let write = |_: usize, row: &[f32], to: &mut [f32]| to.copy_from_slice(row);
+            let out = moved.chunks_mut(columns).collect();
+            assert!(filter.apply(&serial(), &factors, &mut memory, read, out, write).is_ok());
+            for (at, value) in moved.iter().enumerate() {
+                let (i, j) = (at / columns + rows - 1, at % columns + columns - 2);
+                let expected = values[i % rows * columns + j % columns];
+                assert!((value - expected).abs() < 1e-5, "{at}: {value} {expected}");
+            }
+        }
+    }
+}
