@@ -18,6 +18,8 @@ pub struct MapSystem<'a> {
     pub stiffness: &'a [Complex32],
     /// E.
     pub extension: &'a MapExtension,
+    /// Factor on Q r.
+    pub factor: f32,
 }
 
 impl MapSystem<'_> {
@@ -72,7 +74,9 @@ impl MapSystem<'_> {
             };
             let out = by_row(&mut missing, &starts);
             self.filter.apply(executor, self.stiffness, memory, of_gap, out, at_points)?;
-            Ok(without_mean(missing))
+            let mut missing = without_mean(missing);
+            missing.iter_mut().for_each(|value| *value *= self.factor);
+            Ok(missing)
         };
         gmres(apply, right, target, most)
     }

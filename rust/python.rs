@@ -437,24 +437,25 @@ impl PyMap {
         places: PyReadonlyArray1<'py, i64>,
         filters: [PyReadonlyArray2<'py, Complex32>; 2],
         extension: PyRef<'py, PyGapExtension>,
-        numbers: (f64, usize),
+        numbers: (f32, f64, usize),
     ) -> PyResult<(Bound<'py, PyArray1<f32>>, f64, usize)> {
         let no_map = || PyValueError::new_err("expected points and an extension of the map");
         let [compliance, stiffness] = &filters;
         let mut memory = self.memory.bind(py).readwrite();
         let memory = memory.as_slice_mut()?;
+        let (factor, target, most) = numbers;
         let system = MapSystem {
             filter: &self.filter,
             places: places.as_slice()?,
             compliance: self.factors(compliance)?,
             stiffness: self.factors(stiffness)?,
             extension: extension.0.on_map().ok_or_else(no_map)?,
+            factor,
         };
         let right = right.as_slice()?.to_vec();
         if !system.fits(right.len()) {
             return Err(no_map());
         }
-        let (target, most) = numbers;
         let solve = |executor: &Executor<'_>| {
             let solution = system.solution(executor, right, target, most, memory);
             solution.map_err(|_| KernelError::Stopped)

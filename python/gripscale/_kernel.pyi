@@ -54,7 +54,7 @@ class Map:
         places: NDArray[np.int64],
         filters: list[NDArray[np.complex64]],
         extension: GapExtension,
-        numbers: tuple[float, int],
+        numbers: tuple[float, float, int],
     ) -> tuple[NDArray[np.float32], float, int]: ...
 
 @final

@@ -244,7 +244,7 @@ class Response:
         """Return the displacement [m] under `pressure` [Pa], of zero mean, shape of the grid."""
         _require_time(self.deadline)
         if pressure.dtype == np.float32:
-            return self._filtered_single(pressure, self.compliance_single)
+            return self._single.filtered(pressure, self.compliance_single)
         return self._filtered(pressure, self.compliance)
 
     def full_contact(self, height: Array, mean: float) -> Array:
@@ -258,7 +258,7 @@ class Response:
     def pressure(self, displacement: AnyArray) -> AnyArray:
         """Return the pressure [Pa] that gives `displacement` [m] everywhere, shape of the grid."""
         single = displacement.astype(np.float32, copy=False)
-        return self._filtered_single(single, self.stiffness)
+        return self._single.filtered(single, self.stiffness)
 
     def correction(
         self,
@@ -273,25 +273,15 @@ class Response:
         factor, the target of the residual and the most products. `right` has unit length.
         """
         filters = [self.compliance_single, self.stiffness]
+        return self._single.close_gap(right, where, filters, extension, numbers)
+
+    @cached_property
+    def _single(self) -> Line | Map:
+        """Filters and contacts of the grid in single precision."""
         if len(self.grid.shape) == 1:
-            return self._line.close_gap(right, where, filters, extension, numbers)
-        return self._map.close_gap(right, where, filters, extension, numbers[1:])
-
-    @cached_property
-    def _line(self) -> Line:
-        """Filters and contacts of the line in single precision."""
-        return Line(self.grid.points)
-
-    @cached_property
-    def _map(self) -> Map:
-        """Filters and contacts of the map in single precision."""
+            return Line(self.grid.points)
         rows, columns = self.grid.shape
         return Map(rows, columns, self.workers, partial(_require_time, self.deadline))
-
-    def _filtered_single(self, values: Single, transfer: SingleComplex) -> Single:
-        if values.ndim == 1:
-            return self._line.filtered(values, transfer)
-        return self._map.filtered(values, transfer)
 
     def _filtered(self, values: AnyArray, transfer: AnyComplexArray) -> AnyArray:
         spectrum = scipy.fft.rfftn(values, workers=self.workers)
