@@ -20,7 +20,7 @@
 //! | `solution` | a solved wave, with reports and counts |
 //! | `solve` | Newton, its linear problem by GMRES or a kept factor, load stepping, meshes, transfer |
 //! | `steady`, `transient` | steady sliding; sliding in time |
-//! | `map_filter` | the one file with rustfft: filters of maps in single precision |
+//! | `line_filter`, `map_filter` | filters of lines and maps in single precision, by rustfft |
 //! | `gap_extension`, `line_system`, `map_system` | points in contact with a half-space, for the bindings |
 //! | `python` | bindings, no numerics |
 //!
@@ -58,6 +58,8 @@ internal_modules!(contact, fem, linear, material, model, outcome, solve, spectra
 
 #[cfg_attr(not(feature = "python"), allow(dead_code))]
 mod gap_extension;
+#[cfg_attr(not(feature = "python"), allow(dead_code))]
+mod line_filter;
 #[cfg_attr(not(feature = "python"), allow(dead_code))]
 mod line_system;
 #[cfg_attr(not(feature = "python"), allow(dead_code))]

@@ -6,15 +6,16 @@
 use std::convert::Infallible;
 
 use crate::gap_extension::GapExtension;
+use crate::line_filter::{LineFilter, PackedLine};
 use crate::linear::single_gmres::{gmres, Approximation};
-use crate::spectral::{Complex32, Lines};
+use crate::spectral::Complex32;
 
 /// The operator Q K on some points of a line.
 pub struct LineSystem<'a> {
-    pub lines: &'a Lines<f32>,
+    pub filter: &'a LineFilter,
     /// Places of the points on the line, rising.
     pub places: &'a [i64],
-    /// K and S of each harmonic.
+    /// K and S of each wave.
     pub compliance: &'a [Complex32],
     pub stiffness: &'a [Complex32],
     /// E.
@@ -26,24 +27,26 @@ pub struct LineSystem<'a> {
 impl LineSystem<'_> {
     /// Whether all places are of the line, for a system of so many points.
     pub fn fits(&self, points: usize) -> bool {
-        let within = |at: &i64| (0..self.lines.length() as i64).contains(at);
+        let within = |at: &i64| (0..self.filter.points() as i64).contains(at);
         points == self.places.len()
             && self.places.iter().all(within)
-            && self.extension.points() == self.lines.length()
+            && self.extension.points() == self.filter.points()
     }
 
     /// The pressures whose Q K is `right`, of unit length; see `gmres`.
     pub fn solution(&self, right: Vec<f32>, target: f64, most: usize) -> Approximation {
-        let mut lines = self.lines.clone();
-        let mut line = vec![0.0; self.lines.length()];
+        let [compliance, stiffness] =
+            [self.compliance, self.stiffness].map(|waves| self.filter.factors(waves));
+        let (mut line, mut packed) = (vec![0.0; self.filter.points()], self.filter.line());
         let apply = |pressure: &[f32]| {
             self.spread(pressure, &mut line);
-            lines.convolve(self.compliance, &mut line);
-            let gap = without_mean(self.at_points(&line));
-            self.spread(&gap, &mut line);
+            packed.fill(&line);
+            self.filter.apply(&compliance, &mut packed);
+            self.spread(&without_mean(self.at_points(&packed)), &mut line);
             self.extension.extend(&mut line);
-            lines.convolve(self.stiffness, &mut line);
-            let mut missing = without_mean(self.at_points(&line));
+            packed.fill(&line);
+            self.filter.apply(&stiffness, &mut packed);
+            let mut missing = without_mean(self.at_points(&packed));
             missing.iter_mut().for_each(|value| *value *= self.factor);
             Ok::<_, Infallible>(missing)
         };
@@ -52,8 +55,8 @@ impl LineSystem<'_> {
         }
     }
 
-    fn at_points(&self, line: &[f32]) -> Vec<f32> {
-        self.places.iter().map(|&at| line[at as usize]).collect()
+    fn at_points(&self, line: &PackedLine) -> Vec<f32> {
+        self.places.iter().map(|&at| line.get(at as usize)).collect()
     }
 
     fn spread(&self, values: &[f32], line: &mut [f32]) {

@@ -1,4 +1,4 @@
-//! Filters of periodic maps in single precision, the one file with rustfft: each wave times its factor,
+//! Filters of periodic maps in single precision: each wave times its factor,
 //!     g = F^-1 (c F f),
 //! by transforms of the rows, of the columns, and back. The result does not depend on the number of threads.
 

@@ -15,6 +15,7 @@ use crate::cancel::Cancel;
 use crate::error::{unknown, KernelError};
 use crate::executor::{Executor, Threads};
 use crate::gap_extension::GapExtension;
+use crate::line_filter::LineFilter;
 use crate::line_system::LineSystem;
 use crate::linear::single_gmres;
 use crate::map_filter::{MapFilter, RowBuffers};
@@ -23,7 +24,7 @@ use crate::material::maxwell;
 use crate::problem::{Energy, Heights, Load, MeshSize, Parameters, Problem, Profile, Rubber};
 use crate::settings::Settings;
 use crate::solution::Solution;
-use crate::spectral::{Complex32, Complex64, Lines};
+use crate::spectral::{Complex32, Complex64};
 use crate::status::Status;
 use crate::steady;
 use crate::transient::{self, Moment, Run, Stage};
@@ -312,13 +313,13 @@ fn solve_transient<'py>(
 
 /// Filters and contacts of lines of a number of points, which release the interpreter.
 #[pyclass(frozen, name = "Line")]
-struct PyLine(Lines<f32>);
+struct PyLine(LineFilter);
 
 #[pymethods]
 impl PyLine {
     #[new]
     fn new(points: usize) -> Self {
-        Self(Lines::new(points))
+        Self(LineFilter::new(points))
     }
 
     /// Values with each of their harmonics, 0 to half the points, times its factor.
@@ -328,13 +329,18 @@ impl PyLine {
         values: PyReadonlyArray1<'py, f32>,
         factors: PyReadonlyArray1<'py, Complex32>,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
-        let (mut line, factors) = (values.as_slice()?.to_vec(), factors.as_slice()?);
-        if line.len() != self.0.length() {
+        let (values, factors) = (values.as_slice()?, factors.as_slice()?);
+        if values.len() != self.0.points() {
             return Err(PyValueError::new_err("expected a value for each point"));
         }
-        self.check_harmonics(factors)?;
-        py.detach(|| self.0.clone().convolve(factors, &mut line));
-        Ok(PyArray1::from_vec(py, line))
+        self.check_waves(factors)?;
+        let filtered = py.detach(|| {
+            let mut line = self.0.line();
+            line.fill(values);
+            self.0.apply(&self.0.factors(factors), &mut line);
+            (0..values.len()).map(|at| line.get(at)).collect()
+        });
+        Ok(PyArray1::from_vec(py, filtered))
     }
 
     /// Solution of Q K p = r at `places`, its residual and the products it took; |r| = 1.
@@ -353,15 +359,15 @@ impl PyLine {
         let [compliance, stiffness] = &filters;
         let (factor, target, most) = numbers;
         let system = LineSystem {
-            lines: &self.0,
+            filter: &self.0,
             places: places.as_slice()?,
             compliance: compliance.as_slice()?,
             stiffness: stiffness.as_slice()?,
             extension: &extension.0,
             factor,
         };
-        self.check_harmonics(system.compliance)?;
-        self.check_harmonics(system.stiffness)?;
+        self.check_waves(system.compliance)?;
+        self.check_waves(system.stiffness)?;
         let right = right.as_slice()?.to_vec();
         if !system.fits(right.len()) {
             return Err(PyValueError::new_err("expected points and an extension of the line"));
@@ -372,11 +378,11 @@ impl PyLine {
 }
 
 impl PyLine {
-    fn check_harmonics(&self, factors: &[Complex32]) -> PyResult<()> {
-        if factors.len() == self.0.harmonics() {
+    fn check_waves(&self, factors: &[Complex32]) -> PyResult<()> {
+        if factors.len() == self.0.waves() {
             return Ok(());
         }
-        Err(PyValueError::new_err("expected a factor for each harmonic"))
+        Err(PyValueError::new_err("expected a factor for each wave"))
     }
 }
 

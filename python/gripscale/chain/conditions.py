@@ -28,7 +28,8 @@ def solve_coupled_chain(solver: ChainSolve, rubber: Rubber, conditions: Conditio
     Newton iterations are those of all evaluations. The status of the last wave is `conditions not
     settled` if the iteration did not converge.
     """
-    fine, quick = _ChainEvaluation(solver, rubber, conditions), None
+    before = conditions.before(rubber)
+    fine, quick = _ChainEvaluation(solver, before, conditions), None
     if isinstance(solver.solver, RefinableSolver):
         coarse = replace(solver, solver=solver.solver.coarser(), on_scale=None)
         quick = replace(fine, solver=coarse)

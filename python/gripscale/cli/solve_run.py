@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import xarray as xr
+
 from gripscale.case_file import folder
 from gripscale.charts.draw import FigureFolder
 from gripscale.core.provenance import version_of
+from gripscale.experiment.solve import Bench, Progress
 from gripscale.io import netcdf
 from gripscale.io.folders import make_folder
 from gripscale.io.table import Table, as_text
@@ -19,10 +23,11 @@ from gripscale.questions.answer.answer import (
     CHAIN_FILE,
     CURVE_FILE,
     Answer,
-    answer,
+    answer_by,
     bench_of,
     solved_chain,
 )
+from gripscale.questions.answer.direct_contact import direct_contact_design
 from gripscale.questions.answer.page import slopes_table
 from gripscale.questions.answer.variables import OF_THE_PAPER
 from gripscale.questions.chain.page import LEGEND, chain_tables, judgement, waves_in_brief
@@ -56,18 +61,22 @@ def solve_run(
         require_measured(rubber, case.surface.sines.wavelength, load.speed)
     header = f"gripscale {version_of('gripscale')}, case {work.file.path}"
     work.open_results(target, "", header)
-    solving = "the direct contact" if measured else "the chain of waves"
-    terminal.show_step(console, f"solving {solving} ...")
-    result = answer(case, folder=target)
-    terminal.end_steps()
-    findings = warning_lines(result.findings, terminal.ON_PAGE, result.half_widths)
-    more = ["", *_inputs(case)] if verbose else []
-    terminal.print_parts(console, ["", *result.lines, *findings, *more])
-    folder.prepare(target, work.file)
-    if measured:
-        terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
-        result.chain = solved_chain(case, bench_of(target))
+    terminal.show_step(console, f"solving the {'direct contact' if measured else 'chain'} ...")
+
+    def print_answer(bench: Bench) -> Answer:
+        result = answer_by(bench, case, target)
         terminal.end_steps()
+        findings = warning_lines(result.findings, terminal.ON_PAGE, result.half_widths)
+        more = ["", *_inputs(case)] if verbose else []
+        terminal.print_parts(console, ["", *result.lines, *findings, *more])
+        folder.prepare(target, work.file)
+        if measured:
+            terminal.show_step(console, f"solving {OF_THE_PAPER}, for comparison ...")
+        return result
+
+    bench = bench_of(target)
+    result = _with_chain(case, bench, print_answer) if measured else print_answer(bench)
+    terminal.end_steps()
     result.save(target / ANSWER_FILE)
     assert result.chain is not None
     netcdf.save(result.chain, target / CHAIN_FILE)
@@ -75,6 +84,26 @@ def solve_run(
         cut_off_result(result.curve, case).save(target / CURVE_FILE)
     by_default = ["png"] if figures or not all(map(find_spec, ("bokeh", "jinja2"))) else []
     _conclude(work, result, verbose, [*(work.file.case.output.figures or by_default)])
+
+
+def _with_chain(case: Case, bench: Bench, answer_of: Callable[[Bench], Answer]) -> Answer:
+    """Return the answer of a measured case with the chain, solved beside the last contact.
+
+    The answer is called for as soon as all contacts are known.
+    """
+    design = direct_contact_design(case, case.load, traces=True)
+    assert design is not None
+    contacts, known, answers = design.tasks, dict[str, xr.Dataset](), list[Answer]()
+
+    def on_task(progress: Progress) -> None:
+        known[progress.result.attrs["prediction_key"]] = progress.result
+        if not answers and known.keys() >= {task.key for task in contacts.values()}:
+            answers.append(answer_of(replace(bench, known=known)))
+
+    both = replace(bench, on_task=on_task)
+    both.solve(contacts | {OF_THE_PAPER: case.task()}, lambda answer, task: xr.Dataset())
+    answers[0].chain = solved_chain(case, bench)
+    return answers[0]
 
 
 def _conclude(

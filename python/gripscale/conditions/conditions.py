@@ -278,25 +278,26 @@ class RubberByScale:
         frequency, number = np.broadcast_arrays(
             np.asarray(omega, dtype=float), np.asarray(wavenumber, dtype=float)
         )
-        factors, parts = (self.a_t, self.stiffening, self.storage, self.loss), []
+        factors, parts = (self.a_t, self.stiffening * self.storage, self.stiffening * self.loss), []
         # in blocks, because the factors of all relaxation times are in memory at once
         for at in range(0, frequency.size, ROWS_AT_ONCE):
             rows = slice(at, at + ROWS_AT_ONCE)
-            here = number.reshape(-1)[rows]
-            shift, stiffening, storage, loss = (self._at(factor, here) for factor in factors)
-            modulus = self.rubber.complex_modulus(frequency.reshape(-1)[rows] * shift) * stiffening
-            parts.append(storage * modulus.real + 1j * loss * modulus.imag)
+            shift, storage, loss = self._at(number.reshape(-1)[rows], *factors)
+            modulus = self.rubber.complex_modulus(frequency.reshape(-1)[rows] * shift)
+            modulus.real *= storage
+            modulus.imag *= loss
+            parts.append(modulus)
         return np.concatenate(parts).reshape(frequency.shape)
 
     def shift(self, wavenumber: Array) -> Array:
         """Return a_T [-] at |q| [rad/m]; the mean, |q| = 0, has that of the longest scale."""
-        return self._at(self.a_t, wavenumber)
+        return self._at(wavenumber, self.a_t)[0]
 
-    def _at(self, factor: Array, wavenumber: Array) -> Array:
-        """Return a factor at wavenumbers [rad/m], held beyond the ends."""
+    def _at(self, wavenumber: Array, *factors: Array) -> list[Array]:
+        """Return factors at wavenumbers [rad/m], held beyond the ends."""
         number = np.where(wavenumber > 0.0, wavenumber, self.wavenumber[0])
         at, logs = np.log(number), np.log(self.wavenumber)
-        return np.asarray(np.exp(np.interp(at, logs, np.log(factor))))
+        return [np.exp(np.interp(at, logs, np.log(factor))) for factor in factors]
 
 
 @dataclass(frozen=True)

@@ -46,8 +46,8 @@ def strain_by_scale(grid: Grid, displacement: Array, active: Mask, wavenumber: A
 
     `displacement` of the surface [m] may have any mean; both fields have the shape of the grid.
     """
-    number = np.where(grid.wavenumber > 0.0, grid.wavenumber, 1.0)
-    spectrum = scipy.fft.rfftn(displacement) * grid.wavenumber
+    number = np.where(grid.wavenumber > 0.0, grid.wavenumber, 1.0).astype(np.float32)
+    spectrum = (scipy.fft.rfftn(displacement) * grid.wavenumber).astype(np.complex64)
     if len(grid.shape) == 1:
         return _strain_of_line(spectrum, number, active, wavenumber)
     along, across = grid.direction
@@ -80,13 +80,17 @@ def _strain_of_line(
         blocks = active.size
         while blocks % 2 == 0 and blocks // 2 > 2 * waves:
             blocks //= 2
-        depth = number[:waves] / scale
-        one_sided = np.zeros(blocks, dtype=complex)
-        centre = np.exp(1j * np.pi * np.arange(waves) * (1.0 / blocks - 1.0 / active.size))
-        one_sided[:waves] = spectrum[:waves] * depth * np.exp(-depth) * centre
-        signal = np.abs(scipy.fft.ifft(one_sided)) * (2.0 * blocks / active.size)
-        in_contact = active.reshape(blocks, -1).sum(axis=1)
-        mean = float(np.average(signal, weights=in_contact))
+        depth = number[:waves] / np.float32(scale)
+        one_sided = np.zeros(blocks, dtype=np.complex64)
+        one_sided[:waves] = spectrum[:waves] * (depth * np.exp(-depth))
+        if blocks < active.size:  # from the first point of a block to its centre
+            turn = np.pi * (1.0 / blocks - 1.0 / active.size)
+            one_sided[:waves] *= np.exp(
+                np.arange(waves, dtype=np.float32) * np.complex64(1j * turn)
+            )
+        signal = np.abs(scipy.fft.ifft(one_sided, overwrite_x=True))
+        in_contact = active.reshape(blocks, -1).sum(axis=1, dtype=np.float32)
+        mean = float(signal @ in_contact / in_contact.sum()) * (2.0 * blocks / active.size)
         out.append(2.0 / np.sqrt(3.0) * DEPTH_FACTOR * mean)
     return np.array(out)
 
@@ -113,7 +117,7 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
     number = np.broadcast_to(grid.wavenumber, grid.spectrum_shape)
     longest = 2.0 * np.pi / max(grid.lengths)
     octave = np.floor(np.log2(np.maximum(number, longest) / longest) + 1e-9).astype(int)
-    spectrum = scipy.fft.rfftn(pressure)
+    spectrum = scipy.fft.rfftn(pressure).astype(np.complex64)
     size = np.abs(spectrum)
     phase = np.divide(spectrum, size, out=np.zeros_like(spectrum), where=size > 0.0)
     out = []
@@ -124,10 +128,10 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
         loss = np.where((octave[these] == which) & (lost[these] > 0.0), lost[these], 0.0)
         total = float(loss.sum())
         if total > _ROUND_OFF * float(lost.sum()):
-            half = np.zeros_like(spectrum)
-            half[these] = np.sqrt(loss) * phase[these]
+            half = np.zeros_like(spectrum[: these.stop])
+            half[these] = np.sqrt(loss).astype(np.float32) * phase[these]
             pattern = _loss_pattern(grid, half, 2 ** (which + 1))
-            mean = float((loss * 1.5 / np.maximum(number[these], longest)).sum() / total)
+            mean = float((loss * (1.5 / np.maximum(number[these], longest))).sum() / total)
             middle = longest * 2.0 ** (which + 0.5)
             out.append(OctaveHeat(middle, total, pattern, LossDepth(mean)))
     return out
@@ -141,10 +145,12 @@ def _loss_pattern(grid: Grid, half: ComplexArray, end: int) -> ComplexArray:
     points, waves = grid.points, min(end, half.shape[0])
     while points % 2 == 0 and points // 2 >= 2 * end:  # a coarser grid has all the waves
         points //= 2
-    one_sided = np.zeros(points, dtype=complex)
+    one_sided = np.zeros(points, dtype=half.dtype)
     one_sided[:waves] = half[:waves]
-    density = np.abs(scipy.fft.ifft(one_sided)) ** 2
-    return _without_mean(density / density.mean())[:waves] * (grid.points / points)
+    signal = scipy.fft.ifft(one_sided, overwrite_x=True)
+    density = signal.real**2 + signal.imag**2
+    scale = grid.points / points / float(density.mean(dtype=np.float64))
+    return _without_mean(density * np.float32(scale))[:waves]
 
 
 @dataclass(frozen=True)
@@ -176,7 +182,7 @@ def grid_temperature(
         flux * heat.friction * heat.pattern * passing.at_surface(heat.depth, heat.kept)
         for heat in heats
     ]
-    surface = np.zeros(grid.spectrum_shape, dtype=complex)
+    surface = np.zeros(grid.spectrum_shape, dtype=np.complex64)
     for heat, part in zip(heats, surfaces, strict=True):
         surface[heat.kept] += part
     octave = []
@@ -209,14 +215,13 @@ def contact_source_temperature(
     """
     pattern, at_surface = _without_mean(contact / contact.mean()), LossDepth(0.0)
 
-    def field(solid: ThermalProperties, passing: float) -> tuple[float, ComplexArray]:
-        """Return mean and harmonics of the surface of a solid that moves at a speed [m/s]."""
-        m = _decay(grid, passing, solid)
+    def field(solid: ThermalProperties, m: ComplexArray) -> tuple[float, ComplexArray]:
+        """Return mean and harmonics of the surface of a solid in which harmonics decay by `m`."""
         harmonics = rise.PassingHarmonics(m, time, solid).at_surface(at_surface)
         return flux * rise.uniform_at_surface(time, at_surface, solid), flux * pattern * harmonics
 
-    mean, surface = field(thermal, speed)
     m = _decay(grid, speed, thermal)
+    mean, surface = field(thermal, m)
     octave = [
         # a source at the surface warms a depth as one at this depth warms the surface
         flux * rise.uniform_at_surface(time, heat.depth, thermal)
@@ -226,13 +231,16 @@ def contact_source_temperature(
     rises = GridTemperature(scipy.fft.irfftn(surface, s=grid.shape) + mean, np.array(octave))
     if counterface is None:
         return rises, np.inf
-    mean, surface = field(counterface, 0.0)
+    mean, surface = field(counterface, _decay(grid, 0.0, counterface))
     return rises, mean + _mean_over(grid, surface, pattern)
 
 
 def _decay(grid: Grid, speed: float, thermal: ThermalProperties) -> ComplexArray:
-    """Return the decay of the harmonics of a grid [1/m]; of the mean, which has none, one."""
-    m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, thermal)
+    """Return the decay of the harmonics of a grid [1/m]; of the mean, which has none, one.
+
+    In single precision, as all harmonics of heat: a thousandth of a kelvin would be enough.
+    """
+    m = rise.harmonic_decay(grid.wavenumber, grid.along, speed, thermal).astype(np.complex64)
     m.flat[0] = 1.0
     return m
 

@@ -88,7 +88,7 @@ class Grid:
         """Shape of a spectrum of `scipy.fft.rfftn`."""
         return (*self.shape[:-1], self.shape[-1] // 2 + 1)
 
-    @property
+    @cached_property
     def along(self) -> Array:
         """Wavenumbers along x [rad/m], broadcastable to a spectrum."""
         return self._numbers(0)
@@ -107,13 +107,13 @@ class Grid:
         across = self._numbers(1) if len(self.shape) > 1 else np.zeros(1)
         return self.along / number, across / number
 
-    @property
+    @cached_property
     def own_opposite(self) -> Mask:
         """Where a wavenumber along x is its own opposite: zero, and the highest of an even grid."""
         index = np.rint(np.abs(self.along) * self.lengths[0] / (2.0 * np.pi))
         return np.asarray((index == 0) | (2 * index == self.shape[0]))
 
-    @property
+    @cached_property
     def weight(self) -> Array:
         """Weight of each wave of the half spectrum in a sum over all waves, 1 or 2."""
         last = self.shape[-1]

@@ -18,7 +18,7 @@ import numpy as np
 import scipy
 
 from gripscale.core import Array, ComplexArray, Described, Mask
-from gripscale.half_space.active_set import CONTACT_TOLERANCE, solve_grid
+from gripscale.half_space.active_set import CONTACT_ACCURACY, Accuracy, solve_grid
 from gripscale.half_space.grid import Grid, PeriodicHeights, doubled, nearest, resampled
 from gripscale.half_space.response import HalfSpace, Response
 from gripscale.theory.half_plane import GridContact
@@ -195,7 +195,7 @@ class GridSequence:
     # When solving ends with `OutOfTime`, on the clock of `time.monotonic` [s].
     deadline: float = math.inf
 
-    def solve(self, level: Level, tolerance: float = CONTACT_TOLERANCE) -> LevelContact:
+    def solve(self, level: Level, accuracy: Accuracy = CONTACT_ACCURACY) -> LevelContact:
         """Return the contact on `level`, from its contact in `start` or the level before."""
         self.last = self.start.get(level, self.last or self.other)
         height = self.heights.on(level.grid.shape, level.cut_off, self.workers)
@@ -204,7 +204,7 @@ class GridSequence:
         full = contact is not None
         if contact is None:
             # no name for the start: the solver frees it early
-            contact = solve_grid(response, height, self._start(response, height), tolerance)
+            contact = solve_grid(response, height, self._start(response, height), accuracy)
             if not contact.settled and np.iscomplex(response.compliance).any():
                 contact = self._through_losses(response, height, contact)
         lost = lost_by_harmonic(response.compliance, level.grid, contact.pressure)

@@ -21,7 +21,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
 import scipy
@@ -69,16 +69,23 @@ class HalfSpace:
 
     def young_modulus(self, grid: Grid) -> ComplexArray:
         """Return E* [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
-        omega = self.speed * grid.along
-        if self.by_scale is not None:
-            return self.by_scale.complex_modulus(omega, grid.wavenumber)
+        omega, number = self.speed * grid.along, grid.wavenumber
         if len(grid.shape) > 1:
-            return self.rubber.complex_modulus(omega)
+            return self._complex_modulus(omega, number)
         value = self._of_lines.get(grid.lengths, np.empty(0, dtype=complex))
         if value.size < omega.size:
-            new = self.rubber.complex_modulus(omega[value.size :])
+            new = self._complex_modulus(omega[value.size :], number[value.size :])
             value = self._of_lines[grid.lengths] = np.concatenate([value, new])
         return value[: omega.size]
+
+    def _complex_modulus(self, omega: Array, wavenumber: Array) -> ComplexArray:
+        if self.by_scale is not None:
+            return self.by_scale.complex_modulus(omega, wavenumber)
+        return self.rubber.complex_modulus(omega)
+
+    def with_scales(self, by_scale: RubberByScale | None) -> HalfSpace:
+        """Return the half-space of another rubber at each scale."""
+        return replace(self, by_scale=by_scale, _of_lines={})
 
     def modulus(self, grid: Grid) -> ComplexArray:
         """Return M [Pa] at the wavenumbers of `grid`, broadcastable to its spectrum."""
@@ -238,7 +245,8 @@ class Response:
         """
         if len(self.grid.shape) > 1:
             return 0.0
-        return float(-np.median(np.angle(self.compliance.reshape(-1)[1:])))
+        every = 1 + self.compliance.size // _WAVES_OF_MEDIAN
+        return float(-np.median(np.angle(self.compliance[1::every])))
 
     def displacement(self, pressure: AnyArray) -> AnyArray:
         """Return the displacement [m] under `pressure` [Pa], of zero mean, shape of the grid."""
@@ -279,7 +287,7 @@ class Response:
     def _single(self) -> Line | Map:
         """Filters and contacts of the grid in single precision."""
         if len(self.grid.shape) == 1:
-            return Line(self.grid.points)
+            return _line(self.grid.points)
         rows, columns = self.grid.shape
         return Map(rows, columns, self.workers, partial(_require_time, self.deadline))
 
@@ -287,6 +295,15 @@ class Response:
         spectrum = scipy.fft.rfftn(values, workers=self.workers)
         spectrum *= transfer
         return from_waves(spectrum, self.grid.shape, self.workers)
+
+
+_WAVES_OF_MEDIAN = 4096  # waves of a line, evenly spaced, that give its median loss angle
+
+
+@lru_cache(maxsize=64)
+def _line(points: int) -> Line:
+    """Return the filters of lines of so many points: their transforms take milliseconds to plan."""
+    return Line(points)
 
 
 # Change of ln E* or ln B of a layer: K is analytic, and its difference errs by 1e-8.

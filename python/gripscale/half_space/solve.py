@@ -19,7 +19,12 @@ import numpy as np
 
 from gripscale.conditions.conditions import Conditions, RubberByScale, water_film
 from gripscale.core import ConvergenceError, InputError, Quantity, Status, checks, worker_count
-from gripscale.half_space.active_set import CONTACT_TOLERANCE, START_TOLERANCE
+from gripscale.half_space.active_set import (
+    CONTACT_ACCURACY,
+    ROUGH_ACCURACY,
+    START_ACCURACY,
+    Accuracy,
+)
 from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
 from gripscale.half_space.grid import (
     PeriodicHeights,
@@ -205,7 +210,7 @@ def solve_rough_contact(
         scales: RubberByScale | None, earlier: KnownLevels, reach: float, *, loose: bool = False
     ) -> GridSequenceResult:
         sequence = GridSequence(
-            replace(body, by_scale=scales),
+            body.with_scales(scales),
             heights,
             load,
             threads,
@@ -337,8 +342,8 @@ def _solve_sequence(
         if solved is not None and level.grid.points > most:
             break
         try:
-            rough = plan or loose
-            solved = sequence.solve(level, START_TOLERANCE if rough else CONTACT_TOLERANCE)
+            accuracy = ROUGH_ACCURACY if loose else _accuracy(goal, last=not plan)
+            solved = sequence.solve(level, accuracy)
         except OutOfTime:
             in_time = False
             break
@@ -397,6 +402,20 @@ def _solve_sequence(
         layers=body.layers,
     )
     return GridSequenceResult(result, {**sequence.start, **sequence.solved})
+
+
+def _accuracy(goal: float, *, last: bool) -> Accuracy:
+    """Return the accuracy of the contact on a grid, so that it adds little to errors of `goal`."""
+    finest = CONTACT_ACCURACY if last else START_ACCURACY
+    if math.isinf(goal):
+        return finest
+    if last:
+        return Accuracy(max(finest.missing, 1e-3 * goal))
+    rough = Accuracy(0.02 * goal, 0.2 * goal)
+    return Accuracy(
+        min(max(finest.missing, rough.missing), ROUGH_ACCURACY.missing),
+        min(rough.wrong, ROUGH_ACCURACY.wrong),
+    )
 
 
 def _judged(contact: RoughContact, goal: float) -> Status:

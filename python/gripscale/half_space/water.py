@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from gripscale.core import Array, Mask, Status
-from gripscale.half_space.active_set import START_TOLERANCE, solve_grid
+from gripscale.half_space.active_set import START_ACCURACY, Accuracy, solve_grid
 from gripscale.half_space.grid import Grid, resampled
 from gripscale.half_space.grid_sequence import (
     friction_from_traction,
@@ -31,7 +31,7 @@ from gripscale.theory.half_plane import GridContact
 
 # Missing pressure over pressure at the end: the volume of the smallest pools then is kept to a
 # thousandth.
-POOL_TOLERANCE = 1e-7
+POOL_ACCURACY = Accuracy(1e-7)
 # First load over the load, and the steps that raise it by equal ratios, of 5 %. Half the steps
 # change the friction of a map by up to 3 %, where the contact percolates.
 FIRST_LOAD, LOAD_STEPS = 0.1, 48
@@ -55,7 +55,7 @@ def with_water(contact: RoughContact, film: float, *, workers: int) -> RoughCont
     response = Response.of(contact.body, half, workers)
     height = resampled(scipy.fft.rfftn(contact.height), contact.grid.shape, half)
     start = loaded(response.full_contact(height, load), load)
-    before = _numbers(response, height, solve_grid(response, height, start, START_TOLERANCE))
+    before = _numbers(response, height, solve_grid(response, height, start, START_ACCURACY))
     coarse, _ = _under_rising_load(response, height, load, film, LOAD_STEPS // 2)
     after = _numbers(response, height, coarse)
     changed: dict[str, Any] = {**numbers}
@@ -91,9 +91,9 @@ def _under_rising_load(
     level = _water_level(height, film)
     loads = load * np.geomspace(FIRST_LOAD, 1.0, steps)
     start = loaded(response.full_contact(height, loads[0]), loads[0])
-    step = solve_grid(response, height, start, START_TOLERANCE)
+    step = solve_grid(response, height, start, START_ACCURACY)
     start = loaded(step.pressure, TOUCH * load)
-    touch = solve_grid(response, height, start, START_TOLERANCE)
+    touch = solve_grid(response, height, start, START_ACCURACY)
     regions = periodic_regions(~touch.active)
     closed = regions.where(np.asarray(~regions.percolates.any(axis=1)))
     step = replace(step, gap=np.where(closed, touch.gap, step.gap))
@@ -101,9 +101,9 @@ def _under_rising_load(
     touched = np.zeros(height.shape, dtype=bool)
     for under in loads:
         pools = _trapped(pools, step, height, level, touched)
-        touched, goal = step.active, POOL_TOLERANCE if under == loads[-1] else START_TOLERANCE
+        touched, accuracy = step.active, POOL_ACCURACY if under == loads[-1] else START_ACCURACY
         start = loaded(step.pressure, under)
-        step = solve_grid(response, height, start, goal, pools=pools, active=touched)
+        step = solve_grid(response, height, start, accuracy, pools=pools, active=touched)
     return step, pools
 
 

@@ -272,6 +272,8 @@ class Rubber(Checked, Pictured, eq=False):
                 "sweeps at several temperatures, or a shift such as "
                 '{ kind = "wlf", c1 = 8.0, c2 = "120 K" } with its reference_temperature'
             )
+        if kelvin == self.reference_temperature:
+            return self
         a = float(self.shift.a(kelvin, self.reference_temperature))
         b = float(self.shift.b(kelvin, self.reference_temperature))
         band = self.valid_band and (self.valid_band[0] / a, self.valid_band[1] / a)

@@ -185,7 +185,12 @@ def answer(case: Case, *, folder: str | Path | None = None) -> Answer:
     folder : path, optional
         Keeps each prediction as soon as it is there: what was interrupted resumes.
     """
-    bench, load = bench_of(folder), case.load
+    return answer_by(bench_of(folder), case, folder)
+
+
+def answer_by(bench: Bench, case: Case, folder: str | Path | None = None) -> Answer:
+    """Return the answer of a case whose predictions a bench solves; see `answer`."""
+    load = case.load
     samples = direct_contact.solve_direct_contact(case, bench)
     if samples is None:
         chain = solved_chain(case, bench)
