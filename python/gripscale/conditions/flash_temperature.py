@@ -16,7 +16,8 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gripscale.core import Array, Checked, ComplexArray, Mask, checked, checks
+from gripscale.core import Array, Checked, Mask, checked, checks
+from gripscale.core.arrays import AnyComplexArray
 
 
 class ThermalProperties(Checked):
@@ -93,12 +94,12 @@ class LossDepth(Checked):
         """The rate b = 3/mean [1/m], infinite at the surface."""
         return 3.0 / self.mean if self.mean > 0.0 else math.inf
 
-    def decay(self, m: ComplexArray) -> ComplexArray:
+    def decay(self, m: AnyComplexArray) -> AnyComplexArray:
         """Return E exp(-m Z) for `m` [1/m], same shape."""
         near = 1.0 / (1.0 + np.asarray(m) / self.rate)
         return np.asarray(near * near * near)
 
-    def decay_between(self, m: ComplexArray) -> ComplexArray:
+    def decay_between(self, m: AnyComplexArray) -> AnyComplexArray:
         """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
         near = 1.0 / (1.0 + np.asarray(m) / self.rate)
         return np.asarray(near * (3.0 + near * (3.0 + 2.0 * near)) / 8.0)
@@ -135,7 +136,7 @@ def ierfc(x: Array) -> Array:
 
 def harmonic_decay(
     wavenumber: ArrayLike, along: ArrayLike, speed: float, thermal: ThermalProperties
-) -> ComplexArray:
+) -> AnyComplexArray:
     """Return the decay m [1/m] of harmonics of |k| and k_x [rad/m], at a speed [m/s]."""
     number = np.asarray(wavenumber, dtype=float)
     carried = np.asarray(along, dtype=float) * speed / thermal.diffusivity
@@ -143,15 +144,15 @@ def harmonic_decay(
 
 
 def harmonic_at_surface(
-    m: ComplexArray, depth: DepthsOfLoss, thermal: ThermalProperties
-) -> ComplexArray:
+    m: AnyComplexArray, depth: DepthsOfLoss, thermal: ThermalProperties
+) -> AnyComplexArray:
     """Return the surface temperature of harmonics per heat per area [K m^2/W], shape of `m`."""
     return np.asarray(depth.decay(m) / (thermal.conductivity * m))
 
 
 def harmonic_where_lost(
-    m: ComplexArray, depth: DepthsOfLoss, thermal: ThermalProperties
-) -> ComplexArray:
+    m: AnyComplexArray, depth: DepthsOfLoss, thermal: ThermalProperties
+) -> AnyComplexArray:
     """Return the temperature where harmonics lose their heat per area [K m^2/W], shape of `m`."""
     mean = depth.decay_between(m) + depth.decay(m) ** 2
     return np.asarray(mean / (2.0 * thermal.conductivity * m))
@@ -199,11 +200,11 @@ EVERY = slice(None)
 class PassingHarmonics:
     """Harmonics of heat that begin with a contact, after some time of it."""
 
-    m: ComplexArray  # decay of the harmonics [1/m], no zero
+    m: AnyComplexArray  # decay of the harmonics [1/m], no zero
     time: float  # of the contact [s]
     thermal: ThermalProperties
 
-    def at_surface(self, depth: LossDepth, kept: slice = EVERY) -> ComplexArray:
+    def at_surface(self, depth: LossDepth, kept: slice = EVERY) -> AnyComplexArray:
         """Return the surface temperature per heat per area [K m^2/W], of the first harmonics."""
         from scipy.special import erf
 
@@ -216,14 +217,14 @@ class PassingHarmonics:
         steady[which] *= erf(m[which] * half)
         return steady
 
-    def where_lost(self, depth: LossDepth, kept: slice = EVERY) -> ComplexArray:
+    def where_lost(self, depth: LossDepth, kept: slice = EVERY) -> AnyComplexArray:
         """Return the temperature, averaged over the loss, per heat per area; as `at_surface`."""
         steady = harmonic_where_lost(self.m[kept], depth, self.thermal)
         return self._with_changing(steady, kept, depth, "difference", "sum")
 
     def _with_changing(
-        self, steady: ComplexArray, kept: slice, depth: LossDepth, *distances: Distances
-    ) -> ComplexArray:
+        self, steady: AnyComplexArray, kept: slice, depth: LossDepth, *distances: Distances
+    ) -> AnyComplexArray:
         """Return the steady values, and E r over the `distances` of harmonics that still change."""
         roots, weights, waves, inverse = self._sources
         changing = self._changing[kept]
@@ -248,7 +249,7 @@ class PassingHarmonics:
         return np.asarray(self.m.real * (0.5 * length) < STEADY)
 
     @cached_property
-    def _sources(self) -> tuple[Array, Array, ComplexArray, NDArray[np.intp]]:
+    def _sources(self) -> tuple[Array, Array, AnyComplexArray, NDArray[np.intp]]:
         """Return roots and weights of times s, exp(-D m^2 s) of each different m, and its index."""
         different, inverse = np.unique(self.m[self._changing], return_inverse=True)
         nodes, width = 0.5 * (_TIMES + 1.0), 0.5 * _TIME_WEIGHTS
@@ -278,12 +279,12 @@ class LossLayers:
         """Mean depth [m]."""
         return float(self.share @ (0.5 * (self.edges[1:] + self.edges[:-1])))
 
-    def decay(self, m: ComplexArray) -> ComplexArray:
+    def decay(self, m: AnyComplexArray) -> AnyComplexArray:
         """Return E exp(-m Z) for `m` [1/m], same shape."""
         falls = np.exp(-np.multiply.outer(m, self.edges[:-1]))
         return np.asarray((falls * self._within(m)) @ self.share)
 
-    def decay_between(self, m: ComplexArray) -> ComplexArray:
+    def decay_between(self, m: AnyComplexArray) -> AnyComplexArray:
         """Return E exp(-m |Z - Z'|) for `m` [1/m], same shape."""
         within = self._within(m)
         height = np.multiply.outer(m, np.diff(self.edges))
@@ -309,7 +310,7 @@ class LossLayers:
             second = -(length**2 * _i3erfc(apart / length) + 0.25 * length * apart)
         return float(density @ np.diff(np.diff(second, axis=0), axis=1) @ density)
 
-    def _within(self, m: ComplexArray) -> ComplexArray:
+    def _within(self, m: AnyComplexArray) -> AnyComplexArray:
         """Return e_i, shape (..., layers)."""
         height = np.multiply.outer(m, np.diff(self.edges))
         return np.asarray(-np.expm1(-height) / height)
@@ -360,7 +361,7 @@ def settled_interface(
     return float(brentq(excess, 0.0, end, rtol=1e-9)) if end > 0.0 else 0.0
 
 
-def loss_pattern(pressure: ComplexArray, lost: Array) -> Array:
+def loss_pattern(pressure: AnyComplexArray, lost: Array) -> Array:
     """Return the loss |g|^2 along one period, shape (points,); its mean is the sum of `lost`.
 
     `pressure` is the `rfft` of the pressure; a negative loss of a harmonic is round-off.

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+AnyComplexArray = NDArray[np.complexfloating]
 Mask = NDArray[np.bool_]
 
 # Quantities beyond these are mistakes; within them no square or product of two overflows.

@@ -32,9 +32,11 @@ from gripscale.conditions.fixed_point import (
     unpack_state,
 )
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
-from gripscale.core import Array, ComplexArray, Mask, Status
-from gripscale.half_space.grid import Grid, PeriodicHeights
+from gripscale.core import Array, Mask, Status
+from gripscale.core.arrays import AnyComplexArray
+from gripscale.half_space.grid import Grid, PeriodicHeights, Single, SingleComplex
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels, levels
+from gripscale.half_space.response import AnyArray
 from gripscale.half_space.result import RoughContact
 from gripscale.rubber import Rubber
 
@@ -70,7 +72,7 @@ _FELT = 20.0
 
 
 def _strain_of_line(
-    spectrum: ComplexArray, number: Array, active: Mask, wavenumber: Array
+    spectrum: SingleComplex, number: Single, active: Mask, wavenumber: Array
 ) -> Array:
     """Return the strains of a line: of its analytic signal, 2/sqrt(3) |e| in plane strain."""
     out = []
@@ -103,7 +105,7 @@ class OctaveHeat:
     friction: float  # mu_b [-]
     # Spectrum of the density of the loss on the grid, over its mean and without it; of a line, the
     # density of an octave has no waves shorter than the octave.
-    pattern: ComplexArray
+    pattern: AnyComplexArray
     depth: LossDepth
 
     @property
@@ -137,7 +139,7 @@ def octave_heats(grid: Grid, pressure: Array, lost: Array) -> list[OctaveHeat]:
     return out
 
 
-def _loss_pattern(grid: Grid, half: ComplexArray, end: int) -> ComplexArray:
+def _loss_pattern(grid: Grid, half: SingleComplex, end: int) -> AnyComplexArray:
     """Return the spectrum of the loss of `half` a spectrum over its mean; of a line up to `end`."""
     if len(grid.shape) > 1:
         density = np.abs(grid.forward_field(half)) ** 2
@@ -215,7 +217,7 @@ def contact_source_temperature(
     """
     pattern, at_surface = _without_mean(contact / contact.mean()), LossDepth(0.0)
 
-    def field(solid: ThermalProperties, m: ComplexArray) -> tuple[float, ComplexArray]:
+    def field(solid: ThermalProperties, m: SingleComplex) -> tuple[float, AnyComplexArray]:
         """Return mean and harmonics of the surface of a solid in which harmonics decay by `m`."""
         harmonics = rise.PassingHarmonics(m, time, solid).at_surface(at_surface)
         return flux * rise.uniform_at_surface(time, at_surface, solid), flux * pattern * harmonics
@@ -235,7 +237,7 @@ def contact_source_temperature(
     return rises, mean + _mean_over(grid, surface, pattern)
 
 
-def _decay(grid: Grid, speed: float, thermal: ThermalProperties) -> ComplexArray:
+def _decay(grid: Grid, speed: float, thermal: ThermalProperties) -> SingleComplex:
     """Return the decay of the harmonics of a grid [1/m]; of the mean, which has none, one.
 
     In single precision, as all harmonics of heat: a thousandth of a kelvin would be enough.
@@ -245,13 +247,13 @@ def _decay(grid: Grid, speed: float, thermal: ThermalProperties) -> ComplexArray
     return m
 
 
-def _without_mean(density: Array) -> ComplexArray:
+def _without_mean(density: AnyArray) -> AnyComplexArray:
     spectrum = scipy.fft.rfftn(density)
     spectrum.flat[0] = 0.0
     return np.asarray(spectrum)
 
 
-def _mean_over(grid: Grid, harmonics: ComplexArray, pattern: ComplexArray) -> float:
+def _mean_over(grid: Grid, harmonics: AnyComplexArray, pattern: AnyComplexArray) -> float:
     """Return the mean of a field without mean, weighted by a density of mean one."""
     weight = grid.weight[: harmonics.shape[-1]]
     return float((weight * (harmonics * pattern.conj()).real).sum() / grid.points**2)

@@ -24,6 +24,7 @@ import scipy
 from numpy.typing import NDArray
 
 from gripscale.core import Array, ComplexArray, InputError, Mask, checks
+from gripscale.core.arrays import AnyComplexArray
 from gripscale.surface import HeightMap, Profile
 from gripscale.surface.low_pass import STEEPEST, transmission, upper_envelope
 from gripscale.surface.resampling import fill_gaps
@@ -129,7 +130,7 @@ class Grid:
         spectrum *= np.where(self.own_opposite, 0.0, 1j * self.along).astype(spectrum.dtype)
         return from_waves(spectrum, self.shape)
 
-    def forward_field(self, half: ComplexArray) -> ComplexArray:
+    def forward_field(self, half: AnyComplexArray) -> ComplexArray:
         """Return the complex field of the waves with q_x > 0 from the half spectrum of a real one.
 
         Waves of the half spectrum that run the other way are those of their opposites.

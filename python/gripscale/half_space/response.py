@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 from gripscale._kernel import GapExtension, Line, Map
 from gripscale.conditions.conditions import RubberByScale
 from gripscale.core import Array, ComplexArray, InputError, checks
+from gripscale.core.arrays import AnyComplexArray
 from gripscale.half_space.grid import (
     Grid,
     PeriodicHeights,
@@ -43,7 +44,6 @@ from gripscale.theory import layers as layer_theory
 from gripscale.theory.layers import Layers
 
 AnyArray = NDArray[np.floating]
-AnyComplexArray = NDArray[np.complexfloating]
 
 
 @dataclass(frozen=True)
