@@ -15,6 +15,7 @@ from gripscale.half_space.grid import Grid
 from tests.half_space.heat_patterns import density_of, pattern_of
 from tests.samples import THERMAL
 
+SINGLE = 1e-6  # what rounding in single precision leaves of a field
 RUBBER = gs.Rubber(5e6, np.geomspace(3e6, 3e8, 8), np.geomspace(1e-1, 1e-8, 8))
 
 
@@ -95,7 +96,7 @@ def test_the_temperature_of_one_harmonic_of_heat_is_the_closed_form():
     wave = 1e5 * 0.2 * 0.5 * harmonic_at_surface(m, LossDepth.under(k), THERMAL)
     exact = (wave * np.exp(1j * own * x)).real
     pattern = found.surface - found.surface.mean()
-    assert pattern == pytest.approx(exact, abs=1e-9 * np.abs(exact).max())
+    assert pattern == pytest.approx(exact, abs=SINGLE * np.abs(exact).max())
 
 
 def test_the_strain_of_a_scale_is_that_of_the_wave_at_its_depth():
@@ -108,13 +109,13 @@ def test_the_strain_of_a_scale_is_that_of_the_wave_at_its_depth():
     line, waves = Grid((512,), (512e-5,)), u * np.cos(number * x)
     for active in (np.ones(512, dtype=bool), waves > 0.5 * u):
         found = strain_by_scale(line, waves, active, 1.0 / depth)
-        assert found == pytest.approx(expected, rel=1e-9)
+        assert found == pytest.approx(expected, rel=SINGLE)
     # the same wavenumber across a map: 5 waves, of which 3 along x and 4 along y
     five = 2.0 * np.pi / 512e-5 * np.arange(64) * 8e-5
     grid, oblique = Grid((64, 64), (512e-5,) * 2), u * np.cos(3.0 * five[:, None] + 4.0 * five)
     scale = 5.0 / 4.0 / depth
     found = strain_by_scale(grid, oblique, oblique > 0.5 * u, scale)
-    assert found == pytest.approx(5.0 / 4.0 * expected, rel=1e-9)
+    assert found == pytest.approx(5.0 / 4.0 * expected, rel=SINGLE)
 
 
 def test_grooves_along_the_way_of_sliding_warm_only_as_long_as_the_contact_lasts():

@@ -48,9 +48,9 @@ def test_grids_are_refined_from_the_start(contact):
     ]
     assert warm.friction_from_dissipation == pytest.approx(cold.friction_from_dissipation, rel=1e-5)
     assert warm.friction_error == pytest.approx(cold.friction_error, rel=1e-3)
-    # the coarse grid, with and without the last octave, is solved to 1e-4 only
+    # the coarse grid is solved to 1e-3 only, with up to a hundredth of its points on the wrong side
     exponents = [each.cut_off_exponents.friction for each in (warm, cold)]
-    assert exponents[0] == pytest.approx(exponents[1], abs=1e-3)
+    assert exponents[0] == pytest.approx(exponents[1], abs=1e-2)
 
 
 def test_it_starts_from_other_heights_and_another_cut_off(contact):

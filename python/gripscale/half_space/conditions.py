@@ -196,8 +196,8 @@ def grid_temperature(
         level = flux * heat.friction * rise.uniform_where_lost(time, heat.depth, thermal)
         level += rise.uniform_from_others(strengths, uniform, which)
         octave.append(level + _mean_over(grid, here, heat.pattern))
-    field = scipy.fft.irfftn(surface, s=grid.shape) + float(np.dot(strengths, uniform))
-    return GridTemperature(np.asarray(field), np.array(octave))
+    field = _with_mean(grid, surface, float(np.dot(strengths, uniform)))
+    return GridTemperature(field, np.array(octave))
 
 
 def contact_source_temperature(
@@ -230,7 +230,7 @@ def contact_source_temperature(
         + _mean_over(grid, heat.depth.decay(m[heat.kept]) * surface[heat.kept], heat.pattern)
         for heat in heats
     ]
-    rises = GridTemperature(scipy.fft.irfftn(surface, s=grid.shape) + mean, np.array(octave))
+    rises = GridTemperature(_with_mean(grid, surface, mean), np.array(octave))
     if counterface is None:
         return rises, np.inf
     mean, surface = field(counterface, _decay(grid, 0.0, counterface))
@@ -251,6 +251,10 @@ def _without_mean(density: AnyArray) -> AnyComplexArray:
     spectrum = scipy.fft.rfftn(density)
     spectrum.flat[0] = 0.0
     return np.asarray(spectrum)
+
+
+def _with_mean(grid: Grid, harmonics: AnyComplexArray, mean: float) -> Array:
+    return np.asarray(scipy.fft.irfftn(harmonics, s=grid.shape), dtype=float) + mean
 
 
 def _mean_over(grid: Grid, harmonics: AnyComplexArray, pattern: AnyComplexArray) -> float:
