@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.half_space.active_set import solve_grid
+from gripscale.half_space.active_set import COARSE_ACCURACY, ROUGH_ACCURACY, solve_grid
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridSequence
 from gripscale.half_space.response import Response, half_space
@@ -78,3 +78,24 @@ def test_products_of_all_steps_towards_a_lossy_rubber_are_counted():
     assert stepped.products > alone.products + 8
     assert stepped.iterations >= alone.iterations + 8  # of each of the eight steps at least one
     assert np.array_equal(stepped.active, alone.active)
+
+
+@pytest.mark.parametrize("accuracy", [COARSE_ACCURACY, ROUGH_ACCURACY])
+def test_a_contact_of_less_accuracy_takes_fewer_products(accuracy):
+    """It stops with points on the wrong side, no more than may be, and with pressure missing."""
+    points, length = 4096, 0.1
+    waves = np.fft.rfft(np.random.default_rng(3).standard_normal(points))
+    waves *= np.fmax(np.arange(waves.size), 4.0) ** -1.3 * (np.arange(waves.size) < points // 4)
+    height = 1e-3 * np.fft.irfft(waves, points) / np.fft.irfft(waves, points).std()
+    body = half_space(gs.rubber.styrene_butadiene(), 0.3)
+    response, start = Response.of(body, Grid((points,), (length,)), 1), np.full(points, 3e5)
+    exact, near = solve_grid(response, height, start), solve_grid(response, height, start, accuracy)
+    assert exact.settled
+    assert near.settled
+    assert near.products < 0.9 * exact.products
+    assert near.missing <= accuracy.missing
+    touching = np.count_nonzero(exact.active)
+    differ = np.count_nonzero(near.active != exact.active)
+    assert 0 < differ <= 2.0 * accuracy.wrong * touching  # of those, some were wrong before
+    assert near.pressure.mean() == pytest.approx(3e5, rel=1e-6)
+    assert abs(np.count_nonzero(near.active) / touching - 1.0) < accuracy.wrong

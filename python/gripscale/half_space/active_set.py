@@ -102,9 +102,13 @@ class Accuracy(NamedTuple):
 
 
 CONTACT_ACCURACY = Accuracy(1e-6)
+# For differences between contacts on one grid.
+DIFFERENCE_ACCURACY = Accuracy(1e-4)
 # Of a grid that another one starts from, whose numbers are reported too.
-START_ACCURACY = Accuracy(1e-4)
-# For half of the products, where numbers to a few tenths of a per cent are enough.
+START_ACCURACY = Accuracy(1e-4, 1e-3)
+# For what another rubber changes: the contact fraction within a tenth of a per cent.
+COARSE_ACCURACY = Accuracy(3e-4, 4e-3)
+# For strains and temperatures, which are iterated: within half a per cent, for half the products.
 ROUGH_ACCURACY = Accuracy(1e-3, 1e-2)
 # Least missing pressure on grids in single precision.
 SINGLE_TOLERANCE = 3e-4

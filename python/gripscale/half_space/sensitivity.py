@@ -24,7 +24,7 @@ import xarray as xr
 from gripscale.conditions.conditions import state_by_scale
 from gripscale.core import InputError, RubberWarning, checks, labelled, provenance
 from gripscale.core.arrays import Array, ComplexArray, Quantity
-from gripscale.half_space.active_set import START_ACCURACY, close_gap, solve_grid
+from gripscale.half_space.active_set import DIFFERENCE_ACCURACY, close_gap, solve_grid
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import grid_contact_fraction
 from gripscale.half_space.response import HalfSpace, Response
@@ -307,7 +307,7 @@ class ContactFractionDifferences:
             response = Response.with_compliance(compliance, contact.grid, 1)
             pressure = contact.nominal_pressure * math.exp(by * pressed)
             start = contact.pressure * (pressure / contact.pressure.mean())
-            solved = solve_grid(response, contact.height, start, START_ACCURACY)
+            solved = solve_grid(response, contact.height, start, DIFFERENCE_ACCURACY)
             fraction = grid_contact_fraction(solved.active, solved.gap, response.loss_angle)
             logs.append(math.log(fraction))
         return (logs[1] - logs[0]) / (2.0 * step)

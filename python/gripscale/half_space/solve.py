@@ -20,6 +20,7 @@ import numpy as np
 from gripscale.conditions.conditions import Conditions, RubberByScale, water_film
 from gripscale.core import ConvergenceError, InputError, Quantity, Status, checks, worker_count
 from gripscale.half_space.active_set import (
+    COARSE_ACCURACY,
     CONTACT_ACCURACY,
     ROUGH_ACCURACY,
     START_ACCURACY,
@@ -342,7 +343,10 @@ def _solve_sequence(
         if solved is not None and level.grid.points > most:
             break
         try:
-            accuracy = ROUGH_ACCURACY if loose else _accuracy(goal, last=not plan)
+            if coarse or (loose and sequence.start):
+                accuracy = COARSE_ACCURACY if coarse else ROUGH_ACCURACY
+            else:
+                accuracy = _accuracy(level, plan, goal, loose=loose)
             solved = sequence.solve(level, accuracy)
         except OutOfTime:
             in_time = False
@@ -404,18 +408,20 @@ def _solve_sequence(
     return GridSequenceResult(result, {**sequence.start, **sequence.solved})
 
 
-def _accuracy(goal: float, *, last: bool) -> Accuracy:
-    """Return the accuracy of the contact on a grid, so that it adds little to errors of `goal`."""
-    finest = CONTACT_ACCURACY if last else START_ACCURACY
-    if math.isinf(goal):
-        return finest
-    if last:
-        return Accuracy(max(finest.missing, 1e-3 * goal))
-    rough = Accuracy(0.02 * goal, 0.2 * goal)
-    return Accuracy(
-        min(max(finest.missing, rough.missing), ROUGH_ACCURACY.missing),
-        min(rough.wrong, ROUGH_ACCURACY.wrong),
-    )
+def _accuracy(level: Level, following: list[Level], goal: float, *, loose: bool) -> Accuracy:
+    """Return the accuracy of the contact on a level, so that it adds little to errors of `goal`.
+
+    The cut-off exponents compare the last grid without the last octave with one that has it.
+    """
+    if not following and not loose:
+        if math.isinf(goal):
+            return CONTACT_ACCURACY
+        return Accuracy(max(CONTACT_ACCURACY.missing, 1e-3 * goal), 0.01 * goal)
+    compared = not following or (following[0].cut_off < level.cut_off and len(following) == 2)
+    if compared or math.isinf(goal):
+        return START_ACCURACY
+    missing = min(max(START_ACCURACY.missing, 0.006 * goal), COARSE_ACCURACY.missing)
+    return Accuracy(missing, min(0.05 * goal, COARSE_ACCURACY.wrong))
 
 
 def _judged(contact: RoughContact, goal: float) -> Status:

@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from gripscale.core import Array, Mask, Status
-from gripscale.half_space.active_set import START_ACCURACY, Accuracy, solve_grid
+from gripscale.half_space.active_set import DIFFERENCE_ACCURACY, Accuracy, solve_grid
 from gripscale.half_space.grid import Grid, resampled
 from gripscale.half_space.grid_sequence import (
     friction_from_traction,
@@ -55,7 +55,7 @@ def with_water(contact: RoughContact, film: float, *, workers: int) -> RoughCont
     response = Response.of(contact.body, half, workers)
     height = resampled(scipy.fft.rfftn(contact.height), contact.grid.shape, half)
     start = loaded(response.full_contact(height, load), load)
-    before = _numbers(response, height, solve_grid(response, height, start, START_ACCURACY))
+    before = _numbers(response, height, solve_grid(response, height, start, DIFFERENCE_ACCURACY))
     coarse, _ = _under_rising_load(response, height, load, film, LOAD_STEPS // 2)
     after = _numbers(response, height, coarse)
     changed: dict[str, Any] = {**numbers}
@@ -91,9 +91,9 @@ def _under_rising_load(
     level = _water_level(height, film)
     loads = load * np.geomspace(FIRST_LOAD, 1.0, steps)
     start = loaded(response.full_contact(height, loads[0]), loads[0])
-    step = solve_grid(response, height, start, START_ACCURACY)
+    step = solve_grid(response, height, start, DIFFERENCE_ACCURACY)
     start = loaded(step.pressure, TOUCH * load)
-    touch = solve_grid(response, height, start, START_ACCURACY)
+    touch = solve_grid(response, height, start, DIFFERENCE_ACCURACY)
     regions = periodic_regions(~touch.active)
     closed = regions.where(np.asarray(~regions.percolates.any(axis=1)))
     step = replace(step, gap=np.where(closed, touch.gap, step.gap))
@@ -101,8 +101,8 @@ def _under_rising_load(
     touched = np.zeros(height.shape, dtype=bool)
     for under in loads:
         pools = _trapped(pools, step, height, level, touched)
-        touched, accuracy = step.active, POOL_ACCURACY if under == loads[-1] else START_ACCURACY
-        start = loaded(step.pressure, under)
+        touched, start = step.active, loaded(step.pressure, under)
+        accuracy = POOL_ACCURACY if under == loads[-1] else DIFFERENCE_ACCURACY
         step = solve_grid(response, height, start, accuracy, pools=pools, active=touched)
     return step, pools
 
