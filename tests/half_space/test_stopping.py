@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.half_space.active_set import COARSE_ACCURACY, ROUGH_ACCURACY, solve_grid
+from gripscale.half_space.active_set import COARSE_ACCURACY, Accuracy, solve_grid
 from gripscale.half_space.grid import Grid
 from gripscale.half_space.grid_sequence import GridSequence
 from gripscale.half_space.response import Response, half_space
@@ -80,7 +80,7 @@ def test_products_of_all_steps_towards_a_lossy_rubber_are_counted():
     assert np.array_equal(stepped.active, alone.active)
 
 
-@pytest.mark.parametrize("accuracy", [COARSE_ACCURACY, ROUGH_ACCURACY])
+@pytest.mark.parametrize("accuracy", [COARSE_ACCURACY, Accuracy(1e-3, 1e-2)])
 def test_a_contact_of_less_accuracy_takes_fewer_products(accuracy):
     """It stops with points on the wrong side, no more than may be, and with pressure missing."""
     points, length = 4096, 0.1

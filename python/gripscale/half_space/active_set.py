@@ -108,8 +108,6 @@ DIFFERENCE_ACCURACY = Accuracy(1e-4)
 START_ACCURACY = Accuracy(1e-4, 1e-3)
 # For what another rubber changes: the contact fraction within a tenth of a per cent.
 COARSE_ACCURACY = Accuracy(3e-4, 4e-3)
-# For strains and temperatures, which are iterated: within half a per cent, for half the products.
-ROUGH_ACCURACY = Accuracy(1e-3, 1e-2)
 # Least missing pressure on grids in single precision.
 SINGLE_TOLERANCE = 3e-4
 # Missing pressure above which what a correction moves is computed in single precision elsewhere,

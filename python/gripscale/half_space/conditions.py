@@ -34,6 +34,7 @@ from gripscale.conditions.fixed_point import (
 from gripscale.conditions.flash_temperature import LossDepth, ThermalProperties
 from gripscale.core import Array, Mask, Status
 from gripscale.core.arrays import AnyComplexArray
+from gripscale.half_space.active_set import DIFFERENCE_ACCURACY, Accuracy
 from gripscale.half_space.grid import Grid, PeriodicHeights, Single, SingleComplex
 from gripscale.half_space.grid_sequence import GridRecord, KnownLevels, levels
 from gripscale.half_space.response import AnyArray
@@ -334,6 +335,20 @@ _OF_GOAL, _LOOSEST = 0.4, 2e-2
 _CLOSED = 0.5  # strain of rubber in contact over that of rubber pressed into every valley, about
 
 
+def state_tolerance(goal: float) -> float:
+    """Return the tolerance of the fixed point for a contact with a tolerance."""
+    return max(STATE_TOLERANCE, min(_OF_GOAL * goal, _LOOSEST))
+
+
+def accuracy_of_state(goal: float) -> Accuracy:
+    """Return the accuracy of a contact that gives strains and temperatures only.
+
+    At the loosest, areas err by half a per cent, and half of the products are saved.
+    """
+    tolerance = state_tolerance(goal)
+    return Accuracy(max(DIFFERENCE_ACCURACY.missing, 0.05 * tolerance), 0.5 * tolerance)
+
+
 def solve_coupled_contact(
     solve: _Solve,
     quick: _Solve,
@@ -355,8 +370,7 @@ def solve_coupled_contact(
         )
         guess = pack_state(np.zeros(strain.size), _CLOSED * strain)
     fine = _ContactEvaluation(solve, rubber, conditions, time, wavenumber, guess)
-    tolerance = max(STATE_TOLERANCE, min(_OF_GOAL * goal, _LOOSEST))
-    fixed_point = solve_fixed_point(fine, replace(fine, solve=quick), tolerance)
+    fixed_point = solve_fixed_point(fine, replace(fine, solve=quick), state_tolerance(goal))
     contact, x = fixed_point.last.solution.contact, fixed_point.last.x
     earlier = [grid for grid in fine.grids if grid not in contact.grids]
     out = replace(

@@ -22,11 +22,14 @@ from gripscale.core import ConvergenceError, InputError, Quantity, Status, check
 from gripscale.half_space.active_set import (
     COARSE_ACCURACY,
     CONTACT_ACCURACY,
-    ROUGH_ACCURACY,
     START_ACCURACY,
     Accuracy,
 )
-from gripscale.half_space.conditions import GridSequenceResult, solve_coupled_contact
+from gripscale.half_space.conditions import (
+    GridSequenceResult,
+    accuracy_of_state,
+    solve_coupled_contact,
+)
 from gripscale.half_space.grid import (
     PeriodicHeights,
     nearest,
@@ -208,7 +211,10 @@ def solve_rough_contact(
         deadline = time.monotonic() + checks.positive("time_limit", time_limit, unit="s")
 
     def solve(
-        scales: RubberByScale | None, earlier: KnownLevels, reach: float, *, loose: bool = False
+        scales: RubberByScale | None,
+        earlier: KnownLevels,
+        reach: float,
+        rough: Accuracy | None = None,
     ) -> GridSequenceResult:
         sequence = GridSequence(
             body.with_scales(scales),
@@ -221,9 +227,8 @@ def solve_rough_contact(
             deadline=deadline,
         )
         kept = None if folder is None else KeptGrid.of(folder, sequence)
-        loose |= coarse
         return _solve_sequence(
-            sequence, most, reach, coarse=coarse, loose=loose, kept=kept, on_grid=on_grid
+            sequence, most, reach, coarse=coarse, rough=rough, kept=kept, on_grid=on_grid
         )
 
     if not iterated:
@@ -238,7 +243,8 @@ def solve_rough_contact(
                 "footprint must be the length of the nominal contact [m] with heat; got none"
             )
         heated = checks.positive("footprint", footprint, unit="m") / body.speed
-    quick, whole = partial(solve, reach=math.inf, loose=True), partial(solve, reach=goal)
+    quick = partial(solve, reach=math.inf, rough=accuracy_of_state(goal))
+    whole = partial(solve, reach=goal)
     assert isinstance(rubber, Rubber)  # iterated conditions refuse layers
     contact = solve_coupled_contact(whole, quick, heights, rubber, effects, heated, goal)
     return replace(contact, conditions=conditions, status=_judged(contact, goal))
@@ -329,7 +335,7 @@ def _solve_sequence(
     goal: float,
     *,
     coarse: bool,
-    loose: bool,
+    rough: Accuracy | None,
     kept: KeptGrid | None = None,
     on_grid: OnGrid | None = None,
 ) -> GridSequenceResult:
@@ -343,10 +349,12 @@ def _solve_sequence(
         if solved is not None and level.grid.points > most:
             break
         try:
-            if coarse or (loose and sequence.start):
-                accuracy = COARSE_ACCURACY if coarse else ROUGH_ACCURACY
+            if coarse:
+                accuracy = COARSE_ACCURACY
+            elif rough is not None:  # exponents of the cut-off are of the first passes
+                accuracy = rough if sequence.start else START_ACCURACY
             else:
-                accuracy = _accuracy(level, plan, goal, loose=loose)
+                accuracy = _accuracy(level, plan, goal)
             solved = sequence.solve(level, accuracy)
         except OutOfTime:
             in_time = False
@@ -408,12 +416,12 @@ def _solve_sequence(
     return GridSequenceResult(result, {**sequence.start, **sequence.solved})
 
 
-def _accuracy(level: Level, following: list[Level], goal: float, *, loose: bool) -> Accuracy:
+def _accuracy(level: Level, following: list[Level], goal: float) -> Accuracy:
     """Return the accuracy of the contact on a level, so that it adds little to errors of `goal`.
 
     The cut-off exponents compare the last grid without the last octave with one that has it.
     """
-    if not following and not loose:
+    if not following:
         if math.isinf(goal):
             return CONTACT_ACCURACY
         return Accuracy(max(CONTACT_ACCURACY.missing, 1e-3 * goal), 0.01 * goal)
