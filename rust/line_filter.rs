@@ -1,11 +1,11 @@
 //! Filters of periodic lines in single precision: each wave times its factor,
 //!     g = F^-1 (c F f).
 //!
-//! A line of 2 M values is transformed as M complex ones, z_j = f_2j + i f_2j+1. With w = exp(-i pi k / M) their
-//! waves z_k and y_k = conj z_M-k hold those of the line, F_k = (z_k + y_k) / 2 - i w (z_k - y_k) / 2, so the
-//! filter is
-//!     z_k  <-  (s + d Im w) z_k + i d Re w y_k,    s, d = (c_k +- conj c_M-k) / 2.
-//! Lines of an odd number of values are transformed as they are.
+//! A line of 2 M values is transformed as M complex ones, z_j = f_2j + i f_2j+1, whose waves z_k hold those of the
+//! even and of the odd values: e_k + i o_k = z_k and e_k - i o_k = conj z_M-k. With w = exp(-i pi k / M) the waves
+//! of the line are F_k = e_k + w o_k and conj F_M-k = e_k - w o_k. The filter is one pass over k that takes these
+//! apart and puts them together again: factors of z_k itself would lose the digits of waves with small factors
+//! to those with large ones. Lines of an odd number of values are transformed as they are.
 
 use std::fmt;
 use std::sync::Arc;
@@ -28,9 +28,6 @@ impl fmt::Debug for LineFilter {
         write!(f, "filter of lines of {} values", self.points)
     }
 }
-
-/// Factors of z_k and of y_k, over the number of complex values.
-pub struct Factors(Vec<[Complex32; 2]>);
 
 /// A line as the filter transforms it, and its workspace.
 pub struct PackedLine {
@@ -66,57 +63,54 @@ impl LineFilter {
         self.points / 2 + 1
     }
 
-    fn is_packed(&self) -> bool {
-        self.points % 2 == 0
-    }
-
-    /// The filter with a factor c for each wave; imaginary parts of the first and, of an even number of
-    /// values, of the last are ignored, because a real line has none.
-    pub fn factors(&self, waves: &[Complex32]) -> Factors {
-        let count = self.turn.len();
-        let share = 1.0 / count as f32;
-        let factor = |k: usize| {
-            let own_opposite = k == 0 || 2 * k == self.points;
-            let value = if 2 * k > self.points { waves[self.points - k].conj() } else { waves[k] };
-            (if own_opposite { Complex32::from(value.re) } else { value }) * share
-        };
-        let of_wave = |(k, turn): (usize, &Complex32)| {
-            if !self.is_packed() {
-                return [factor(k), Complex32::default()];
-            }
-            let (here, opposite) = (factor(k), factor(count - k).conj());
-            let (sum, difference) = ((here + opposite) * 0.5, (here - opposite) * 0.5);
-            [sum + difference * turn.im, Complex32::i() * difference * turn.re]
-        };
-        Factors(self.turn.iter().enumerate().map(of_wave).collect())
-    }
-
     /// A line of zeros.
     pub fn line(&self) -> PackedLine {
         let scratch = [&self.forward, &self.inverse].map(|fft| fft.get_inplace_scratch_len());
         PackedLine {
-            packed: self.is_packed(),
+            packed: self.points % 2 == 0,
             values: vec![Complex32::default(); self.turn.len()],
             scratch: vec![Complex32::default(); scratch[0].max(scratch[1])],
         }
     }
 
-    /// Filter `line`.
-    pub fn apply(&self, factors: &Factors, line: &mut PackedLine) {
-        let PackedLine { values, scratch, .. } = line;
+    /// Filter `line` by a factor for each wave; imaginary parts of the first and, of an even number of values,
+    /// of the last are ignored, because a real line has none.
+    pub fn apply(&self, factors: &[Complex32], line: &mut PackedLine) {
+        let PackedLine { packed, values, scratch } = line;
         self.forward.process_with_scratch(values, scratch);
-        let (first, rest) = (values[0], factors.0.len() / 2 + 1);
-        let filtered = |[same, mirrored]: [Complex32; 2], here: Complex32, opposite: Complex32| {
-            same * here + mirrored * opposite.conj()
-        };
-        values[0] = filtered(factors.0[0], first, first);
-        for k in 1..rest {
-            let opposite = values.len() - k;
-            let (here, there) = (values[k], values[opposite]);
-            values[k] = filtered(factors.0[k], here, there);
-            values[opposite] = filtered(factors.0[opposite], there, here);
+        if *packed {
+            self.multiply_packed(factors, values);
+        } else {
+            let share = 1.0 / values.len() as f32;
+            values[0] *= factors[0].re * share;
+            for k in 1..factors.len() {
+                let opposite = values.len() - k;
+                values[k] *= factors[k] * share;
+                values[opposite] *= factors[k].conj() * share;
+            }
         }
         self.inverse.process_with_scratch(values, scratch);
+    }
+
+    fn multiply_packed(&self, factors: &[Complex32], values: &mut [Complex32]) {
+        let count = values.len();
+        let share = 0.5 / count as f32;
+        let half_i = Complex32::new(0.0, 0.5);
+        let pass = |values: &mut [Complex32], k: usize, here: Complex32, there: Complex32| {
+            let opposite = if k == 0 { 0 } else { count - k };
+            let (z, y) = (values[k], values[opposite].conj());
+            let (even, odd) = ((z + y) * 0.5, self.turn[k] * (y - z) * half_i);
+            let (here, there) = (here * (even + odd), there.conj() * (even - odd));
+            let even = (here + there) * share;
+            let odd = (here - there) * self.turn[k].conj() * share;
+            let odd = Complex32::new(-odd.im, odd.re);
+            values[k] = even + odd;
+            values[opposite] = (even - odd).conj();
+        };
+        pass(values, 0, factors[0].re.into(), factors[count].re.into());
+        for k in 1..=count / 2 {
+            pass(values, k, factors[k], factors[count - k]);
+        }
     }
 }
 
@@ -152,6 +146,25 @@ mod tests {
     use super::*;
     use crate::spectral::Lines;
 
+    /// A long wave times a small factor beside a short one times a large factor.
+    #[test]
+    fn a_small_wave_keeps_its_digits() {
+        let points = 4096;
+        let filter = LineFilter::new(points);
+        let angle = |wave: usize, at: usize| {
+            (wave * at % points) as f32 / points as f32 * std::f32::consts::TAU
+        };
+        let values: Vec<f32> = (0..points).map(|at| angle(2, at).cos()).collect();
+        let mut factors = vec![Complex32::from(1e5); filter.waves()];
+        factors[2] = Complex32::from(1e-2);
+        let mut line = filter.line();
+        line.fill(&values);
+        filter.apply(&factors, &mut line);
+        let part = |at: usize| line.get(at) * angle(2, at).cos() * 2.0 / points as f32;
+        let amplitude: f32 = (0..points).map(part).sum();
+        assert!((amplitude / 1e-2 - 1.0).abs() < 1e-3, "{amplitude}");
+    }
+
     #[test]
     fn filters_as_the_transforms_of_real_lines() {
         for points in [2, 6, 15, 64, 135, 270] {
@@ -162,7 +175,7 @@ mod tests {
                 (0..filter.waves()).map(|k| Complex32::new(value(k + 5), value(k + 9))).collect();
             let mut line = filter.line();
             line.fill(&wanted);
-            filter.apply(&filter.factors(&waves), &mut line);
+            filter.apply(&waves, &mut line);
             Lines::<f32>::new(points).convolve(&waves, &mut wanted);
             for (at, wanted) in wanted.iter().enumerate() {
                 assert!((line.get(at) - wanted).abs() < 3e-6, "{points} values, at {at}");

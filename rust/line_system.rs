@@ -35,17 +35,15 @@ impl LineSystem<'_> {
 
     /// The pressures whose Q K is `right`, of unit length; see `gmres`.
     pub fn solution(&self, right: Vec<f32>, target: f64, most: usize) -> Approximation {
-        let [compliance, stiffness] =
-            [self.compliance, self.stiffness].map(|waves| self.filter.factors(waves));
         let (mut line, mut packed) = (vec![0.0; self.filter.points()], self.filter.line());
         let apply = |pressure: &[f32]| {
             self.spread(pressure, &mut line);
             packed.fill(&line);
-            self.filter.apply(&compliance, &mut packed);
+            self.filter.apply(self.compliance, &mut packed);
             self.spread(&without_mean(self.at_points(&packed)), &mut line);
             self.extension.extend(&mut line);
             packed.fill(&line);
-            self.filter.apply(&stiffness, &mut packed);
+            self.filter.apply(self.stiffness, &mut packed);
             let mut missing = without_mean(self.at_points(&packed));
             missing.iter_mut().for_each(|value| *value *= self.factor);
             Ok::<_, Infallible>(missing)

@@ -337,7 +337,7 @@ impl PyLine {
         let filtered = py.detach(|| {
             let mut line = self.0.line();
             line.fill(values);
-            self.0.apply(&self.0.factors(factors), &mut line);
+            self.0.apply(factors, &mut line);
             (0..values.len()).map(|at| line.get(at)).collect()
         });
         Ok(PyArray1::from_vec(py, filtered))
