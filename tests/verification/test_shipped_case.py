@@ -34,7 +34,7 @@ def test_every_wave_is_near_the_fine_mesh():
         for one, finer in zip(prediction.scales, fine, strict=True):
             assert finer.converged
             area = abs(one.contact_fraction - finer.contact_fraction)
-            assert area <= min(0.01, one.contact_fraction_error)
+            assert area <= min(0.01, one.contact_fraction_error) + 1e-12  # rounding in full contact
             if speed > 0.0:
                 friction = abs(one.friction - finer.friction)
                 assert friction < min(0.007 * finer.friction, one.friction_error)

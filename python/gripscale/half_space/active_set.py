@@ -286,8 +286,10 @@ def solve_grid(
     pressure = start.reshape(-1)[loaded].astype(real)  # at the points `loaded`, zero elsewhere
     del start
     gap = -height.reshape(-1).astype(real, copy=False)
-    finest = CONTACT_ACCURACY.missing if real == np.float64 else SINGLE_TOLERANCE
-    goal = max(accuracy.missing, finest)
+    least, finest = 0.0, CONTACT_ACCURACY.missing
+    if real != np.float64:
+        least = finest = SINGLE_TOLERANCE
+    goal = max(accuracy.missing, least)
     sharper = SHARPER if is_lossy_line(response) else 1.0
     tolerance, products, fewest, waited = sharper * LOOSEST, 1, height.size + 1, 0
     for iteration in range(1, MOST_ITERATIONS + 1):
