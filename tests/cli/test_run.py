@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -13,9 +14,11 @@ from typer.testing import CliRunner, Result
 
 from gripscale.case_file.folder import AT_TIMES, CASE_NOTE, RESULT_FILES
 from gripscale.cli import app
+from gripscale.core import ConvergenceError
 from gripscale.core.status import Status
 from gripscale.experiment import Task
 from gripscale.io import netcdf
+from gripscale.questions.answer.answer import answer_by
 from gripscale.questions.terminal import time_left
 from gripscale.theory import HalfPlane
 from gripscale.wave import ScaleResult, WaveProblem
@@ -157,8 +160,20 @@ def test_what_was_finished_before_ctrl_c_is_kept_and_not_solved_again(
             stopped = shell(*command)
             assert stopped.exit_code == 130
             assert stopped.stderr == "Stopped; nothing was finished.\n"
+    printed = threading.Event()
+
+    def answer_then(*given: Any) -> Any:
+        result = answer_by(*given)
+        printed.set()
+        return result
+
+    def stop_after_answer(*given: object) -> None:
+        printed.wait(60.0)
+        stop()
+
     with monkeypatch.context() as patch:  # in the chain, when the direct contact is solved
-        patch.setattr(HalfPlane, "solve", stop)
+        patch.setattr("gripscale.cli.solve_run.answer_by", answer_then)
+        patch.setattr(HalfPlane, "solve", stop_after_answer)
         stopped = shell("run", case)
     assert stopped.exit_code == 130
     assert "Answer: " in stopped.stdout
@@ -173,6 +188,20 @@ def test_what_was_finished_before_ctrl_c_is_kept_and_not_solved_again(
     first, second = (shell("run", case).stdout for _ in range(2))
     assert solved == ["chain"]
     assert first == second
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_chain_that_fails_at_once_leaves_the_answer(
+    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise ConvergenceError("no wave has a solution")
+
+    monkeypatch.setattr(HalfPlane, "solve", fail)
+    failed = shell("run", changed())
+    assert failed.exit_code == 3
+    assert "Answer: " in failed.stdout
+    assert "no wave has a solution" in failed.stderr
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -101,7 +101,12 @@ def _with_chain(case: Case, bench: Bench, answer_of: Callable[[Bench], Answer]) 
             answers.append(answer_of(replace(bench, known=known)))
 
     both = replace(bench, on_task=on_task)
-    both.solve(contacts | {OF_THE_PAPER: case.task()}, lambda answer, task: xr.Dataset())
+    try:
+        both.solve(contacts | {OF_THE_PAPER: case.task()}, lambda answer, task: xr.Dataset())
+    except Exception:
+        if not answers:  # the chain failed before the contacts were solved
+            answer_of(bench)
+        raise
     answers[0].chain = solved_chain(case, bench)
     return answers[0]
 
