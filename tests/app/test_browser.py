@@ -22,7 +22,7 @@ from tests.browsing import BETWEEN, GREY, PATIENCE, Visit
 from .test_run import SLOW
 
 REPORT = "iframe[title^='Report of']"
-TABS = ("1 Road", "2 Rubber", "3 Load and conditions", "4 Run", "5 Results", "6 All runs")
+TABS = ("1 Road", "2 Rubber", "3 Load and conditions", "4 Run", "5 Results")
 
 
 class AppVisit(Visit):

@@ -6,6 +6,7 @@ stored in the folder of the visit; the page reads no other file.
 
 from __future__ import annotations
 
+import math
 import re
 import secrets
 import shutil
@@ -26,6 +27,7 @@ from gripscale.case_file import CaseFile, folder, read_case_file
 from gripscale.case_file.examples import write_example
 from gripscale.case_file.folder import INPUTS, SAVED_CASE, renamed
 from gripscale.case_file.new import case_text, propose
+from gripscale.case_file.schema import toml_text
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.folders import make_folder, write_bytes, write_text
 from gripscale.io.text_table import require_numbers
@@ -174,16 +176,7 @@ def field_text(value: Any) -> str:
         return ""
     if isinstance(value, str) and field_value(value) == value:
         return value
-    return _inline(value)
-
-
-def _inline(value: Any) -> str:
-    if isinstance(value, dict):
-        pairs = ", ".join(f"{tomlkit.key(k).as_string()} = {_inline(v)}" for k, v in value.items())
-        return f"{{ {pairs} }}"
-    if isinstance(value, list):
-        return f"[{', '.join(map(_inline, value))}]"
-    return str(tomlkit.item(value).as_string())
+    return toml_text(value, longest=math.inf)
 
 
 @dataclass(frozen=True)

@@ -28,14 +28,10 @@ from gripscale.charts.bokeh_parts import model
 from gripscale.charts.draw import Chart, Picture, image
 from gripscale.core import Finding, GripscaleError, Severity
 from gripscale.questions.inputs import page, record
-from gripscale.questions.inputs.charts_of_rubber import rubber_charts, superposition_figure
-from gripscale.questions.inputs.charts_of_surface import (
-    correlation_charts,
-    profile_charts,
-    raw_chart,
-)
+from gripscale.questions.inputs.charts_of_rubber import superposition_figure
+from gripscale.questions.inputs.charts_of_surface import raw_chart
 from gripscale.questions.inputs.record import InputRecord
-from gripscale.report.elements import Element, Page, Section, Text, as_elements
+from gripscale.report.elements import Page, Section, Text, as_elements
 
 # Keys of [surface] that this figure depends on.
 READ_BY = (
@@ -132,18 +128,10 @@ def _case_with(file: case_file.CaseFile, **tables: Any) -> Case:
 
 
 def surface_page(file: case_file.CaseFile) -> Page:
-    """Return the page of the surface: correlation with its waves, cleaning and profiles."""
+    """Return the page of the surface: cleaning, profiles, texture, correlation and waves."""
     any_rubber = case_file.validate(case_file.RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
     surface = (case := _case_with(file, rubber=any_rubber)).surface
-    inputs = record.inputs(case)
-    elements: list[Element] = [Text("The case states the sine waves; no surface is measured.")]
-    if surface.measured is not None:
-        elements = [
-            *correlation_charts(inputs),
-            *page.surface_facts(InputRecord(inputs), len(surface.sines)),
-            *page.cleaning_tables(InputRecord(inputs)),
-            *profile_charts(inputs),
-        ]
+    elements = page.surface_section(InputRecord(record.inputs(case)), surface.sines)
     section = Section("road", "As read, cleaned and fitted", elements)
     return Page.of("The road", surface.source, surface.findings, [], [section])
 
@@ -152,8 +140,8 @@ def rubber_page(file: case_file.CaseFile) -> Page:
     """Return the page of the rubber: superposition, moduli with the fit and ends of the data."""
     any_wave = {"sines": [{"wavelength": "10 mm", "amplitude": "1 mm"}]}
     case = _case_with(file, surface=case_file.validate(case_file.SurfaceTable, any_wave, "surface"))
-    inputs, measured = record.inputs(case), case.measured_rubber
-    doubtful = [Finding(Severity.WARNING, f"{text}.") for text in InputRecord(inputs).findings]
+    inputs, measured = InputRecord(record.inputs(case)), case.measured_rubber
+    doubtful = [Finding(Severity.WARNING, f"{text}.") for text in inputs.findings]
     elements = as_elements(page.shift_parts(measured))
     sweeps, master = measured.sweeps, measured.master
     if sweeps is not None and master is not None and master.shift is not None and len(sweeps) > 1:
@@ -161,9 +149,9 @@ def rubber_page(file: case_file.CaseFile) -> Page:
         alt = "Moduli and loss factor of all sweeps by frequency, as measured and shifted."
         figure = superposition_figure(sweeps, master)
         elements.append(image(Picture("superposition", figure, words, alt)))
-    elements += [*rubber_charts(inputs, None), page.rubber_facts(InputRecord(inputs))]
-    section, findings = Section("rubber", "As read and fitted", elements), measured.doubts
-    return Page.of("The rubber", measured.rubber.name, [*findings, *doubtful], [], [section])
+    section = Section("rubber", "As read and fitted", [*elements, *page.rubber_section(inputs)])
+    findings = [*measured.doubts, *doubtful]
+    return Page.of("The rubber", measured.rubber.name, findings, [], [section])
 
 
 def road_tab(state: CaseState) -> pn.Column:

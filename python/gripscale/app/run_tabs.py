@@ -1,23 +1,20 @@
-"""Tabs for what comes of the case: run, the page of a result, and all runs of the visit."""
+"""Tabs for what comes of the case: run, and the page of a result."""
 
 from __future__ import annotations
 
 import asyncio
 import shlex
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import panel as pn
 
 from gripscale.app import elements
-from gripscale.app.case import CaseState, case_tables, field_text
+from gripscale.app.case import CaseState
 from gripscale.app.case_panel import file_upload, problem_pane
 from gripscale.app.runs import COMMANDS, AppRun, Runs
-from gripscale.core.errors import FileError, GripscaleError, InputError
-from gripscale.io.table import Column, Table
-from gripscale.questions import page_of_folder
-from gripscale.questions.answer.answer import Answer
+from gripscale.core.errors import FileError, InputError
 from gripscale.questions.registry import Form
 from gripscale.report.elements import Element, Text
 
@@ -170,57 +167,3 @@ def downloads(run: AppRun) -> pn.FlexBox:
     ]
     whole = {"filename": f"{run.name}.zip", "label": "Save everything"}
     return pn.FlexBox(*files, pn.widgets.FileDownload(callback=zipped, **whole))
-
-
-NONE_TO_COMPARE = "No run of Contact and friction has finished; the tab before has other answers."
-
-
-def all_runs_tab(runs: Runs) -> pn.Column:
-    """Return the tab with the answers of all runs of the visit."""
-    body = elements.column(elements.raw(NO_RUN))
-
-    async def follow(_: Any) -> None:
-        if any(not run.running for run in runs.all):
-            compared = await elements.in_worker(lambda: compared_runs(runs))
-            body.objects = [elements.html(compared)]
-
-    runs.param.watch(follow, "changes")
-    return body
-
-
-def compared_runs(runs: Runs) -> Text | Table:
-    """Return the answer of each run that has one, and the keys in which its case differs."""
-    answers: list[tuple[AppRun, Answer]] = []
-    for run in runs.all:
-        try:
-            result = None if run.running else page_of_folder.read_result(run.folder)
-        except GripscaleError:
-            continue  # stopped or failed before its answer
-        if isinstance(result, Answer):
-            answers.append((run, result))
-    if not answers:
-        return Text(NONE_TO_COMPARE)
-    first = answers[0][0].text
-    changes = [", ".join(changed_keys(first, run.text)) for run, _ in answers]
-    columns = [
-        Column("run", [run.name for run, _ in answers]),
-        Column("answer", [answer.lines[0] for _, answer in answers], words=True),
-        Column("changes", changes, "keys that differ from the first", words=True),
-    ]
-    return Table("runs", columns, "The runs of this visit")
-
-
-def changed_keys(first: str, other: str) -> Iterator[str]:
-    """Yield the keys that two cases state differently, with the values of the other."""
-    before, after = (dict(_flat(case_tables(text))) for text in (first, other))
-    for key in dict.fromkeys([*before, *after]):
-        if before.get(key) != after.get(key):
-            yield f"{key} = {field_text(after[key])}" if key in after else f"no {key}"
-
-
-def _flat(table: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    for name, value in table.items():
-        if isinstance(value, dict):
-            yield from _flat(value, f"{prefix}{name}.")
-        else:
-            yield f"{prefix}{name}", value

@@ -18,7 +18,7 @@ from gripscale.app.case import MAX_UPLOAD, CaseState, VisitFolder
 from gripscale.app.case_panel import case_panel
 from gripscale.app.elements import REPORTS, column, raw
 from gripscale.app.input_tabs import load_tab, road_tab, rubber_tab
-from gripscale.app.run_tabs import all_runs_tab, results_tab, run_tab
+from gripscale.app.run_tabs import results_tab, run_tab
 from gripscale.app.runs import REPORT, Runs
 from gripscale.case_file import read_case_file
 from gripscale.case_file.examples import EXAMPLES
@@ -68,7 +68,6 @@ def visit_page(root: Path, case: Path | None) -> pn.Column:
     tabs = pn.Tabs(
         *of_case,
         ("5 Results", results_tab(state, runs)),
-        ("6 All runs", all_runs_tab(runs)),
         dynamic=True,
         sizing_mode="stretch_width",
         stylesheets=[TABS_STYLE],

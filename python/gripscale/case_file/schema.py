@@ -7,8 +7,8 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cache
-from types import MappingProxyType
-from typing import Annotated, Any, ClassVar, Literal, cast, get_args, get_origin, get_type_hints
+from string import ascii_letters, digits
+from typing import Annotated, Any, Literal, cast, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError, create_model, with_config
 from pydantic import Field as PydanticField
@@ -89,8 +89,8 @@ class _PlainSchema(GenerateJsonSchema):
 def table_schema(law: type) -> dict[str, Any]:
     """Return the JSON Schema of the table that states a law, with all tables in it.
 
-    Beside the keywords of JSON Schema a table has what it is `about`, and the earlier keys that are
-    `gone`; a key has what is `expected` in words and the kind of `quantity` it takes.
+    Beside the keywords of JSON Schema a table has what it is `about`, a key what is `expected` in
+    words and the kind of `quantity` it takes.
     """
     table = table_of(law)
     linked = table.model_json_schema(schema_generator=_PlainSchema)
@@ -155,9 +155,8 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
             inside = schema["items"] if isinstance(part, int) else schema["properties"]
             schema = inside if isinstance(part, int) else inside.get(part, {})
         if first["type"] == "extra_forbidden":
-            instead = owner["gone"].get(key)
             cure = checks.instead_of(key, [*owner["properties"]], _MOST_NAMES)
-            return f"unknown key {where}; {f'it is gone: {instead}' if instead else cure}"
+            return f"unknown key {where}; {cure}"
         finite = first["type"] == "finite_number"
         reason = f"expected {'a finite number' if finite else expected(schema)}"
     if first["type"] == "missing":
@@ -190,7 +189,6 @@ def _explain(schema: dict[str, Any], model: type[BaseModel]) -> None:
     first = {name: keys[name] for name in keys if name in model.__annotations__}
     schema["properties"] = first | keys
     schema["about"] = (model.__doc__ or "").partition("\n")[0]
-    schema["gone"] = dict(getattr(model, "gone", {}))
 
 
 class CaseTable(BaseModel):
@@ -208,8 +206,6 @@ class CaseTable(BaseModel):
         use_attribute_docstrings=True,
         json_schema_extra=_explain,
     )
-    # keys of earlier versions, and what to state instead
-    gone: ClassVar[Mapping[str, str]] = MappingProxyType({})
 
 
 class _LawTable(CaseTable):
@@ -342,17 +338,22 @@ def law_keys(law: Any) -> dict[str, Any]:
     return kind | {k: case_value(v, keys[k]) for k, v in values.items() if v is not None}
 
 
+_BARE = frozenset(f"{ascii_letters}{digits}-_")  # letters of a key without quotation marks
 _LONGEST_LIST = 49  # letters of the items of a list beyond which each has a line of its own
 
 
-def toml_text(value: Any) -> str:
-    """Return a text, a number, a truth value, a list or a table as TOML writes it in one key."""
+def toml_text(value: Any, longest: float = _LONGEST_LIST) -> str:
+    """Return a text, a number, a truth value, a list or a table as TOML writes it in one key.
+
+    The items of a list with more letters than `longest` have a line each.
+    """
     if isinstance(value, Mapping):
-        pairs = ", ".join(f"{key} = {toml_text(item)}" for key, item in value.items())
-        return f"{{ {pairs} }}"
+        names = (key if key and _BARE.issuperset(key) else toml_text(key) for key in value)
+        items = [toml_text(item, longest) for item in value.values()]
+        return f"{{ {', '.join(f'{n} = {item}' for n, item in zip(names, items, strict=True))} }}"
     if isinstance(value, list):
-        items = [toml_text(item) for item in value]
-        if sum(len(str(item)) for item in value) > _LONGEST_LIST:
+        items = [toml_text(item, longest) for item in value]
+        if sum(len(str(item)) for item in value) > longest:
             return "\n".join(["[", *(f"  {item}," for item in items), "]"])
         return f"[{', '.join(items)}]"
     if isinstance(value, float) and not math.isfinite(value):

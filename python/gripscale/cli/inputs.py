@@ -99,8 +99,7 @@ def keys(
                 f"{part.title}: {part.about}",
             )
             print_parts(console, ["", table])
-            pages = dict.fromkeys(chapter_words(key.chapter) for key in part.keys)
-            print_wrapped(console, f"More in {', '.join(pages)}.")
+            print_wrapped(console, f"More in {chapter_words(part.chapter)}.")
 
 
 @command

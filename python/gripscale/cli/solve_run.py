@@ -93,12 +93,12 @@ def _with_chain(case: Case, bench: Bench, answer_of: Callable[[Bench], Answer]) 
     """
     design = direct_contact_design(case, case.load, traces=True)
     assert design is not None
-    contacts, known, answers = design.tasks, dict[str, xr.Dataset](), list[Answer]()
+    contacts, memory, answers = design.tasks, dict[str, xr.Dataset](), list[Answer]()
 
     def on_task(progress: Progress) -> None:
-        known[progress.result.attrs["prediction_key"]] = progress.result
-        if not answers and known.keys() >= {task.key for task in contacts.values()}:
-            answers.append(answer_of(replace(bench, known=known)))
+        memory[progress.result.attrs["prediction_key"]] = progress.result
+        if not answers and memory.keys() >= {task.key for task in contacts.values()}:
+            answers.append(answer_of(replace(bench, memory=memory)))
 
     both = replace(bench, on_task=on_task)
     try:

@@ -72,7 +72,7 @@ class Bench:
     """Called after each task with its `Progress`."""
     on_step: OnProgress = None
     """Called in threads of this process with each step of a model, such as a solved contact."""
-    known: Mapping[str, xr.Dataset] = field(default_factory=dict)
+    memory: Mapping[str, xr.Dataset] = field(default_factory=dict)
     """Answers by the keys of their tasks that need not be read from the store."""
 
     def solve(self, tasks: Mapping[str, Task], pick: Pick | None = None) -> dict[str, xr.Dataset]:
@@ -101,7 +101,7 @@ class Bench:
                 self.on_task(Progress(*count, label, answer, seconds, stored))
 
         for key in wanted:
-            answer = self.known.get(key)
+            answer = self.memory.get(key)
             if answer is None and self.store is not None:
                 answer = self.store.get(key)
             if answer is not None:
