@@ -1,7 +1,5 @@
 """Stand-ins for the rubber, the sines and the solver, with numbers that are exact by hand."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """The pressure handed down as a distribution, against closed forms and finer classes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import ClassVar
 

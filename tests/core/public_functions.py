@@ -1,7 +1,5 @@
 """Public functions with arguments they take: each argument is then made absurd, one at a time."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """The form of the package: what each package may use, and names that stand in one place."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections import defaultdict

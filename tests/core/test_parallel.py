@@ -1,7 +1,5 @@
 """Who may use how many cores: a wave solved alone all of them, waves side by side their share."""
 
-from __future__ import annotations
-
 import threading
 from contextlib import closing
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Surfaces, rubbers and grids the tests of the direct contact share."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ Made up here in the layouts instruments export, with the moduli of a Maxwell sol
 by WLF; every number is printed with six digits, so that reading is right to 1e-5.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

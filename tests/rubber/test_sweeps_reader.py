@@ -137,16 +137,19 @@ def test_measured_polymer():
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "names"),
+    ("old", "new", "error", "words"),
     [
-        ("(C)", "", "temperature_unit must be given"),
-        ("temperature (C)", "time (s)", "temperature of the rows must stand in a column"),
-        ("frequency (Hz)", "log t (s)", "columns must give the frequency"),
+        ("(C)", "", InputError, "temperature_unit must be given"),
+        ("temperature (C)", "time (s)", InputError, "of the rows must stand in a column"),
+        ("frequency (Hz)", "log t (s)", InputError, "columns must give the frequency"),
+        ("20.1", "", FileError, r"line 3: expected a temperature in every row; .* 1 of 4"),
+        ("0.75", "-0.75", FileError, r"line 5: expected a loss above zero.* got -0.75"),
+        ("19.9", "-300", FileError, "line 2: expected a temperature above absolute zero"),
     ],
 )
-def test_what_is_not_stated_is_asked_for(tmp_path, old, new, names):
-    path = write(tmp_path, "\n".join([PLAIN.replace(old, new), *rows()]))
-    with pytest.raises(InputError, match=names):
+def test_what_is_missing_is_asked_for_and_what_is_bad_is_named(tmp_path, old, new, error, words):
+    path = write(tmp_path, "\n".join([PLAIN, *rows()]).replace(old, new))
+    with pytest.raises(error, match=words):
         gs.read_sweeps(path)
 
 
@@ -198,19 +201,9 @@ def test_moduli_far_apart_at_one_frequency_and_temperature_are_refused(tmp_path)
         gs.read_sweeps(path)
 
 
-def test_missing_values_are_left_out_and_bad_ones_named(tmp_path):
-    lines = rows()
-    gone = [lines[0].replace("8.0", "n/a"), *lines[1:]]
-    assert len(gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *gone]))).storage) == 3
-    unnamed = [lines[0], lines[1].replace("20.1", ""), *lines[2:]]
-    with pytest.raises(FileError, match=r"line 3: expected a temperature in every row; .* 1 of 4"):
-        gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *unnamed])))
-    bad = [*lines[:3], lines[3].replace("0.75", "-0.75")]
-    with pytest.raises(FileError, match=r"line 5: expected a loss above zero.* got -0.75"):
-        gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *bad])))
-    cold = [lines[0].replace("19.9", "-300"), *lines[1:]]
-    with pytest.raises(FileError, match="line 2: expected a temperature above absolute zero"):
-        gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *cold])))
+def test_missing_values_are_left_out(tmp_path):
+    text = "\n".join([PLAIN, *rows()]).replace("8.0", "n/a")
+    assert len(gs.read_sweeps(write(tmp_path, text)).storage) == 3
 
 
 def ramp(frequency, offset):

@@ -1,7 +1,5 @@
 """Rubbers whose E*(w) is known at every frequency, cut where a measurement might end."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

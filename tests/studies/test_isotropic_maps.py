@@ -1,7 +1,5 @@
 """The parts of the study of isotropic maps, on surfaces and numbers by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Klueppel and Heinrich against closed forms of the integral, its limits and its scalings."""
 
-from __future__ import annotations
-
 import importlib
 from dataclasses import replace
 

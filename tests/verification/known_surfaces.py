@@ -13,8 +13,6 @@ of one core. They are kept in results/known_surfaces, and so are the contacts of
 `--kept` a changed law is judged in a minute. Who changes the solver deletes them.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

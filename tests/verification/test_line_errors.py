@@ -1,7 +1,5 @@
 """Stated errors of lines against grids four times finer."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.fft

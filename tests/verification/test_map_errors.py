@@ -1,7 +1,5 @@
 """Stated errors of maps of lossy rubber against grids two to four times finer."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

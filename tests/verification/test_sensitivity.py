@@ -1,7 +1,5 @@
 """Derivatives of friction by one adjoint solution against central differences, at random."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Water under a contact: percolation of the gap, errors of flow factors, wet over dry friction."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Lines of which octaves are withheld and continued, judged by what was withheld."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
