@@ -119,22 +119,10 @@ CURVES = {
 }  # fmt: skip
 
 
-@pytest.fixture
-def written(tmp_path):
-    """Write a text to a file, by default in UTF-8."""
-
-    def write(text, encoding="utf-8"):
-        path = tmp_path / "dma.csv"
-        path.write_bytes(text.encode(encoding))
-        return path
-
-    return write
-
-
 @pytest.mark.parametrize("kind", CURVES)
 def test_a_master_curve_is_read_at_first_try(written, kind):
     text, options = CURVES[kind]
-    path = written(text, "gb18030" if kind == "Chinese" else "utf-8")
+    path = written(text, encoding="gb18030" if kind == "Chinese" else "utf-8")
     master = gs.read_master_curve(path, **options)
     np.testing.assert_allclose(master.frequency, HERTZ, rtol=1e-6)
     np.testing.assert_allclose(master.storage, STORAGE, rtol=1e-6)
@@ -198,7 +186,7 @@ def test_a_line_about_the_room_is_not_that_of_a_column(written):
 
 def test_german_letters_are_no_chinese(written):
     text = "Prüfkörper für Öl, Maß °C\nFrequenz [Hz],Speichermodul [MPa],Verlustmodul [MPa]\n"
-    path = written(text + two(1e6), "cp1252")
+    path = written(text + two(1e6), encoding="cp1252")
     assert len(gs.read_master_curve(path, modulus="E")) == len(HERTZ)
 
 
@@ -219,7 +207,7 @@ def test_a_frequency_in_the_title(written):
     moduli = 1e2 * np.exp(-celsius / 40.0)
     body = rows(celsius, moduli, 0.1 * moduli, 1.3 * moduli, 0.2 * moduli, separator=";")
     title = "##Temp./°C;E'(1,000Hz)/MPa;E''(1,000Hz)/MPa;E'(10,000Hz)/MPa;E''(10,000Hz)/MPa\n"
-    sweeps = gs.read_sweeps(written(title + body.replace(".", ","), "cp1252"))
+    sweeps = gs.read_sweeps(written(title + body.replace(".", ","), encoding="cp1252"))
     assert np.unique(sweeps.frequency).tolist() == [1.0, 10.0]
     np.testing.assert_allclose(sweeps.storage[sweeps.frequency == 10.0], 1.3e6 * moduli, rtol=1e-6)
 
@@ -232,14 +220,14 @@ def test_times_and_temperatures_are_told_apart_by_their_units(written):
         + "\n"
         for celsius in (10, 20)
     )  # fmt: skip
-    sweeps = gs.read_sweeps(written(tables, "utf-16"), modulus="E", tolerance=0.5)
+    sweeps = gs.read_sweeps(written(tables, encoding="utf-16"), modulus="E", tolerance=0.5)
     np.testing.assert_allclose(sweeps.temperatures, [283.15, 293.15])
 
 
 @pytest.mark.parametrize(("unit", "kelvin"), [("K", 298.0), ("C", 571.15), (None, None)])
-def test_a_temperature_too_hot_for_its_unit(tmp_path, unit, kelvin):
-    path = tmp_path / "sweep.tts"
-    path.write_text("T=298;Mw=1;\n" + rows(OMEGA, STORAGE / 3, LOSS / 3, separator=" "))
+def test_a_temperature_too_hot_for_its_unit(written, unit, kelvin):
+    table = rows(OMEGA, STORAGE / 3, LOSS / 3, separator=" ")
+    path = written(f"T=298;Mw=1;\n{table}", "sweep.tts")
     if kelvin is None:
         with pytest.raises(InputError, match="too hot for a rubber") as refused:
             gs.read_sweeps(path)
