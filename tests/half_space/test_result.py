@@ -10,18 +10,11 @@ from gripscale.core.status import Status
 from gripscale.half_space import DirectContact
 from gripscale.io import netcdf
 from gripscale.model import TOTALS, Load, Model
-from gripscale.surface import HeightMap, Measured, Profile, SineStack, Surface, self_affine_profile
+from gripscale.surface import HeightMap, Measured, Profile, Surface
 
-from .rough_cases import ZENER, isotropic_map, random_case, solve
+from .rough_cases import LOAD, PROFILES, SURFACE, ZENER, isotropic_map, random_case, solve
 
 FOUND = solve(isotropic_map(64, shortest=1.6e-3), tolerance=0.05)
-PROFILES = [self_affine_profile(0.8, 5e-3, 5e-4, length, 1e-4, seed=4) for length in (0.1, 0.2)]
-SURFACE = Surface(
-    SineStack([1e-2, 1e-3], [1e-3, 1e-4]),
-    "made",
-    measured=Measured([(profile, profile) for profile in PROFILES], [], None, ""),
-)
-LOAD = Load(pressure=1e5, speed=0.3, footprint=0.1)
 
 
 def test_patches_and_pressures_add_up():
