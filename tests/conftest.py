@@ -12,6 +12,7 @@ import signal
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import matplotlib.figure  # noqa: F401  # commands of the tests draw in this process
@@ -99,6 +100,21 @@ def shell() -> Shell:
         return CliRunner().invoke(app, [str(argument) for argument in arguments], env=environment)
 
     return run
+
+
+@pytest.fixture
+def written(tmp_path: Path) -> Callable[..., Path]:
+    """Write bytes, a text, or lines to a file, and return its path."""
+
+    def write(
+        content: bytes | str | list[str], name: str = "table.csv", encoding: str = "utf-8"
+    ) -> Path:
+        text = "\n".join(content) if isinstance(content, list) else content
+        path = tmp_path / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode(encoding))
+        return path
+
+    return write
 
 
 @pytest.fixture(scope="module")

@@ -112,11 +112,7 @@ def test_rubber_of_a_wave_may_depend_on_what_was_solved():
 
 @pytest.mark.parametrize(
     ("limits", "count"),
-    [
-        ({}, 3),
-        ({"smallest_wavelength": 4e-3}, 2),
-        ({"smallest_wavelength": 4.001e-3}, 1),
-    ],
+    [({}, 3), ({"smallest_wavelength": 4e-3}, 2), ({"smallest_wavelength": 4.001e-3}, 1)],
 )
 def test_chain_stops_at_the_cut_off(limits, count):
     result = solve_chain(Spring(), THREE, solver=Scripted([0.5, 0.5, 0.5]), **limits, **LOAD)

@@ -92,15 +92,17 @@ def test_failed_write_leaves_the_old_file_and_no_rubbish(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["result.nc"]
 
 
-def test_missing_folder_is_named(prediction, tmp_path):
-    with pytest.raises(FileError, match=r"nowhere/result\.nc cannot be written"):
-        netcdf.save(prediction.to_dataset(), tmp_path / "nowhere" / "result.nc")
-
-
-def test_folder_in_the_way_is_named(prediction, tmp_path):
-    (tmp_path / "result.nc").mkdir()
-    with pytest.raises(FileError, match=r"cannot be written: it is a folder"):
-        netcdf.save(prediction.to_dataset(), tmp_path / "result.nc")
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("nowhere/result.nc", r"nowhere/result\.nc cannot be written"),
+        ("folder", r"cannot be written: it is a folder"),
+    ],
+)
+def test_a_place_where_nothing_can_be_written_is_named(prediction, tmp_path, name, says):
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(FileError, match=says):
+        netcdf.save(prediction.to_dataset(), tmp_path / name)
 
 
 def test_missing_result_is_named(tmp_path):

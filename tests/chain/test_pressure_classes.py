@@ -1,7 +1,5 @@
 """The pressure handed down as a distribution, against closed forms and finer classes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -15,10 +13,10 @@ from gripscale.core.status import Status
 from gripscale.rubber import Rubber
 from gripscale.surface import SineStack
 from gripscale.theory import HalfPlane
-from gripscale.wave import ScaleResult, WaveProblem
+from gripscale.wave import Sine, WaveLoad, WaveProblem
 from tests.samples import THREE_SINES as THREE
 
-from .stand_ins import Scripted, Spring
+from .stand_ins import Scripted, Spring, solved
 
 RUBBER = Rubber(6e6, [12e6, 40e6], [1e-3, 1e-5], bulk_modulus=2e9)
 SINES = SineStack([12e-3, 4e-3, 1.3e-3], [0.6e-3, 0.15e-3, 0.04e-3])
@@ -41,23 +39,14 @@ class Hertzian:
         half = 0.5 * (pressure / self.closed) ** 0.5
         x = wavelength * ((np.arange(4096) + 0.5) / 4096 - 0.5)
         ellipse = np.sqrt(np.maximum(1.0 - (x / (half * wavelength)) ** 2, 0.0))
-        return ScaleResult(
-            wavelength=wavelength,
-            amplitude=problem.profile.amplitude,
-            pressure_received=pressure,
-            speed=problem.load.speed,
-            load_time=problem.load.load_time,
+        return solved(
+            problem,
             contact_fraction=2.0 * half,
             friction=half,
             friction_from_dissipation=half,
             status=Status("converged" if pressure <= self.fails_above else "fold in the load path"),
-            newton_iterations=1,
-            residual=0.0,
-            min_stretch=1.0,
-            max_stretch=1.0,
             x=x,
             pressure=pressure * ellipse * 2.0 / (np.pi * half),
-            rubber=problem.rubber,
         )
 
 
@@ -109,9 +98,8 @@ def test_friction_is_the_energy_lost():
 
 def test_uniform_full_contact_stays_uniform():
     classes = PressureClasses.uniform(2e5)
-    flat = replace(
-        Hertzian(2e5).solve(_problem(2e5)), pressure=np.full(4096, 2e5), contact_fraction=1.0
-    )
+    problem = WaveProblem(RUBBER, Sine(8e-3, 1e-3), WaveLoad(2e5))
+    flat = replace(Hertzian(2e5).solve(problem), pressure=np.full(4096, 2e5), contact_fraction=1.0)
     down = classes.handed_down([flat], 4)
     np.testing.assert_allclose(down.pressure, 2e5, rtol=1e-12)
     np.testing.assert_allclose(down.area, 0.25, rtol=1e-12)
@@ -152,10 +140,3 @@ class Silent:
     def solve(self, problem, start=None):
         solved = self.inner.solve(problem, start)
         return replace(solved, pressure=np.zeros_like(solved.pressure))
-
-
-def _problem(pressure):
-    from gripscale.wave import Sine
-    from gripscale.wave.problem import WaveLoad
-
-    return WaveProblem(RUBBER, Sine(8e-3, 1e-3), WaveLoad(pressure))

@@ -103,6 +103,7 @@ def test_a_contact_that_is_not_known_has_no_area_term():
 
 TURNS = 2.0 * np.pi * np.arange(512) / 512
 LINE = gs.Profile(np.arange(512) * 2e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS))
+SHEARED = Conditions(shear_stress=ConstantStress(2e6))
 EVERYTHING = Conditions(
     temperature=300.0,
     softening=Kraus(0.3, 0.15, 0.02, 1e-3, "shear"),
@@ -113,13 +114,7 @@ EVERYTHING = Conditions(
 
 def test_the_chain_shears_its_real_area_and_keeps_its_hysteresis():
     plain = gs.solve_chain(RUBBER, SINES, solver="half_plane", **LOAD)
-    both = gs.solve_chain(
-        RUBBER,
-        SINES,
-        solver="half_plane",
-        conditions=Conditions(shear_stress=ConstantStress(2e6)),
-        **LOAD,
-    )
+    both = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=SHEARED, **LOAD)
     assert both.friction == plain.friction
     assert both.adhesive_friction == pytest.approx(2e6 * plain.contact_fraction / 3e5)
     assert both.total_friction == both.friction + both.adhesive_friction
@@ -131,14 +126,8 @@ def test_the_chain_shears_its_real_area_and_keeps_its_hysteresis():
 
 
 def test_the_direct_contact_shears_its_real_area():
-    found = gs.solve_rough_contact(
-        RUBBER,
-        LINE,
-        pressure=3e5,
-        speed=1.0,
-        periodic=True,
-        conditions=Conditions(shear_stress=ConstantStress(2e6)),
-    )
+    load = {"pressure": 3e5, "speed": 1.0, "periodic": True}
+    found = gs.solve_rough_contact(RUBBER, LINE, conditions=SHEARED, **load)
     assert found.adhesive_friction == pytest.approx(2e6 * found.contact_fraction / 3e5)
     assert found.total_friction == found.friction + found.adhesive_friction
 
@@ -150,6 +139,5 @@ def test_conditions_survive_their_dict(conditions):
 
 def test_at_rest_there_is_no_area_term():
     at_rest = LOAD | {"speed": 0.0}
-    shear = Conditions(shear_stress=ConstantStress(2e6))
-    found = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=shear, **at_rest)
+    found = gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=SHEARED, **at_rest)
     assert math.isnan(found.adhesive_friction)

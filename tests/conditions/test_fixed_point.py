@@ -3,11 +3,7 @@
 import numpy as np
 import pytest
 
-from gripscale.conditions.fixed_point import (
-    MOST_PASSES,
-    Iteration,
-    solve_fixed_point,
-)
+from gripscale.conditions.fixed_point import MOST_PASSES, Iteration, solve_fixed_point
 from gripscale.core.errors import ConvergenceError
 
 X = np.array([0.3, -1.2, 0.8])

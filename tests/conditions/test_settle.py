@@ -9,6 +9,7 @@ from gripscale.conditions import Conditions
 from gripscale.conditions.conditions import rubber_under
 from gripscale.half_space.conditions import strain_by_scale, temperature
 from gripscale.rubber.softening import Kraus
+from tests.half_space.rough_cases import two_waves
 from tests.samples import KRAUS, THERMAL
 from tests.samples import SHIFTED_RUBBER as RUBBER
 from tests.samples import SHIFTED_SINES as SINES
@@ -16,10 +17,7 @@ from tests.samples import SHIFTED_VALUES as LOAD
 
 BOTH = Conditions(softening=KRAUS, heat=THERMAL)
 SOLVERS = [("half_plane", {"points": 256}), ("finite_strain", {"columns": 64, "rows": 12})]
-TURNS = 2.0 * np.pi * np.arange(1024) / 1024
-LINE = gs.Profile(
-    np.arange(1024) * 1e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS + 1.0)
-)
+LINE = two_waves(1e-5)
 DIRECT = {"periodic": True, "tolerance": None, **LOAD}
 
 
@@ -74,26 +72,15 @@ def test_at_rest_nothing_is_heated():
 
 def test_stretches_give_another_strain():
     options = {"columns": 64, "rows": 12, "solver": "finite_strain"}
+    under = {n: Conditions(softening=KRAUS, strain_norm=n) for n in ("slope", "stretch")}
     slope, stretch = (
-        gs.solve_chain(
-            RUBBER,
-            SINES,
-            conditions=Conditions(softening=KRAUS, strain_norm=norm),
-            **options,
-            **LOAD,
-        )
-        for norm in ("slope", "stretch")
+        gs.solve_chain(RUBBER, SINES, conditions=conditions, **options, **LOAD)
+        for conditions in under.values()
     )
     assert stretch.scales[0].details["strain"] != slope.scales[0].details["strain"]
     assert stretch.friction != pytest.approx(slope.friction, rel=1e-3)
     with pytest.raises(gs.InputError, match="strain_norm"):
-        gs.solve_chain(
-            RUBBER,
-            SINES,
-            solver="half_plane",
-            conditions=Conditions(softening=KRAUS, strain_norm="stretch"),
-            **LOAD,
-        )
+        gs.solve_chain(RUBBER, SINES, solver="half_plane", conditions=under["stretch"], **LOAD)
 
 
 def test_a_settled_direct_contact_is_its_own_rubber():

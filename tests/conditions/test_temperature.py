@@ -7,18 +7,14 @@ import pytest
 
 import gripscale as gs
 from gripscale.conditions import Conditions, ThermalProperties
+from tests.half_space.rough_cases import two_waves
 from tests.samples import SHIFTED_RUBBER as RUBBER
 from tests.samples import SHIFTED_SINES as SINES
 
 LOAD = {"pressure": 3e5, "footprint": 0.05}
 WARM = 313.15
+LINE = two_waves(1e-5)
 SHIFT = float(RUBBER.shift.a(WARM, 293.15))
-
-
-def line():
-    x = np.arange(1024) * 1e-5
-    turns = 2.0 * np.pi * x / (1024 * 1e-5)
-    return gs.Profile(x, 2e-4 * np.cos(3 * turns) + 3e-5 * np.cos(17 * turns + 1.0))
 
 
 @pytest.mark.parametrize("speed", [1e-2, 1.0])
@@ -40,23 +36,18 @@ def test_the_chain_collapses_on_a_t_times_speed(solver, speed):
 def test_the_direct_contact_collapses_on_a_t_times_speed():
     load = {"pressure": 3e5, "periodic": True, "tolerance": None}
     warm = gs.solve_rough_contact(
-        RUBBER, line(), speed=0.1, conditions=Conditions(temperature=WARM), **load
+        RUBBER, LINE, speed=0.1, conditions=Conditions(temperature=WARM), **load
     )
-    master = gs.solve_rough_contact(RUBBER, line(), speed=SHIFT * 0.1, **load)
+    master = gs.solve_rough_contact(RUBBER, LINE, speed=SHIFT * 0.1, **load)
     assert warm.friction == pytest.approx(master.friction, rel=1e-6)
     assert warm.contact_fraction == pytest.approx(master.contact_fraction, rel=1e-6)
 
 
 def test_at_the_reference_temperature_nothing_changes():
-    same = gs.solve_chain(
-        RUBBER,
-        SINES,
-        speed=0.1,
-        solver="half_plane",
-        conditions=Conditions(temperature=293.15),
-        **LOAD,
+    same, plain = (
+        gs.solve_chain(RUBBER, SINES, speed=0.1, solver="half_plane", conditions=each, **LOAD)
+        for each in (Conditions(temperature=293.15), None)
     )
-    plain = gs.solve_chain(RUBBER, SINES, speed=0.1, solver="half_plane", **LOAD)
     assert same.friction == plain.friction
 
 
@@ -72,9 +63,9 @@ def test_the_band_that_is_not_to_be_left_moves_with_the_temperature():
     edge = BAND[1] * smallest / (2.0 * np.pi)
     for kelvin, most in ((293.15, edge), (WARM, edge / SHIFT)):
         conditions = Conditions(temperature=kelvin)
-        gs.solve_rough_contact(rubber, line(), speed=0.99 * most, conditions=conditions, **load)
+        gs.solve_rough_contact(rubber, LINE, speed=0.99 * most, conditions=conditions, **load)
         with pytest.raises(gs.ExtrapolationError, match="above the measured band"):
-            gs.solve_rough_contact(rubber, line(), speed=1.01 * most, conditions=conditions, **load)
+            gs.solve_rough_contact(rubber, LINE, speed=1.01 * most, conditions=conditions, **load)
 
 
 def test_heat_moves_harmonics_into_the_band():
@@ -82,8 +73,8 @@ def test_heat_moves_harmonics_into_the_band():
     rubber = replace(RUBBER, valid_band=(1.0, 2.5e4))
     heat = Conditions(heat=ThermalProperties(0.25, 1150.0, 1500.0))
     load = {"pressure": 3e5, "periodic": True, "tolerance": None, "speed": 5.0}
-    cold = gs.solve_rough_contact(rubber, line(), **load)
-    warm = gs.solve_rough_contact(rubber, line(), conditions=heat, footprint=0.05, **load)
+    cold = gs.solve_rough_contact(rubber, LINE, **load)
+    warm = gs.solve_rough_contact(rubber, LINE, conditions=heat, footprint=0.05, **load)
     assert warm.extrapolation.above < cold.extrapolation.above - 0.1
 
 

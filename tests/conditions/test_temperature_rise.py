@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.special import k0e
+from scipy.special import gamma, k0e
 
 import gripscale as gs
+from gripscale.chain.heat import WaveHeat
 from gripscale.conditions import (
     LossDepth,
     ThermalProperties,
@@ -17,15 +18,16 @@ from gripscale.conditions import (
     uniform_at_surface,
     uniform_where_lost,
 )
-from gripscale.conditions.flash_temperature import ierfc
+from gripscale.conditions.flash_temperature import (
+    LossLayers,
+    PassingHarmonics,
+    ierfc,
+    uniform_from_others,
+)
 from tests.samples import THERMAL
 
 KAPPA, D = 0.25, THERMAL.diffusivity
 SURFACE = LossDepth(0.0)
-
-
-def test_diffusivity():
-    assert pytest.approx(0.25 / (1150.0 * 1500.0)) == D
 
 
 def mean_over_depths(function, mean, deepest=math.inf):
@@ -74,6 +76,7 @@ def test_uniform_heat_in_depth(mean, time):
 
 
 def test_uniform_heat_at_the_surface():
+    assert pytest.approx(0.25 / (1150.0 * 1500.0)) == D
     exact = 2.0 * math.sqrt(0.3 / (math.pi * KAPPA * 1150.0 * 1500.0))
     assert uniform_at_surface(0.3, SURFACE, THERMAL) == pytest.approx(exact, rel=1e-12)
     assert uniform_where_lost(0.3, SURFACE, THERMAL) == pytest.approx(exact, rel=1e-12)
@@ -167,3 +170,173 @@ def test_thermal_properties_must_be_positive(name, value):
 def test_a_depth_must_be_one_that_exists(mean):
     with pytest.raises(gs.InputError, match="mean"):
         LossDepth(mean)
+
+
+# Harmonics of heat switched on when a contact begins: time integrals and both limits.
+
+
+def integrated(m, time, depth, of):
+    """Return D/kappa times the integral of E exp(-d^2/(4 D s) - D m^2 s) / sqrt(pi D s) over s."""
+    diffusivity, rate = THERMAL.diffusivity, depth.rate
+
+    def met(s):
+        length = 2.0 * np.sqrt(diffusivity * s)
+        if of == "between":
+            own = lambda d: rate * (3 + 3 * rate * d + (rate * d) ** 2) / 8 * np.exp(-rate * d)  # noqa: E731
+        else:
+            n = 3 if of == "one" else 6
+            own = lambda d: rate**n * d ** (n - 1) * np.exp(-rate * d) / gamma(n)  # noqa: E731
+        end = min(60.0 / rate, 7.0 * length)
+        return float(quad(lambda d: own(d) * np.exp(-((d / length) ** 2)), 0.0, end, limit=200)[0])
+
+    def part(unit):
+        def at(root):
+            wave = np.exp(-diffusivity * m**2 * root**2)
+            return float(2.0 * (unit * wave).real / np.sqrt(np.pi * diffusivity) * met(root**2))
+
+        return float(quad(at, 1e-9, np.sqrt(time), limit=300)[0])
+
+    return diffusivity / THERMAL.conductivity * (part(1.0) + 1j * part(-1j))
+
+
+@pytest.mark.parametrize(
+    ("speed", "along", "number", "time", "mean"),
+    [(1.0, 0.0, 1e3, 0.1, 1e-3), (1.0, 50.0, 300.0, 0.1, 1e-4), (0.3, 60.0, 60.0, 0.3, 1e-3)],
+)
+def test_slow_harmonics_are_the_integral_over_the_time_of_contact(speed, along, number, time, mean):
+    m, depth = harmonic_decay([number], [along], speed, THERMAL), LossDepth(mean)
+    [surface] = PassingHarmonics(m, time, THERMAL).at_surface(depth)
+    assert surface == pytest.approx(integrated(m[0], time, depth, "one"), rel=1e-8)
+    [lost] = PassingHarmonics(m, time, THERMAL).where_lost(depth)
+    both = (integrated(m[0], time, depth, of) for of in ("between", "sum"))
+    assert lost == pytest.approx(0.5 * sum(both), rel=1e-8)
+
+
+def test_no_wavenumber_is_uniform_heat_and_a_long_time_is_steady():
+    depth, time = LossDepth(2e-4), 0.1
+    still = np.array([0.1 + 0j])
+    [surface] = PassingHarmonics(still, time, THERMAL).at_surface(depth)
+    [lost] = PassingHarmonics(still, time, THERMAL).where_lost(depth)
+    assert surface.real == pytest.approx(uniform_at_surface(time, depth, THERMAL), rel=1e-6)
+    assert lost.real == pytest.approx(uniform_where_lost(time, depth, THERMAL), rel=1e-6)
+    m = harmonic_decay(np.geomspace(50.0, 1e5, 30), np.linspace(0.0, 40.0, 30), 1.0, THERMAL)
+    long = 1e6
+    steady = harmonic_at_surface(m, depth, THERMAL)
+    np.testing.assert_allclose(
+        PassingHarmonics(m, long, THERMAL).at_surface(depth), steady, rtol=1e-7
+    )
+    where = harmonic_where_lost(m, depth, THERMAL)
+    np.testing.assert_allclose(
+        PassingHarmonics(m, long, THERMAL).where_lost(depth), where, rtol=1e-7
+    )
+
+
+# Uniform heat of sources at different depths, where each loses its energy.
+
+
+def between_sampled_depths(depth, other, time):
+    """Return q l/(2 kappa) (E ierfc(|Z - Z'|/l) + E ierfc((Z + Z')/l)) of sampled depths."""
+    draw = np.random.default_rng(1)
+    length = 2.0 * np.sqrt(THERMAL.diffusivity * time)
+    z, source = (draw.gamma(3, each.mean / 3.0, 400_000) for each in (depth, other))
+    both = ierfc(np.abs(z - source) / length) + ierfc((z + source) / length)
+    return float(length * both.mean() / (2.0 * THERMAL.conductivity))
+
+
+@pytest.mark.parametrize("ratio", [2.0, 8.0, 32.0])
+@pytest.mark.parametrize("spread", [1.0, 3.0, 10.0])
+def test_the_deeper_of_two_depths_decides(spread, ratio):
+    """2 sqrt(D t) = `spread` times the deeper depth: 20 % off where both are near, 5 % else."""
+    deep, shallow = LossDepth(1e-4), LossDepth(1e-4 / ratio)
+    time = (0.5e-4 * spread) ** 2 / THERMAL.diffusivity
+    tops = [uniform_at_surface(time, each, THERMAL) for each in (deep, shallow)]
+    error = 0.05 if ratio > 2.0 or spread > 1.0 else 0.2
+    for which in (0, 1):
+        rise = uniform_from_others([1.0, 1.0], tops, which)
+        assert rise == pytest.approx(between_sampled_depths(deep, shallow, time), rel=error)
+
+
+def test_what_lies_deeper_than_the_heat_spreads_stays_cold():
+    deep, shallow, time = LossDepth(1e-2), LossDepth(1e-5), 0.1
+    tops = [uniform_at_surface(time, each, THERMAL) for each in (deep, shallow)]
+    assert uniform_from_others([0.0, 1.0], tops, 0) < 0.01 * tops[1]
+
+
+# Loss in layers against the closed forms of what it samples, and as the block tells it.
+
+WAVELENGTH = 1e-3
+K = 2.0 * np.pi / WAVELENGTH
+PLANE = LossDepth.under(K)
+
+
+def sampled(layers):
+    """(k z)^2 exp(-2 k z) in layers that grow with depth."""
+    edges = 1.5 * WAVELENGTH * np.linspace(0.0, 1.0, layers + 1) ** 2
+    s = 2.0 * K * edges
+    below = (1.0 + s + 0.5 * s**2) * np.exp(-s)
+    return LossLayers.of(edges, -np.diff(below))
+
+
+def errors(layers):
+    """Errors of the temperatures it decides, relative to those where energy is lost."""
+    one = sampled(layers)
+    out = []
+    for speed in (0.0, 1e-2, 1.0):
+        m = harmonic_decay(K * np.arange(1.0, 6.0), K * np.arange(1.0, 6.0), speed, THERMAL)
+        size = np.abs(harmonic_where_lost(m, PLANE, THERMAL)).max()
+        for of in (harmonic_at_surface, harmonic_where_lost):
+            out.append(float(np.abs(of(m, one, THERMAL) - of(m, PLANE, THERMAL)).max() / size))
+    for time in (1e-4, 1e-2, 1.0, 1e3):
+        size = uniform_where_lost(time, PLANE, THERMAL)
+        for of in (uniform_at_surface, uniform_where_lost):
+            out.append(abs(of(time, one, THERMAL) - of(time, PLANE, THERMAL)) / size)
+    return out
+
+
+def test_many_layers_are_the_distribution():
+    """Even loss within a layer errs by the second order of its height."""
+    coarse, fine = max(errors(20)), max(errors(80))
+    assert coarse < 0.03
+    assert fine < 2e-3
+    assert fine < coarse / 10.0
+
+
+def test_the_mean_depth_is_the_mean():
+    assert sampled(200).mean == pytest.approx(PLANE.mean, rel=1e-3)
+    assert sampled(200).share.sum() == pytest.approx(1.0, rel=1e-12)
+
+
+RUBBER = gs.Rubber(1e6, [2e6, 4e6], [1e-4, 1e-5], bulk_modulus=1e11)
+
+
+def solved(amplitude, **mesh):
+    return gs.solve_scale(
+        RUBBER, wavelength=WAVELENGTH, amplitude=amplitude, pressure=3e5, speed=3.0, **mesh
+    )
+
+
+def test_rows_lose_what_the_block_loses():
+    wave = solved(1e-4)
+    edges, lost = wave.loss_by_depth
+    assert lost.sum() == pytest.approx(wave.friction_from_dissipation, rel=1e-12)
+    assert edges.shape == (lost.size + 1,)
+    assert edges[-1] == pytest.approx(1.5 * WAVELENGTH)
+
+
+def test_full_contact_at_small_slope_loses_as_deep_as_a_half_plane():
+    """Rows of finite height put the loss deeper, by half with twice the columns: 1.3 %, 0.7 %."""
+    off = []
+    for columns, rows in ((64, 14), (128, 20)):
+        heat = WaveHeat.of(solved(1e-6, columns=columns, rows=rows), RUBBER)
+        assert isinstance(heat.depth, LossLayers)
+        off.append(heat.depth.mean / PLANE.mean - 1.0)
+    assert 0.0 < off[1] < 0.01
+    assert off[1] < 0.7 * off[0]
+
+
+def test_a_wave_without_rows_is_taken_for_a_half_plane():
+    wave = gs.theory.solve_half_plane(
+        RUBBER, wavelength=WAVELENGTH, amplitude=1e-6, pressure=3e5, speed=3.0
+    )
+    assert wave.loss_by_depth is None
+    assert WaveHeat.of(wave, RUBBER).depth.mean == pytest.approx(PLANE.mean, rel=1e-3)

@@ -1,7 +1,6 @@
 """Changes of a file whose right answer is known: the values are the right ones, or refused."""
 
 import re
-from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -18,7 +17,6 @@ FRICTION = sound.friction().decode()
 PLACES = [0, 1, 17, 39]
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9, "in": 0.0254}
 
-Change = Callable[[str], str | bytes]
 SAME_TEXT = {
     "utf-16": lambda text: text.encode("utf-16"),
     "decimal commas": lambda text: text.replace(".", ","),

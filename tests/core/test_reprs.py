@@ -1,7 +1,5 @@
 """What public objects show of themselves: few lines of text, and a figure in notebooks."""
 
-from __future__ import annotations
-
 import gc
 import inspect
 from dataclasses import dataclass

@@ -132,10 +132,8 @@ REFUSED = {
 
 
 @pytest.mark.parametrize(("cell", "number"), [("1.234.567,5", 1234567.5), ("-1,234.5", -1234.5)])
-def test_thousands_may_be_parted_where_cells_are_parted_otherwise(tmp_path, cell, number):
-    path = tmp_path / "thousands.csv"
-    path.write_text(f"{cell};{cell}\n" * 2)
-    table = read_table(path, "numbers", kinds=(), named=bool)
+def test_thousands_may_be_parted_where_cells_are_parted_otherwise(written, cell, number):
+    table = read_table(written(f"{cell};{cell}\n" * 2), "numbers", kinds=(), named=bool)
     assert table.numbers(1, "a number").tolist() == [number, number]
 
 
@@ -144,9 +142,8 @@ MARKS = "NaN|n.a.|n. a.|N/A|-|--|–|#NV|#N/A|#WERT!|#DIV/0!|k.A.|No Data|nodata
 
 @pytest.mark.parametrize("mark", MARKS.split("|"))
 @pytest.mark.parametrize("row", ["2.5;{};3", "{};2.5;3"])
-def test_marks_of_missing_values(tmp_path, mark, row):
-    path = tmp_path / "marks.txt"
-    path.write_text(f"1;1;1\n{row.format(mark)}\n3;3;3\n", encoding="utf-8")
+def test_marks_of_missing_values(written, mark, row):
+    path = written(f"1;1;1\n{row.format(mark)}\n3;3;3\n")
     table = read_table(path, "numbers", kinds=(), named=bool)
     numbers = [table.numbers(at, "a number", missing=True) for at in range(3)]
     assert np.isnan(numbers).sum() == 1
@@ -163,9 +160,8 @@ def test_both_readers_refuse(tmp_path, shape):
         assert str(path) in str(caught.value)
 
 
-def test_commas_in_remarks_are_no_decimal_signs(tmp_path):
-    path = tmp_path / "remarks.txt"
-    path.write_text("1.5;-;2.5\n2.5;wet, 3,5 C;3.5\n")
+def test_commas_in_remarks_are_no_decimal_signs(written):
+    path = written("1.5;-;2.5\n2.5;wet, 3,5 C;3.5\n")
     table = read_table(path, "numbers", kinds=(), named=bool)
     assert table.decimal == "."
     assert table.numbers(2, "a number").tolist() == [2.5, 3.5]
@@ -185,10 +181,8 @@ def test_commas_in_remarks_are_no_decimal_signs(tmp_path):
         ("G'/G''", "G'/G''", None),
     ],
 )
-def test_titles(tmp_path, title, name, unit):
-    path = tmp_path / "titles.txt"
-    path.write_text(f"{title};frequency\n1;2\n", encoding="utf-8")
-    named = {"frequency"}.__contains__
+def test_titles(written, title, name, unit):
+    path, named = written(f"{title};frequency\n1;2\n"), {"frequency"}.__contains__
     table = read_table(path, "numbers", kinds=("frequency", "modulus"), named=named)
     assert (table.columns[0].name, table.columns[0].unit) == (name, unit)
 
@@ -203,15 +197,13 @@ def read(path):
 
 
 @pytest.mark.parametrize("separator", ["\t", ";", ",", " "])
-def test_rows_of_plain_numbers_are_those_cut_cell_by_cell(tmp_path, separator):
+def test_rows_of_plain_numbers_are_those_cut_cell_by_cell(written, separator):
     """All at once, to the last bit and with the printed places, as with a mark among them."""
     values = np.random.default_rng(0).standard_normal((50, 2)) * [[1.0, 1e-7]]
     lines = [f"{x:.6f}{separator}{z!r}" for x, z in values.tolist()]
-    plain, cut = tmp_path / "plain.txt", tmp_path / "cut.txt"
-    plain.write_text("\n".join(["x [mm]" + separator + "z [mm]", *lines]), encoding="utf-8")
-    missing = f"99.000000{separator}n/a"
-    cut.write_text(plain.read_text(encoding="utf-8") + f"\n{missing}", encoding="utf-8")
-    first, second = read(plain), read(cut)
+    lines = [f"x [mm]{separator}z [mm]", *lines]
+    first = read(written(lines))
+    second = read(written([*lines, f"99.000000{separator}n/a"]))
     assert isinstance(first.rows, PlainRows)
     assert not isinstance(second.rows, PlainRows)
     assert [*first.rows] == [*second.rows][:-1]
@@ -222,11 +214,9 @@ def test_rows_of_plain_numbers_are_those_cut_cell_by_cell(tmp_path, separator):
         assert first.resolution(column) == second.resolution(column)
 
 
-def test_nan_is_read_all_at_once(tmp_path):
+def test_nan_is_read_all_at_once(written):
     """Where a value must not miss, the message names the line as for any other mark."""
-    path = tmp_path / "gaps.txt"
-    path.write_text("x [mm];z [mm]\n0.0;1.5\n0.1;NaN\n0.2;2.25\n", encoding="utf-8")
-    table = read(path)
+    table = read(written("x [mm];z [mm]\n0.0;1.5\n0.1;NaN\n0.2;2.25\n"))
     assert isinstance(table.rows, PlainRows)
     np.testing.assert_array_equal(table.numbers(1, "height", missing=True), [1.5, np.nan, 2.25])
     assert table.resolution(1) == 0.01
@@ -234,11 +224,9 @@ def test_nan_is_read_all_at_once(tmp_path):
         table.numbers(1, "a height")
 
 
-def test_a_file_that_many_readers_try_is_read_once(tmp_path, monkeypatch):
+def test_a_file_that_many_readers_try_is_read_once(written, monkeypatch):
     """Inside a block only: a file that changed is read anew."""
-    path = tmp_path / "road.txt"
-    path.write_text("0 1\n1 2\n", encoding="utf-8")
-    opened = []
+    path, opened = written("0 1\n1 2\n"), []
     real = Path.read_bytes
     monkeypatch.setattr(Path, "read_bytes", lambda file: opened.append(file) or real(file))
     with files_read_once():
@@ -246,5 +234,4 @@ def test_a_file_that_many_readers_try_is_read_once(tmp_path, monkeypatch):
         first = len(opened)
         assert read(path).numbers(1, "height").tolist() == [1.0, 2.0]
         assert len(opened) == first
-    path.write_text("0 3\n1 4\n", encoding="utf-8")
-    assert read(path).numbers(1, "height").tolist() == [3.0, 4.0]
+    assert read(written("0 3\n1 4\n")).numbers(1, "height").tolist() == [3.0, 4.0]

@@ -3,10 +3,8 @@
 import logging
 import os
 import signal
-from collections.abc import Callable
 
 import pytest
-import xarray as xr
 
 from gripscale.case_file import read_case
 from gripscale.core.errors import InputError
@@ -15,7 +13,6 @@ from gripscale.questions import Study
 
 distributed = pytest.importorskip("distributed")
 
-Compare = Callable[[xr.Dataset, xr.Dataset], None]
 pytestmark = pytest.mark.filterwarnings("default")
 
 

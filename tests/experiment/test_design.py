@@ -1,7 +1,5 @@
 """A design is solved into one Dataset: missing, refused and repeated points, what sizes differ."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

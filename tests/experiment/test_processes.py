@@ -1,11 +1,9 @@
 """The same study in processes of this machine, one of which may die."""
 
 import os
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import pytest
-import xarray as xr
 
 from gripscale import Rubber
 from gripscale.case_file import read_case
@@ -16,8 +14,6 @@ from gripscale.model import Load, Model
 from gripscale.questions import Study
 from gripscale.surface import Surface
 from tests.samples import THREE_SINES
-
-Compare = Callable[[xr.Dataset, xr.Dataset], None]
 
 
 def test_processes_change_nothing(case, tmp_path, same_bytes):

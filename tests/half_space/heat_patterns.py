@@ -1,7 +1,5 @@
 """Densities of the heat of an octave, and the patterns that they are kept as."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from gripscale.core import Array, ComplexArray

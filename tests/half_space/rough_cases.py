@@ -1,7 +1,5 @@
 """Surfaces, rubbers and grids the tests of the direct contact share."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,12 +9,20 @@ import gripscale as gs
 from gripscale.half_space.grid import Grid, periodic_heights
 from gripscale.half_space.grid_sequence import GridSequence, Level, finer, levels
 from gripscale.half_space.response import HalfSpace
-from gripscale.surface import HeightMap, Profile
+from gripscale.model import Load
+from gripscale.surface import HeightMap, Measured, Profile, SineStack, Surface, self_affine_profile
 from tests.samples import ZENER
 
 WAVELENGTH, AMPLITUDE, RELAXED, TIME = 1e-3, 1e-5, 3e6, 1e-2
 SLOPE = 2.0 * np.pi * AMPLITUDE / WAVELENGTH
 TIMES = np.geomspace(1e-9, 1e1, 41)
+PROFILES = [self_affine_profile(0.8, 5e-3, 5e-4, length, 1e-4, seed=4) for length in (0.1, 0.2)]
+SURFACE = Surface(
+    SineStack([1e-2, 1e-3], [1e-3, 1e-4]),
+    "made",
+    measured=Measured([(profile, profile) for profile in PROFILES], [], None, ""),
+)
+LOAD = Load(pressure=1e5, speed=0.3, footprint=0.1)
 
 
 def lossy(exponent: float) -> gs.Rubber:
@@ -27,6 +33,21 @@ def lossy(exponent: float) -> gs.Rubber:
 def sine(points: int = 256) -> Profile:
     x = np.arange(points) * WAVELENGTH / points
     return Profile(x, AMPLITUDE * np.cos(2 * np.pi * x / WAVELENGTH))
+
+
+def two_waves(step: float) -> Profile:
+    """1024 points of a period with three waves, and seventeen on them."""
+    turns = 2.0 * np.pi * np.arange(1024) / 1024
+    z = 2e-4 * np.cos(3 * turns) + 3e-5 * np.cos(17 * turns + 1.0)
+    return Profile(step * np.arange(1024), z)
+
+
+def many_waves(points: int, count: int, height: float, seed: int) -> Profile:
+    """A period of 0.1 m with waves as high as they are long, at random phases."""
+    x = 0.1 * np.arange(points) / points
+    phases = enumerate(np.random.default_rng(seed).random(count), start=1)
+    z = sum(height / k * np.cos(2.0 * np.pi * (k * x / 0.1 + phase)) for k, phase in phases)
+    return Profile(x, np.asarray(z))
 
 
 def grooves(along: str, points: int = 256) -> HeightMap:

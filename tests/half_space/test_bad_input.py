@@ -16,7 +16,6 @@ Z = isotropic_heights(32, length=32 * 4e-4, rms=2e-4, shortest=1.6e-3)
 MAP = HeightMap(X, X, Z)
 LINE = MAP.line(7)
 LOAD = {"pressure": 3e5, "speed": 0.3, "tolerance": None, "workers": 1}
-NAN, INF = math.nan, math.inf
 
 
 @pytest.mark.parametrize("surface", [LINE, MAP])
@@ -25,7 +24,7 @@ NAN, INF = math.nan, math.inf
     [
         ({"surface": MAP, "workers": 0}, r"workers must be a whole number from 1 to 1024; got 0"),
         ({"pressure": 0.0}, r"pressure must be greater than zero \[Pa\]; got 0"),
-        ({"pressure": NAN}, r"pressure must be a finite number \[Pa\]; got nan"),
+        ({"pressure": math.nan}, r"pressure must be a finite number \[Pa\]; got nan"),
         ({"pressure": "3 pints"}, r"pressure = '3 pints': "),
         ({"pressure": 1e-90}, r"pressure must be from 1e-12 to 1e\+15 Pa; got 1e-90"),
         ({"speed": -0.3}, r"speed must not be negative \[m/s\]; got -0.3"),

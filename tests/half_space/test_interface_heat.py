@@ -25,13 +25,11 @@ from gripscale.half_space.conditions import (
 )
 from gripscale.half_space.grid import Grid
 from tests.half_space.heat_patterns import pattern_of
+from tests.half_space.rough_cases import two_waves
 from tests.samples import SHIFTED_RUBBER, THERMAL
 
 FLUX = 1e5
-TURNS = 2.0 * np.pi * np.arange(1024) / 1024
-LINE = gs.Profile(
-    np.arange(1024) * 2e-5, 2e-4 * np.cos(3 * TURNS) + 3e-5 * np.cos(17 * TURNS + 1.0)
-)
+LINE = two_waves(2e-5)
 LOAD = {"pressure": 3e5, "speed": 1.0, "periodic": True, "tolerance": None, "footprint": 0.1}
 
 

@@ -9,18 +9,13 @@ from gripscale.half_space.grid import Grid
 from gripscale.half_space.response import HalfSpace
 from gripscale.theory.layers import shear_and_compression, stack_compliance, thickness_factor
 
+from .rough_cases import many_waves
+
 BULK = 2e9
 CAP = gs.Rubber(2e6, [3e6, 2e6], [1e-3, 1e-5], BULK, name="cap")
 BASE = gs.Rubber(1e6, [0.5e6], [1e-4], BULK, name="base")
+LINE = many_waves(512, 25, 3e-4, seed=1)
 LOAD = {"pressure": 1e5, "speed": 0.3, "periodic": True, "smallest_wavelength": 4e-3}
-
-
-def rough_line():
-    random = np.random.default_rng(1)
-    x = np.arange(512) / 512 * 0.1
-    phases = enumerate(random.random(25), start=1)
-    z = sum(3e-4 / k * np.cos(2.0 * np.pi * (k * x / 0.1 + phase)) for k, phase in phases)
-    return gs.Profile(x, np.asarray(z))
 
 
 def compliance(depth, number, modulus, bulk):
@@ -124,9 +119,8 @@ def test_derivatives_of_the_modulus_are_those_of_differences():
 
 
 def test_thick_rubber_is_a_half_space_and_thin_rubber_is_stiffer():
-    line = rough_line()
     areas = [
-        gs.solve_rough_contact(CAP, line, thickness=d, **LOAD).contact_fraction
+        gs.solve_rough_contact(CAP, LINE, thickness=d, **LOAD).contact_fraction
         for d in (None, 1.0, 8e-3, 2e-3)
     ]
     assert areas[1] == pytest.approx(areas[0], rel=1e-12)
@@ -135,16 +129,15 @@ def test_thick_rubber_is_a_half_space_and_thin_rubber_is_stiffer():
 
 def test_equal_layers_have_the_contact_of_one():
     """Rounding of K changes iterations that stop at 1e-6 of the pressure, and totals by 1e-8."""
-    line = rough_line()
-    one = gs.solve_rough_contact(CAP, line, thickness=8e-3, **LOAD)
-    two = gs.solve_rough_contact(gs.Layers([(CAP, 3e-3), (CAP, 5e-3)]), line, **LOAD)
+    one = gs.solve_rough_contact(CAP, LINE, thickness=8e-3, **LOAD)
+    two = gs.solve_rough_contact(gs.Layers([(CAP, 3e-3), (CAP, 5e-3)]), LINE, **LOAD)
     assert two.contact_fraction == pytest.approx(one.contact_fraction, rel=1e-7)
     assert two.friction == pytest.approx(one.friction, rel=1e-7)
 
 
 def test_losses_of_the_layers_sum_to_the_friction():
     layers = gs.Layers([(CAP, 3e-3), (BASE, 5e-3)])
-    contact = gs.solve_rough_contact(layers, rough_line(), **LOAD)
+    contact = gs.solve_rough_contact(layers, LINE, **LOAD)
     data = contact.to_dataset(fields=False)
     total = contact.friction_from_dissipation
     assert float(data.friction_by_layer.sum()) == pytest.approx(total, rel=1e-12)
@@ -155,13 +148,12 @@ def test_losses_of_the_layers_sum_to_the_friction():
 
 
 def test_a_map_across_the_sliding_direction_has_the_contact_of_its_line():
-    line = rough_line()
-    heights = gs.HeightMap(line.x, np.arange(32) * line.step, np.repeat(line.z[:, None], 32, 1))
+    heights = gs.HeightMap(LINE.x, np.arange(32) * LINE.step, np.repeat(LINE.z[:, None], 32, 1))
     load = LOAD | {"tolerance": None}
     for rubber, d in ((CAP, 8e-3), (gs.Layers([(CAP, 3e-3), (BASE, 5e-3)]), None)):
         flat, wide = (
             gs.solve_rough_contact(rubber, surface, thickness=d, **load)
-            for surface in (line, heights)
+            for surface in (LINE, heights)
         )
         assert wide.contact_fraction == pytest.approx(flat.contact_fraction, rel=0.05)
         assert wide.friction_from_dissipation == pytest.approx(
@@ -174,11 +166,11 @@ STIFFENED = ("ln_storage", "ln_loss", "ln_modulus", "ln_bulk_modulus")
 
 def test_derivatives_of_equal_layers_sum_to_those_of_one():
     """Moduli of both layers together are those of the rubber; speed is that of the stack."""
-    line, load = rough_line(), LOAD | {"tolerance": 0.02}
+    load = LOAD | {"tolerance": 0.02}
     one = gs.half_space.contact_sensitivity(
-        gs.solve_rough_contact(CAP, line, thickness=8e-3, **load)
+        gs.solve_rough_contact(CAP, LINE, thickness=8e-3, **load)
     )
-    stack = gs.solve_rough_contact(gs.Layers([(CAP, 3e-3), (CAP, 5e-3)]), line, **load)
+    stack = gs.solve_rough_contact(gs.Layers([(CAP, 3e-3), (CAP, 5e-3)]), LINE, **load)
     upper, lower = (gs.half_space.contact_sensitivity(stack, layer=number) for number in (0, 1))
     for name in STIFFENED:
         key = f"d_ln_friction_d_{name}"
@@ -191,8 +183,8 @@ def test_derivatives_of_equal_layers_sum_to_those_of_one():
 @pytest.mark.parametrize("layer", [0, 1])
 def test_derivatives_of_a_layer_are_those_of_solved_stacks(layer):
     """Cap or base stiffer by a factor. Borders err by 0.011 on 2048 points, by 0.003 on 8192."""
-    line, load = rough_line(), LOAD | {"tolerance": 1e-3}
-    contact = gs.solve_rough_contact(gs.Layers([(CAP, 1e-3), (BASE, 5e-3)]), line, **load)
+    load = LOAD | {"tolerance": 1e-3}
+    contact = gs.solve_rough_contact(gs.Layers([(CAP, 1e-3), (BASE, 5e-3)]), LINE, **load)
     derivative = gs.half_space.contact_sensitivity(contact, layer=layer)
     value = float(derivative["d_ln_friction_d_ln_modulus"].sum())
     assert derivative.sizes["term"] == (3, 2)[layer]
@@ -205,7 +197,7 @@ def test_derivatives_of_a_layer_are_those_of_solved_stacks(layer):
             old.equilibrium_modulus * factor, old.moduli * factor, old.relaxation_times, BULK
         )
         layers = gs.Layers(list(zip(rubbers, (1e-3, 5e-3), strict=True)))
-        solved = gs.solve_rough_contact(layers, line, start=contact, **load)
+        solved = gs.solve_rough_contact(layers, LINE, start=contact, **load)
         return float(solved.friction_from_dissipation)
 
     difference = np.log(friction(step) / friction(-step)) / (2.0 * step)
@@ -214,14 +206,14 @@ def test_derivatives_of_a_layer_are_those_of_solved_stacks(layer):
 
 
 def test_what_layers_do_not_have_is_refused():
-    line, layers = rough_line(), gs.Layers([(CAP, 3e-3), (BASE, 5e-3)])
-    contact = gs.solve_rough_contact(layers, line, **LOAD)
+    layers = gs.Layers([(CAP, 3e-3), (BASE, 5e-3)])
+    contact = gs.solve_rough_contact(layers, LINE, **LOAD)
     with pytest.raises(InputError, match="layer must be a whole number from 0 to 1; got 2"):
         gs.half_space.contact_sensitivity(contact, layer=2)
     with pytest.raises(InputError, match=r"thickness must be None with Layers.*0\.01"):
-        gs.solve_rough_contact(layers, line, thickness=0.01, **LOAD)
+        gs.solve_rough_contact(layers, LINE, thickness=0.01, **LOAD)
     with pytest.raises(InputError, match="thickness must be greater than zero"):
-        gs.solve_rough_contact(CAP, line, thickness=-1.0, **LOAD)
+        gs.solve_rough_contact(CAP, LINE, thickness=-1.0, **LOAD)
 
 
 @pytest.mark.parametrize(

@@ -8,10 +8,9 @@ from gripscale.half_space import DirectContact, contact_trace, shares_by_slope
 from gripscale.half_space.location import strongest_stretches, traces_of
 from gripscale.half_space.result import SHARES_BY_SLOPE, SLOPES
 from gripscale.io import netcdf
-from gripscale.model import Load
-from gripscale.surface import Measured, Profile, SineStack, Surface, self_affine_profile
+from gripscale.surface import Profile
 
-from .rough_cases import isotropic_map, solve
+from .rough_cases import LOAD, SURFACE, isotropic_map, solve
 
 MAP = solve(isotropic_map(64, shortest=1.6e-3), tolerance=None)
 STEP, LENGTH = 2.5e-5, 0.1
@@ -142,20 +141,13 @@ def test_a_map_has_its_section_and_field():
 
 
 def test_results_hold_traces_of_unlike_profiles(tmp_path):
-    profiles = [self_affine_profile(0.8, 5e-3, 5e-4, length, 1e-4, seed=4) for length in (0.1, 0.2)]
-    surface = Surface(
-        SineStack([1e-2, 1e-3], [1e-3, 1e-4]),
-        "made",
-        measured=Measured([(profile, profile) for profile in profiles], [], None, ""),
-    )
     contacts = []
     model = DirectContact(tolerance=None, traces=True)
-    load = Load(pressure=1e5, speed=0.3, footprint=0.1)
-    answer = model.predict(STONES.rubber, surface, load, on_progress=contacts.append)
+    answer = model.predict(STONES.rubber, SURFACE, LOAD, on_progress=contacts.append)
     kept = netcdf.load_dataset(netcdf.save(answer, tmp_path / "answer.nc"))
     for contact, trace in zip(contacts, traces_of(kept), strict=True):
         xr.testing.assert_equal(trace, contact_trace(contact))
-    plain = DirectContact(tolerance=None).predict(STONES.rubber, surface, load)
+    plain = DirectContact(tolerance=None).predict(STONES.rubber, SURFACE, LOAD)
     assert traces_of(plain) == []
     for name in SHARES_BY_SLOPE:
         assert float(plain[f"total_{name}"].sum()) == pytest.approx(1.0, rel=1e-12)

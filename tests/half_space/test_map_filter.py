@@ -1,7 +1,5 @@
 """Filters and contacts of maps in single precision: as by other code."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.fft

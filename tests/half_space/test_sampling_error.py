@@ -24,28 +24,25 @@ def road(seed):
     return gs.Profile(length / POINTS * np.arange(POINTS), 3e-4 * z / z.std())
 
 
+def solved(surface, shortest=5e-4, **options):
+    load = {"pressure": 2e5, "speed": 0.3, "periodic": True, "tolerance": None} | options
+    return gs.solve_rough_contact(RUBBER, surface, smallest_wavelength=shortest, **load)
+
+
 def contact(seed, speed=0.3):
-    solved = gs.solve_rough_contact(
-        RUBBER,
-        road(seed),
-        pressure=2e5,
-        speed=speed,
-        smallest_wavelength=5e-4,
-        periodic=True,
-        tolerance=0.05,
-    )
-    assert solved.converged
-    return solved
+    found = solved(road(seed), speed=speed, tolerance=0.05)
+    assert found.converged
+    return found
 
 
 def test_it_is_the_scatter_from_road_to_road():
     roads = [contact(seed) for seed in range(40)]
-    stated = [sampling_error(solved, 2.0 * WAVE) for solved in roads]
+    stated = [sampling_error(each, 2.0 * WAVE) for each in roads]
     for name, measure in (
         ("contact_fraction", "contact_fraction"),
         ("friction", "friction_from_dissipation"),
     ):
-        values = np.array([getattr(solved, measure) for solved in roads])
+        values = np.array([getattr(each, measure) for each in roads])
         scatter = values.std(ddof=1) / values.mean()
         error = math.sqrt(np.mean([getattr(one, name) ** 2 for one in stated]))
         # The scatter of forty is known to 11 %. By sixty roads of 32 and of 128 waves the stated
@@ -58,44 +55,36 @@ def test_the_pieces_share_the_friction_that_is_lost():
     line = road(0)
     x = line.step * np.arange(4 * POINTS)
     repeated = gs.Profile(x, np.tile(line.z, 4))
-    solved = gs.solve_rough_contact(
-        RUBBER, repeated, pressure=2e5, speed=0.3, smallest_wavelength=5e-4, periodic=True,
-        tolerance=None,
-    )  # fmt: skip
-    error = sampling_error(solved, WAVES * WAVE)
+    error = sampling_error(solved(repeated), WAVES * WAVE)
     assert error.pieces == pytest.approx(4.0, abs=1e-3)
     assert error.contact_fraction < 1e-3
     assert error.friction < 1e-3
 
 
 def test_few_pieces_tell_nothing():
-    solved = contact(0)
-    few = sampling_error(solved, WAVES * WAVE / (FEWEST_PIECES - 1))
+    found = contact(0)
+    few = sampling_error(found, WAVES * WAVE / (FEWEST_PIECES - 1))
     assert few.pieces <= FEWEST_PIECES - 1
     assert math.isnan(few.contact_fraction)
     assert math.isnan(few.friction)
     assert math.isnan(sampling_error(contact(0, speed=0.0), WAVE).friction)
     with pytest.raises(InputError, match="piece must be greater than zero"):
-        sampling_error(solved, 0.0)
+        sampling_error(found, 0.0)
 
 
 def white_map(seed):
     """Return the contact of a map with independent summits and a quarter of contact."""
     x = 5e-4 * np.arange(64)
     z = np.random.default_rng(seed).standard_normal((64, 64))
-    surface = gs.HeightMap(x, x, 1e-4 * z)
-    return gs.solve_rough_contact(
-        RUBBER, surface, pressure=2e5, speed=0.3, smallest_wavelength=2e-3, periodic=True,
-        tolerance=None,
-    )  # fmt: skip
+    return solved(gs.HeightMap(x, x, 1e-4 * z), 2e-3)
 
 
 def test_the_error_of_a_map_is_the_scatter_from_map_to_map():
     """Twenty maps tell their scatter to 16 %; the errors are 0.97 and 1.07 of it."""
     maps = [white_map(seed) for seed in range(20)]
-    stated = [sampling_error(solved, 16e-3) for solved in maps]
+    stated = [sampling_error(each, 16e-3) for each in maps]
     for name in ("contact_fraction", "friction_from_dissipation"):
-        values = np.log([getattr(solved, name) for solved in maps])
+        values = np.log([getattr(each, name) for each in maps])
         errors = [getattr(one, name.removesuffix("_from_dissipation")) for one in stated]
         assert math.sqrt(np.mean(np.square(errors))) == pytest.approx(values.std(ddof=1), rel=0.35)
 
@@ -111,22 +100,15 @@ def test_degrees_of_freedom_of_a_map_are_its_cosines():
     z = 1e-5 * np.random.default_rng(3).standard_normal((64, 64))
     z[16:, :] -= 5e-3
     z[:, 16:] -= 5e-3
-    solved = gs.solve_rough_contact(
-        RUBBER, gs.HeightMap(x, x, z), pressure=2e4, speed=0.3, smallest_wavelength=2e-3,
-        periodic=True, tolerance=None,
-    )  # fmt: skip
-    assert sampling_error(solved, 16e-3).pieces - 1.0 < 8.0
+    found = solved(gs.HeightMap(x, x, z), 2e-3, pressure=2e4)
+    assert sampling_error(found, 16e-3).pieces - 1.0 < 8.0
 
 
 def test_pieces_without_load_do_not_count():
     """Half of a road lies too deep to be touched: its pieces tell nothing of the scatter."""
     line = road(0)
     deep = np.where(np.arange(POINTS) < POINTS // 2, line.z, line.z - 5e-3)
-    load = {"pressure": 2e5, "speed": 0.3, "smallest_wavelength": 5e-4, "tolerance": None}
-    whole, half = (
-        gs.solve_rough_contact(RUBBER, gs.Profile(line.x, z), periodic=True, **load)
-        for z in (line.z, deep)
-    )
+    whole, half = (solved(gs.Profile(line.x, z)) for z in (line.z, deep))
     carrying = sampling_error(half, 2.0 * WAVE).pieces
     assert carrying < 0.6 * sampling_error(whole, 2.0 * WAVE).pieces
     assert carrying <= WAVES // 4 + 1  # the deep half begins within a piece

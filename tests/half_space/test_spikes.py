@@ -9,71 +9,13 @@ import pytest
 
 import gripscale as gs
 from tests.verification.families import tread
+from tests.verification.line_families import FAMILIES, STEP, Draw
 
-STEP, POINTS = 0.05e-3, 4096
+POINTS = 4096
 POSITION = STEP * np.arange(POINTS)
-WAVENUMBER = 2.0 * np.pi * np.fft.rfftfreq(POINTS, STEP)
 CUT_OFF = 0.4e-3
-
-
-def gaussian(random, hurst=0.8, largest=12e-3, smallest=0.2e-3):
-    """A self-affine line of rms height 1."""
-    band = (2.0 * np.pi / largest <= WAVENUMBER) & (2.0 * np.pi / smallest >= WAVENUMBER)
-    power = np.where(band, np.maximum(WAVENUMBER, 1.0) ** -(0.5 + hurst), 0.0)
-    z = np.fft.irfft(np.fft.rfft(random.standard_normal(POINTS)) * power, POINTS)
-    return z / z.std()
-
-
-def faces(random):
-    return 20e-6 * gaussian(random, largest=3e-3)
-
-
-def stones(random):
-    """Flat stones of random height, width and tilt, with vertical sides."""
-    ends = np.sort(random.choice(np.arange(1, POINTS), 40, replace=False))
-    stone = np.searchsorted(ends, np.arange(POINTS), side="right")
-    middle = np.array(
-        [POSITION[stone == s].mean() if (stone == s).any() else 0.0 for s in range(41)]
-    )
-    tilt, level = random.normal(0.0, 0.1, 41), random.normal(0.0, 0.6e-3, 41)
-    return level[stone] + tilt[stone] * (POSITION - middle[stone]) + faces(random)
-
-
-def porous(random):
-    """A rough plane with pores whose walls are vertical."""
-    holes = gaussian(random, largest=8e-3, smallest=2e-3) < -0.6
-    return 0.1e-3 * gaussian(random) - np.where(holes, 2e-3, 0.0)
-
-
-def grains(random):
-    """The highest of cones of slope 1 on a plane."""
-    z = np.zeros(POINTS)
-    for middle in random.uniform(0.0, POSITION[-1], 60):
-        z = np.maximum(z, random.uniform(0.5e-3, 2e-3) - np.abs(POSITION - middle))
-    return z + faces(random)
-
-
-def truncated(random):
-    return 0.5e-3 * np.minimum(gaussian(random), 0.5) + faces(random)
-
-
-def rough(random):
-    return 0.5e-3 * gaussian(random)
-
-
-def skewed(random):
-    return -0.4e-3 * np.exp(0.6 * gaussian(random))
-
-
-def peaky(random):
-    return 0.3e-3 * np.exp(0.4 * gaussian(random))
-
-
-def smooth(random):
-    return 0.3e-3 * gaussian(random, hurst=1.0, largest=6e-3, smallest=0.8e-3)
-
-
-KINDS = [stones, porous, grains, truncated, rough, skewed, peaky, smooth]
+SHARP, SMOOTH = ("tiles", "porous", "cones", "polished"), ("gaussian", "skewed", "bells", "caps")
+KINDS = SHARP + SMOOTH
 
 
 def with_spikes(z, random):
@@ -94,7 +36,7 @@ def contact(z):
 def ratios(kind, seed):
     """Contact area and friction of the line with spikes, cleaned, over those without."""
     random = np.random.default_rng([seed, KINDS.index(kind)])
-    z = kind(random)
+    z = FAMILIES[kind](Draw(random, POSITION.size * STEP))
     clean, cleaned = contact(z), contact(with_spikes(z, random))
     return [
         getattr(cleaned, name) / getattr(clean, name)
@@ -112,7 +54,7 @@ def test_spikes_change_area_and_friction_little():
 def test_without_the_rule_spikes_are_all_there_is():
     """The measure can fail: left in, they take half of the contact."""
     random = np.random.default_rng([1, 0])
-    z = stones(random)
+    z = FAMILIES["tiles"](Draw(random, POSITION.size * STEP))
     spiky = gs.Profile(POSITION, with_spikes(z, random))
     load = {"pressure": 3e5, "speed": 0.3, "smallest_wavelength": CUT_OFF}
     left = gs.solve_rough_contact(tread(), spiky, **load)

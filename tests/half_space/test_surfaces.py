@@ -50,23 +50,15 @@ def test_the_cut_off_transmits_half_of_its_wave_whatever_the_direction():
     np.testing.assert_allclose(share[big], expected[big], rtol=1e-9, atol=1e-12)
 
 
-@pytest.mark.parametrize("points", [127, 128, 131])
-def test_any_number_of_points_will_do(points):
-    """The same three waves sampled in three ways: the same contact, to the linear solver."""
-    x = np.arange(points) * 0.02 / points
-    z = sum(1e-4 / n * np.cos(2 * np.pi * n * x / 0.02 + n) for n in (1, 3, 7))
-    found = solve(Profile(x, z), smallest_wavelength=1e-3, tolerance=None)
-    assert found.friction == pytest.approx(REFERENCE.friction, rel=1e-4)
-    assert found.grid.shape == REFERENCE.grid.shape
-
-
-def _three_waves():
-    x = np.arange(256) * 0.02 / 256
-    z = sum(1e-4 / n * np.cos(2 * np.pi * n * x / 0.02 + n) for n in (1, 3, 7))
-    return solve(Profile(x, z), smallest_wavelength=1e-3, tolerance=None)
-
-
-REFERENCE = _three_waves()
+def test_any_number_of_points_will_do():
+    """The same three waves sampled in several ways: the same contact, to the linear solver."""
+    found = []
+    for points in (256, 127, 128, 131):
+        x = np.arange(points) * 0.02 / points
+        z = sum(1e-4 / n * np.cos(2 * np.pi * n * x / 0.02 + n) for n in (1, 3, 7))
+        found.append(solve(Profile(x, z), smallest_wavelength=1e-3, tolerance=None))
+        assert found[-1].friction == pytest.approx(found[0].friction, rel=1e-4)
+        assert found[-1].grid.shape == found[0].grid.shape
 
 
 def test_contact_on_missing_heights_is_counted():

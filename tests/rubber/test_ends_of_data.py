@@ -3,6 +3,8 @@
 Truths known at every frequency are cut in four ways and measured with 2 % noise.
 """
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -20,7 +22,22 @@ def beyond(omega, truth, low, high):
     return max(*below, *above) - 1.0
 
 
-def check(name, cut, seed):
+QUICK = {
+    ("springpots", "whole"),
+    ("fractional Zener", "no glass"),
+    ("Havriliak-Negami", "no rubber"),
+    ("Maxwell", "no glass"),
+    ("filled", "flank"),
+}
+CASES = [
+    pytest.param(*case, seed, marks=() if case in QUICK and seed == 0 else pytest.mark.verification)
+    for case in product(TRUTHS, CUTS)
+    for seed in range(3)
+]
+
+
+@pytest.mark.parametrize(("name", "cut", "seed"), CASES)
+def test_the_ends_of_the_data(name, cut, seed):
     """Hold the fit of one truth, cut and measured, to its promises.
 
     - The five points of each end are met within the noise: the error of the fit (rms, E' and E''
@@ -54,25 +71,3 @@ def check(name, cut, seed):
     assert fit.consistent
     assert fit.slow_end is None
     assert fit.fast_end is None
-
-
-@pytest.mark.verification
-@pytest.mark.parametrize("cut", CUTS)
-@pytest.mark.parametrize("name", TRUTHS)
-def test_the_ends_of_all_data(name, cut):
-    for seed in range(3):
-        check(name, cut, seed)
-
-
-@pytest.mark.parametrize(
-    ("name", "cut"),
-    [
-        ("springpots", "whole"),
-        ("fractional Zener", "no glass"),
-        ("Havriliak-Negami", "no rubber"),
-        ("Maxwell", "no glass"),
-        ("filled", "flank"),
-    ],
-)
-def test_the_ends_of_the_data(name, cut):
-    check(name, cut, seed=0)

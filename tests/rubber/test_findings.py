@@ -7,16 +7,14 @@ import gripscale as gs
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.rubber import MasterCurve, Rubber, fit_prony_report
 from gripscale.rubber.material import fast_end, require_load_bearing, slow_end
-from tests.rubber.truths import TRUTHS, fractional_zener
+from tests.rubber.truths import TRUTHS, curve_of, fractional_zener
 
 SINES = gs.SineStack([1e-2], [1e-3])
 
 
 def curve(modulus, low, high, noise=0.0):
     omega = np.geomspace(low, high, round(8 * np.log10(high / low)) + 1)
-    scatter = np.exp(noise * np.random.default_rng(3).standard_normal((2, len(omega))))
-    values = modulus(omega)
-    return MasterCurve(omega / 2 / np.pi, values.real * scatter[0], values.imag * scatter[1])
+    return curve_of(modulus, omega, noise, seed=3)
 
 
 def zener(omega):
@@ -101,9 +99,8 @@ def test_a_rubber_made_by_hand_is_warned_of_once():
 
 def melt():
     """A Maxwell liquid with a modulus of 1 MPa above 1 rad/s, measured three decades below."""
-    omega = np.geomspace(1e-3, 1e3, 49)
-    modulus = 1e6 * 1j * omega / (1 + 1j * omega) + 1e6 * 1j * omega * 1e-3
-    return fit_prony_report(MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag))
+    fluid = curve(lambda w: 1e6 * 1j * w / (1 + 1j * w) + 1e6 * 1j * w * 1e-3, 1e-3, 1e3)
+    return fit_prony_report(fluid)
 
 
 def test_a_melt_is_told_before_any_solve():

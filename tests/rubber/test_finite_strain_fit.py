@@ -5,13 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from examples.finite_strain_rubber import (
-    DATA,
-    UniaxialTest,
-    fit_finite_strain,
-    main,
-    read_test,
-)
+from examples.finite_strain_rubber import DATA, UniaxialTest, fit_finite_strain, main, read_test
 from gripscale.rubber import MooneyRivlin, NeoHookean, Rubber, Yeoh, uniaxial_stress
 from tests.samples import ROOT
 

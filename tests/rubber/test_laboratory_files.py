@@ -4,8 +4,6 @@ Made up here in the layouts instruments export, with the moduli of a Maxwell sol
 by WLF; every number is printed with six digits, so that reading is right to 1e-5.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -184,7 +182,7 @@ def read_with(read, path, name):
     return read(path, **options)
 
 
-def written(folder, content, encoding):
+def as_file(folder, content, encoding):
     if not encoding:
         content.save(folder / "dma.xlsx")
         return folder / "dma.xlsx"
@@ -203,14 +201,14 @@ def expect_sweeps(found):
 
 @pytest.mark.parametrize("name", SWEEPS)
 def test_sweeps_of_a_laboratory(tmp_path, name):
-    path = written(tmp_path, *SWEEPS[name])
+    path = as_file(tmp_path, *SWEEPS[name])
     assert holds_sweeps(path)
     expect_sweeps(read_with(gs.read_sweeps, path, name))
 
 
 @pytest.mark.parametrize("name", MASTERS)
 def test_master_curves_of_a_laboratory(tmp_path, name):
-    found = read_with(gs.read_master_curve, written(tmp_path, *MASTERS[name]), name)
+    found = read_with(gs.read_master_curve, as_file(tmp_path, *MASTERS[name]), name)
     expected = np.array([row.modulus for row in rows(293.15)])
     # a logarithm of six digits is right to half of 1e-5 times ln 10
     digits = 1.2 * DIGITS
@@ -278,29 +276,27 @@ BLOCKS = {
 
 @pytest.mark.parametrize("name", BLOCKS)
 def test_blocks_of_temperatures_side_by_side(tmp_path, name):
-    path = written(tmp_path, *BLOCKS[name])
+    path = as_file(tmp_path, *BLOCKS[name])
     assert holds_sweeps(path)
     expect_sweeps(gs.read_sweeps(path))
 
 
-def test_a_fault_in_a_block_names_its_line(tmp_path):
+def test_a_fault_in_a_block_names_its_line(written):
     text = BLOCKS["in titles of one line"][0].splitlines()
     text[4] = text[4].replace(text[4].split(",")[3], "broken")
     with pytest.raises(FileError, match=r"line 5: expected a number in column E'; got 'broken'"):
-        gs.read_sweeps(written(tmp_path, "\n".join(text), "utf-8"))
+        gs.read_sweeps(written(text))
 
 
-def test_blocks_of_frequencies_are_ramps(tmp_path):
+def test_blocks_of_frequencies_are_ramps(written):
     """Netzsch: E'(1.000 Hz)/MPa over temperature."""
-    path, frequencies = tmp_path / "ramp.csv", (1.0, 10.0)
-    celsius = np.arange(-10.0, 31.0, 2.0)
+    frequencies, celsius = (1.0, 10.0), np.arange(-10.0, 31.0, 2.0)
     titles = (f"E'({f:.3f} Hz)/MPa;E''({f:.3f} Hz)/MPa" for f in frequencies)
     text = [";".join(["Temp./°C", *titles])]
     for t in celsius:
         cells = [c for f in frequencies for c in moduli(f, kelvin=[t + 273.15])]
         text.append(";".join([f"{t:g}", *cells]))
-    path.write_text("\n".join(text), encoding="utf-8")
-    found = gs.read_sweeps(path, temperature_step=10.0)
+    found = gs.read_sweeps(written(text), temperature_step=10.0)
     assert found.temperatures == pytest.approx([263.15, 273.15, 283.15, 293.15, 303.15])
     expected = [
         Row(kelvin, hertz).modulus.real for kelvin in found.temperatures for hertz in (1, 10)
@@ -312,9 +308,8 @@ RAMP = ["T [°C];E' [MPa];E'' [MPa]", "-10;20;4", "0;10;2", "10;5;1"]
 
 
 @pytest.mark.parametrize("line", ["Frequency: 10 Hz", "Messfrequenz [Hz];10,0", "f = 0.01 kHz"])
-def test_one_frequency_of_a_ramp_stands_above_it(tmp_path, line):
-    path = tmp_path / "ramp.csv"
-    path.write_text("\n".join([line, *RAMP]), encoding="utf-8")
+def test_one_frequency_of_a_ramp_stands_above_it(written, line):
+    path = written([line, *RAMP])
     assert holds_sweeps(path)
     found = gs.read_sweeps(path, tolerance=0.0)
     assert found.frequency == pytest.approx(np.full(3, 10.0))
@@ -322,9 +317,8 @@ def test_one_frequency_of_a_ramp_stands_above_it(tmp_path, line):
 
 
 @pytest.mark.parametrize("frequency", [10.0, "10 Hz", "0.01 kHz"])
-def test_one_frequency_of_a_ramp_may_be_stated(tmp_path, frequency):
-    path = tmp_path / "ramp.csv"
-    path.write_text("\n".join(RAMP), encoding="utf-8")
+def test_one_frequency_of_a_ramp_may_be_stated(written, frequency):
+    path = written(RAMP)
     with pytest.raises(InputError, match=r'frequency states it, such as "10 Hz"'):
         gs.read_sweeps(path)
     found = gs.read_sweeps(path, frequency=frequency, tolerance=0.0)
@@ -333,18 +327,16 @@ def test_one_frequency_of_a_ramp_may_be_stated(tmp_path, frequency):
 
 
 def test_a_frequency_beside_a_column_of_frequencies_is_refused(tmp_path):
-    path = written(tmp_path, *SWEEPS["Eplexor"])
+    path = as_file(tmp_path, *SWEEPS["Eplexor"])
     with pytest.raises(InputError, match="frequency must be left out, because a column holds"):
         gs.read_sweeps(path, frequency=10.0)
     with pytest.raises(InputError, match="frequency = '10 N': unknown unit 'N'; expected one of"):
         gs.read_sweeps(path, frequency="10 N")
 
 
-def test_frequency_and_angular_frequency_may_stand_in_one_table(tmp_path):
-    path = tmp_path / "dma.csv"
-    titles = "omega [rad/s],f [Hz],E' [MPa],E'' [MPa],T [°C]"
-    path.write_text(f"{titles}\n6.28,1,2,0.2,20\n62.8,10,3,0.3,20\n", encoding="utf-8")
+def test_frequency_and_angular_frequency_may_stand_in_one_table(written):
+    titles, row = "omega [rad/s],f [Hz],E' [MPa],E'' [MPa],T [°C]", "62.8,10,3,0.3,20"
+    path = written([titles, "6.28,1,2,0.2,20", row])
     assert gs.read_sweeps(path).frequency == pytest.approx([1.0, 10.0], rel=1e-3)
-    path.write_text(f"{titles}\n6.28,2,2,0.2,20\n62.8,10,3,0.3,20\n", encoding="utf-8")
     with pytest.raises(InputError, match="columns must say which is the frequency"):
-        gs.read_sweeps(path)
+        gs.read_sweeps(written([titles, "6.28,2,2,0.2,20", row]))

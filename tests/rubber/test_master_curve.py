@@ -5,15 +5,11 @@ import math
 import numpy as np
 import pytest
 
+import gripscale as gs
 from gripscale.core.errors import FileError, InputError
-from gripscale.rubber import MasterCurve, read_master_curve
+from gripscale.rubber import MasterCurve, blocks, read_master_curve
+from gripscale.rubber.sweeps import MOST_ROWS, ROWS_PER_DECADE, thinned
 from tests.samples import MEASURED_DMA as TREAD
-
-
-def write(folder, text, name="curve.txt"):
-    path = folder / name
-    path.write_text(text, encoding="utf-8")
-    return path
 
 
 def test_rows_are_sorted_by_frequency():
@@ -55,8 +51,8 @@ def test_the_measured_tread_curve_reads_with_no_arguments():
     assert curve.loss[[0, -1]] == pytest.approx([7.37e5, 1.41e9])
 
 
-def test_what_the_header_omits_is_given(tmp_path):
-    path = write(tmp_path, "9 1 2 0.2\n9 10 3 0.3\n")
+def test_what_the_header_omits_is_given(written):
+    path = written("9 1 2 0.2\n9 10 3 0.3\n")
     curve = read_master_curve(
         path,
         frequency_unit="kHz",
@@ -73,11 +69,11 @@ def test_what_the_header_omits_is_given(tmp_path):
     assert (curve.reference_temperature, curve.name, curve.source) == (293.15, "mine", "bench")
 
 
-def test_columns_by_header_name(tmp_path):
-    path = write(tmp_path, "speed (Hz),A (MPa),B (MPa)\n1,2,0.2\n10,3,0.3\n")
+def test_columns_by_header_name(written):
+    path = written("speed (Hz),A (MPa),B (MPa)\n1,2,0.2\n10,3,0.3\n")
     curve = read_master_curve(path, columns=("speed", "A", "B"), modulus="E")
     assert curve.storage == pytest.approx([2e6, 3e6])
-    bare = write(tmp_path, "a b c\n1 2 0.2\n10 3 0.3\n")
+    bare = written("a b c\n1 2 0.2\n10 3 0.3\n")
     units = {"frequency_unit": "Hz", "modulus_unit": "MPa", "modulus": "E"}
     assert read_master_curve(bare, columns=("a", "b", "c"), **units).loss[0] == pytest.approx(2e5)
 
@@ -104,10 +100,10 @@ ROWS = "1,2,0.2\n10,3,0.3\n"
         (ROWS, {"columns": ("f", "a", "b")}, "columns must be among .* got 'f'"),
     ],
 )
-def test_nothing_is_guessed(tmp_path, text, options, message):
+def test_nothing_is_guessed(written, text, options, message):
     """And the error says which key is missing, where one helps."""
     with pytest.raises(InputError, match=message) as caught:
-        read_master_curve(write(tmp_path, text), **options)
+        read_master_curve(written(text), **options)
     helps = ("given" in message or "must give" in message) and "ell" not in message
     assert caught.value.missing == (message.split()[0] if helps else "")
 
@@ -121,20 +117,20 @@ def test_nothing_is_guessed(tmp_path, text, options, message):
         ("|E*| [kPa],Phase angle (rad)", math.atan(0.1)),
     ],
 )
-def test_each_column_has_the_unit_of_its_own_title(tmp_path, titles, loss):
+def test_each_column_has_the_unit_of_its_own_title(written, titles, loss):
     first = 2.0 if titles.startswith("E'") else 2000.0 * math.sqrt(1.01)
     rows = [f"{10.0**at:g},{first!r},{loss!r}" for at in range(4)]
-    curve = read_master_curve(write(tmp_path, "\n".join([f"f [Hz],{titles}", *rows])))
+    curve = read_master_curve(written([f"f [Hz],{titles}", *rows]))
     assert curve.storage == pytest.approx(np.full(4, 2e6))
     assert curve.loss == pytest.approx(np.full(4, 2e5))
 
 
-def test_a_phase_angle_without_its_unit_or_beyond_a_right_angle_is_refused(tmp_path):
+def test_a_phase_angle_without_its_unit_or_beyond_a_right_angle_is_refused(written):
     rows = "\n1,2,91\n10,3,40\n"
     with pytest.raises(InputError, match=r"phase angle must state its unit .* delta \(deg\)"):
-        read_master_curve(write(tmp_path, f"f [Hz],E' [MPa],delta{rows}"))
+        read_master_curve(written(f"f [Hz],E' [MPa],delta{rows}"))
     with pytest.raises(FileError, match=r"line 2: expected a phase angle below 90 degrees .* 91"):
-        read_master_curve(write(tmp_path, f"f [Hz],E' [MPa],delta (deg){rows}"))
+        read_master_curve(written(f"f [Hz],E' [MPa],delta (deg){rows}"))
 
 
 SWEEPS = "T [C],f [Hz],E' [MPa],E'' [MPa]\n"
@@ -143,19 +139,19 @@ REPEATED = SWEEPS + "0,1,3,0.3\n0,10,4,0.4\n20,1,2,0.2\n20,10,3,0.3\n"
 
 
 @pytest.mark.parametrize("text", [SHIFTED, REPEATED])
-def test_sweeps_at_several_temperatures_are_no_master_curve(tmp_path, text):
-    path = write(tmp_path, text)
+def test_sweeps_at_several_temperatures_are_no_master_curve(written, text):
+    path = written(text)
     with pytest.raises(FileError, match=r"from -?\d+ to 20 in column T; shift the sweeps .* first"):
         read_master_curve(path)
 
 
-def test_a_shifted_curve_may_tell_its_temperatures(tmp_path):
+def test_a_shifted_curve_may_tell_its_temperatures(written):
     columns = ("f", "E'", "E''")
-    assert len(read_master_curve(write(tmp_path, SHIFTED), columns=columns)) == 3
+    assert len(read_master_curve(written(SHIFTED), columns=columns)) == 3
     with pytest.raises(FileError, match="shift the sweeps"):
-        read_master_curve(write(tmp_path, REPEATED), columns=columns)
+        read_master_curve(written(REPEATED), columns=columns)
     jitter = SWEEPS.replace("T", "Temperature") + "19.9,1,2,0.2\n20.3,10,3,0.3\n"
-    assert len(read_master_curve(write(tmp_path, jitter))) == 2
+    assert len(read_master_curve(written(jitter))) == 2
 
 
 HEADER = "f [Hz],E' [MPa],E'' [MPa]\n"
@@ -183,17 +179,69 @@ HEADER = "f [Hz],E' [MPa],E'' [MPa]\n"
         (HEADER + "1,1e305,0.2\n10,3,0.3\n", "line 2: expected a storage between"),
     ],
 )  # fmt: skip
-def test_bad_files_name_path_line_and_value(tmp_path, text, message):
-    path = write(tmp_path, text)
+def test_bad_files_name_path_line_and_value(written, text, message):
+    path = written(text)
     with pytest.raises(FileError, match=message) as caught:
         read_master_curve(path)
     assert str(path) in str(caught.value)
 
 
-def test_missing_and_binary_files(tmp_path):
+def test_missing_and_binary_files(written, tmp_path):
     with pytest.raises(FileError, match=r"none\.txt: cannot be read"):
         read_master_curve(tmp_path / "none.txt")
-    binary = tmp_path / "sheet.xls"
-    binary.write_bytes(b"\xd0\xcf\x11\xe0\x00\x00")
+    binary = written(b"\xd0\xcf\x11\xe0\x00\x00", "sheet.xls")
     with pytest.raises(FileError, match=r"got an old Office file \(\.xls\), to be saved as \.xlsx"):
         read_master_curve(binary)
+
+
+# Of very many rows some of each decade are kept, and read alike.
+
+
+def moduli(hertz):
+    return 5e6 * hertz**0.1, 1e6 * hertz**0.12
+
+
+def write_parts(path, parts):
+    text = []
+    for above, hertz in parts:
+        rows = zip(hertz, *moduli(hertz), strict=True)
+        text += [*above, *("\t".join(f"{value:.7g}" for value in row) for row in rows)]
+    path.write_text("\n".join([*text, ""]))
+    return path
+
+
+TITLES = "f [Hz]\tE' [Pa]\tE'' [Pa]"
+
+
+def test_of_many_rows_some_of_each_decade_are_kept_as_measured(tmp_path):
+    hertz = np.geomspace(1e-2, 1e2, 3 * MOST_ROWS)
+    master = gs.read_master_curve(write_parts(tmp_path / "log.txt", [([TITLES], hertz)]))
+    assert len(master) == 4 * ROWS_PER_DECADE + 1
+    assert master.storage == pytest.approx(moduli(master.frequency)[0], rel=1e-5)
+    assert np.diff(np.log10(master.frequency)) == pytest.approx(0.01, abs=0.006)
+    assert master.notes == (
+        f"401 of {hertz.size} rows kept, at most 100 of a decade of frequency at one temperature",
+    )
+
+
+def test_few_rows_are_all_kept():
+    rows = np.ones((4, MOST_ROWS))
+    assert thinned(rows)[0] is rows
+
+
+def test_temperatures_are_thinned_apart():
+    hertz, kelvin = np.geomspace(1.0, 10.0, MOST_ROWS), np.repeat([280.0, 300.0], MOST_ROWS)
+    rows = np.array([kelvin, np.tile(hertz, 2), *np.ones((2, 2 * MOST_ROWS))])
+    (kept, *_), _ = thinned(rows)
+    assert [np.sum(kept == each) for each in (280.0, 300.0)] == [101, 101]
+
+
+@pytest.mark.parametrize("remark", ["", "-----", "measured by night"])
+def test_the_rows_at_the_end_of_a_long_file_are_read_as_all_others(tmp_path, monkeypatch, remark):
+    rows = np.geomspace(0.1, 50.0, 1000)
+    parts = [([f"T = {degrees} C", TITLES, remark], rows) for degrees in (0, 20)]
+    path = write_parts(tmp_path / "sweeps.txt", parts)
+    short = gs.read_sweeps(path)
+    monkeypatch.setattr(blocks, "_ENOUGH", 10**9)
+    assert short == gs.read_sweeps(path)
+    assert (len(short), len(short.frequency)) == (2, 2000)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from gripscale.core.errors import InputError, RubberWarning
 from gripscale.rubber import MasterCurve, Rubber, fit_prony, fit_prony_report, read_master_curve
+from tests.rubber.truths import curve_of
 from tests.samples import MEASURED_DMA as TREAD
 
 
@@ -19,10 +20,7 @@ def broad_rubber():
 
 
 def sample(rubber, low, high, rows, noise=0.0):
-    omega = np.geomspace(low, high, rows)
-    modulus = rubber.complex_modulus(omega)
-    scatter = np.exp(noise * np.random.default_rng(7).standard_normal((2, rows)))
-    return MasterCurve(omega / 2 / np.pi, modulus.real * scatter[0], modulus.imag * scatter[1])
+    return curve_of(rubber.complex_modulus, np.geomspace(low, high, rows), noise, seed=7)
 
 
 def misfit(fitted, truth, low, high):
@@ -89,9 +87,9 @@ def test_planted_outliers_and_only_these_are_found(noise):
     # noise averages over some 10 rows per free modulus; the ends have one neighbour only
     assert misfit(fitted, truth, 10.0, 1e7) < 2.0 * noise
     assert report.storage_scatter == pytest.approx(noise, rel=0.5)
-    kept = fit_prony_report(MasterCurve(clean.frequency, storage, loss), outlier_threshold=np.inf)[
-        1
-    ]
+    _, kept = fit_prony_report(
+        MasterCurve(clean.frequency, storage, loss), outlier_threshold=np.inf
+    )
     assert kept.outlier_frequency.size == 0
 
 

@@ -21,13 +21,7 @@ from gripscale.rubber.softening import (
 from studies.treads import SERIES_S, sweeps
 from studies.typical_tread import spread
 
-KRAUS = Kraus(
-    storage_ratio=0.25,
-    loss_ratio=0.2,
-    critical_strain=0.02,
-    measured_at=1e-3,
-    deformation="shear",
-)
+KRAUS = Kraus(0.25, 0.2, critical_strain=0.02, measured_at=1e-3, deformation="shear")
 STRAIN = np.geomspace(1e-3, 1.0, 31)
 RUBBER = gs.Rubber(5e6, np.geomspace(3e6, 3e8, 12), np.geomspace(1e-1, 1e-9, 12))
 
@@ -231,10 +225,6 @@ def test_each_compound_lies_within_ninety_per_cent(name):
 
 
 def test_a_result_stores_it_by_its_name():
-    assert HARDER_TREAD.to_dict() == {
-        "kind": "typical_tread",
-        "deviation": 1.0,
-        "deformation": None,
-    }
-    stored = {"softening": HARDER_TREAD.to_dict()}
-    assert Conditions.from_dict(stored).softening == HARDER_TREAD
+    stored = {"kind": "typical_tread", "deviation": 1.0, "deformation": None}
+    assert HARDER_TREAD.to_dict() == stored
+    assert Conditions.from_dict({"softening": stored}).softening == HARDER_TREAD

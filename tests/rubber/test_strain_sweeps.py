@@ -30,16 +30,10 @@ def rows(celsius, hertz, critical):
     ]
 
 
-def write(folder, lines, name="sweeps.csv"):
-    file = folder / name
-    file.write_text("\n".join(lines), encoding="utf-8")
-    return file
-
-
-def test_temperatures_of_a_file_are_sweeps(tmp_path):
+def test_temperatures_of_a_file_are_sweeps(written):
     parts = [rows(29.9, 1.0, 0.02), rows(0.0, 1.0, 0.01), rows(50.0, 1.0, 0.03)]
     mixed = [line for three in zip(*parts, strict=True) for line in three]
-    sweeps = read_strain_sweeps(write(tmp_path, [TITLES, *mixed]))
+    sweeps = read_strain_sweeps(written([TITLES, *mixed]))
     kelvin = [sweep.temperature for sweep in sweeps]
     assert kelvin == pytest.approx([273.15 + 0.05, 303.05 + 0.05, 323.15 + 0.05], abs=5e-3)
     for sweep, critical in zip(sweeps, (0.01, 0.02, 0.03), strict=True):
@@ -50,9 +44,9 @@ def test_temperatures_of_a_file_are_sweeps(tmp_path):
         assert (sweep.amplitude_assumed, sweep.deformation) == (True, None)
 
 
-def test_of_several_frequencies_the_highest_counts(tmp_path):
+def test_of_several_frequencies_the_highest_counts(written):
     lines = [*rows(20.0, 1.0, 0.02), *rows(20.0, 10.0, 0.03), *rows(60.0, 10.0, 0.05)]
-    file = write(tmp_path, [TITLES, *lines])
+    file = written([TITLES, *lines])
     sweeps = read_strain_sweeps(file, deformation="tension")
     assert [round(sweep.frequency) for sweep in sweeps] == [1, 10, 10]
     law = softening_of_sweeps(sweeps)
@@ -65,28 +59,28 @@ def test_of_several_frequencies_the_highest_counts(tmp_path):
     )
 
 
-def test_tables_below_each_other_and_files_with_the_temperature_in_their_name(tmp_path):
+def test_tables_below_each_other_and_files_with_the_temperature_in_their_name(written):
     title = "Shear strain 0-p (%)\tG' (MPa)\tG'' (MPa)"
     table = ["0.1\t3\t0.3", "1\t2\t0.3", "10\t1\t0.2"]
     blocks = [part for t in (20, 40) for part in (f"T = {t} °C", "f = 5 Hz", title, *table)]
-    sweeps = read_strain_sweeps(write(tmp_path, blocks, "blocks.txt"))
+    sweeps = read_strain_sweeps(written(blocks, "blocks.txt"))
     assert [sweep.condition for sweep in sweeps] == ["20.0 °C, 5 Hz", "40.0 °C, 5 Hz"]
     assert sweeps[0].storage == pytest.approx([9e6, 6e6, 3e6])
     assert (sweeps[0].deformation, sweeps[0].amplitude_assumed) == ("shear", False)
-    files = [write(tmp_path, [title, *table], f"payne_{t}C.txt") for t in (-20, 30)]
+    files = [written([title, *table], f"payne_{t}C.txt") for t in (-20, 30)]
     assert [round(s.temperature - 273.15) for s in read_strain_sweeps(files)] == [-20, 30]
 
 
-def test_published_factors_need_no_moduli(tmp_path):
+def test_published_factors_need_no_moduli(written):
     title = "strain [-],f = storage over its small-strain value [-],g = loss over its value [-]"
-    file = write(tmp_path, [title, "0.001,0.95,1.04", "0.01,0.75,1.0", "0.1,0.40,0.65"])
+    file = written([title, "0.001,0.95,1.04", "0.01,0.75,1.0", "0.1,0.40,0.65"])
     with pytest.raises(InputError, match="amplitude must be given"):
         read_strain_sweeps(file)
     (sweep,) = read_strain_sweeps(file, amplitude="single", deformation="tension")
     law = softening_of_sweeps([sweep])
     assert law.factors(0.1).storage == pytest.approx(0.40 / 0.95)
     assert law.factors(0.1).loss == pytest.approx(0.65 / 1.04)
-    normalised = write(tmp_path, ["single strain [%],G'/G'0,G''/G''0", "0.1,1,1", "10,.4,.6"])
+    normalised = written(["single strain [%],G'/G'0,G''/G''0", "0.1,1,1", "10,.4,.6"])
     assert softening_of_sweeps(read_strain_sweeps(normalised)).deformation == "shear"
 
 
@@ -101,29 +95,29 @@ def test_published_factors_need_no_moduli(tmp_path):
         ("uniaxial strain", "E", "tension"),
     ],
 )
-def test_what_titles_say_of_the_deformation(tmp_path, strain, modulus, deformation):
+def test_what_titles_say_of_the_deformation(written, strain, modulus, deformation):
     title = f"{strain} DSA (%),{modulus}' (MPa),{modulus}'' (MPa)"
-    (sweep,) = read_strain_sweeps(write(tmp_path, [title, "2,2,1", "20,1,1"]))
+    (sweep,) = read_strain_sweeps(written([title, "2,2,1", "20,1,1"]))
     assert sweep.deformation == deformation
     assert sweep.strain == pytest.approx([0.01, 0.1])
 
 
-def test_a_strain_measured_again_is_averaged_and_another_specimen_refused(tmp_path):
+def test_a_strain_measured_again_is_averaged_and_another_specimen_refused(written):
     title = "single strain (%),E' (MPa),E'' (MPa)"
-    again = write(tmp_path, [title, "1,4,1", "1,4.41,1", "10,1,1", "10,1,1"])
+    again = written([title, "1,4,1", "1,4.41,1", "10,1,1", "10,1,1"])
     (sweep,) = read_strain_sweeps(again)
     assert sweep.storage == pytest.approx([4.205e6, 1e6])
-    two = write(tmp_path, [title, "1,4,1", "1,8,1", "10,1,1", "10,2,1"])
+    two = written([title, "1,4,1", "1,8,1", "10,1,1", "10,2,1"])
     with pytest.raises(FileError, match=r"one measurement at each strain; got moduli 2 times"):
         read_strain_sweeps(two)
 
 
-def test_rows_without_one_of_several_temperatures_are_refused(tmp_path):
+def test_rows_without_one_of_several_temperatures_are_refused(written):
     lines = ["20,1,0.1,3,1", "20,1,1,2,1", "40,1,0.1,3,1", ",1,1,2,1"]
     with pytest.raises(
         FileError, match=r"a temperature in every row of several; got none in 1 of 4 rows"
     ):
-        read_strain_sweeps(write(tmp_path, [TITLES, *lines]))
+        read_strain_sweeps(written([TITLES, *lines]))
 
 
 def test_sweeps_that_are_no_softening():
@@ -161,18 +155,18 @@ def test_without_the_strain_of_the_master_curve():
     assert list(assumptions(law)) == ["moduli taken as measured at a strain of 0.10% to 0.50%"]
 
 
-def test_assumptions_are_those_of_what_is_not_stated(tmp_path):
-    law = softening_of_sweeps(read_strain_sweeps(write(tmp_path, [TITLES, *rows(0, 1, 0.02)])))
+def test_assumptions_are_those_of_what_is_not_stated(written):
+    law = softening_of_sweeps(read_strain_sweeps(written([TITLES, *rows(0, 1, 0.02)])))
     assert [text.split()[0] for text in assumptions(law)] == ["strain", "moduli", "strain"]
     complete = SofteningTable(law.strain, law.storage, law.loss, 1e-3, "tension")
     assert not list(assumptions(complete))
 
 
-def test_strain_sweeps_are_told_from_frequency_sweeps(tmp_path):
+def test_strain_sweeps_are_told_from_frequency_sweeps(written, tmp_path):
     sweeps = [TITLES, *rows(20.0, 1.0, 0.02), *rows(60.0, 1.0, 0.05)]
-    assert holds_strain_sweeps(write(tmp_path, sweeps))
+    assert holds_strain_sweeps(written(sweeps))
     # a stress-controlled rheometer prints another strain at each frequency
     curve = [f"20,{f:g},{0.1 + 0.1 * at},8,1" for at, f in enumerate(np.geomspace(0.1, 100, 15))]
-    assert not holds_strain_sweeps(write(tmp_path, [TITLES, *curve]))
-    assert not holds_strain_sweeps(write(tmp_path, ["f [Hz],E' [MPa],E'' [MPa]", "1,1,1"]))
+    assert not holds_strain_sweeps(written([TITLES, *curve]))
+    assert not holds_strain_sweeps(written(["f [Hz],E' [MPa],E'' [MPa]", "1,1,1"]))
     assert not holds_strain_sweeps(tmp_path / "none.csv")

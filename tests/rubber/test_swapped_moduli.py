@@ -8,7 +8,7 @@ from gripscale.core.errors import InputError
 from gripscale.rubber import MasterCurve, fit_prony_report, read_master_curve, springpot_modulus
 from gripscale.rubber.prony_report import SwappedModuli
 from tests.rubber.test_sweeps_reader import POLYMER
-from tests.rubber.truths import TREAD, TRUTHS, fractional_zener
+from tests.rubber.truths import TREAD, TRUTHS, curve_of, fractional_zener
 
 
 def turned(curve):
@@ -19,17 +19,15 @@ def polymer():
     return gs.rubber.superpose(gs.read_sweeps(POLYMER), reference_temperature=293.15)
 
 
-def springpots():
-    omega = np.geomspace(1e-2, 1e10, 97)
-    modulus = springpot_modulus(omega)
-    return MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag)
-
-
 def part(curve, rows):
     return MasterCurve(curve.frequency[rows], curve.storage[rows], curve.loss[rows])
 
 
-MEASURED = {"tread": lambda: read_master_curve(TREAD), "polymer": polymer, "SBR": springpots}
+MEASURED = {
+    "tread": lambda: read_master_curve(TREAD),
+    "polymer": polymer,
+    "SBR": lambda: curve_of(springpot_modulus, np.geomspace(1e-2, 1e10, 97)),
+}
 
 
 @pytest.mark.parametrize("name", MEASURED)
@@ -75,16 +73,14 @@ def test_parts_of_the_tread_curve_and_single_sweeps():
 
 def test_a_melt_is_no_exchanged_rubber():
     """One Maxwell element that flows: E' rises with the square of the frequency, E'' with it."""
-    omega = np.geomspace(1e-3, 1e1, 33)
-    modulus = 1e6 * 1j * omega / (1.0 + 1j * omega)
-    assert not SwappedModuli(MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag)).likely
+    fluid = curve_of(lambda w: 1e6 * 1j * w / (1.0 + 1j * w), np.geomspace(1e-3, 1e1, 33))
+    assert not SwappedModuli(fluid).likely
 
 
 def test_what_looks_exchanged_is_said():
     """Where the loss factor passes one, each curve is nearly the other: said, not refused."""
     omega = np.geomspace(1e2, 1e6, 41)
-    modulus = fractional_zener(omega, 1e6, 2e9, 1e-5, 0.6)
-    curve = turned(MasterCurve(omega / 2 / np.pi, modulus.real, modulus.imag))
+    curve = turned(curve_of(lambda w: fractional_zener(w, 1e6, 2e9, 1e-5, 0.6), omega))
     found = SwappedModuli(curve)
     assert found.likely
     assert not found.certain

@@ -34,48 +34,42 @@ def expect(sweeps, factor=1.0, hertz=1.0):
     assert sweeps.loss == pytest.approx(factor * 1e6 * np.array(LOSS))
 
 
-def write(folder, text, encoding="utf-8", name="dma.csv"):
-    path = folder / name
-    path.write_bytes(text.encode(encoding))
-    return path
-
-
 PLAIN = "temperature (C), frequency (Hz), storage modulus E' (MPa), loss modulus E'' (MPa)"
 
 
-def test_rows_in_any_order_are_grouped(tmp_path):
+def test_rows_in_any_order_are_grouped(written):
     shuffled = [rows()[i] for i in (3, 0, 2, 1)]
-    expect(gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *shuffled]))))
+    expect(gs.read_sweeps(written([PLAIN, *shuffled])))
 
 
-def test_fahrenheit_and_kelvin(tmp_path):
+def test_fahrenheit_and_kelvin(written):
     for unit, values in (("F", [68.0, 104.0]), ("K", [293.15, 313.15])):
         text = [f"T ({unit}),f (Hz),E' (Pa),E'' (Pa)", *(f"{v},1,2,1" for v in values)]
-        sweeps = gs.read_sweeps(write(tmp_path, "\n".join(text)))
+        sweeps = gs.read_sweeps(written(text))
         assert sweeps.temperatures == pytest.approx([293.15, 313.15])
 
 
 @pytest.mark.parametrize("known", ["E' (MPa)", "E'' (MPa)", "|E*| (MPa)"])
-def test_loss_factor_with_one_modulus(tmp_path, known):
+def test_loss_factor_with_one_modulus(written, known):
     storage, loss = np.array(STORAGE), np.array(LOSS)
     value = {"E' (MPa)": storage, "E'' (MPa)": loss}.get(known, np.hypot(storage, loss))
     columns = (CELSIUS, HERTZ, value, loss / storage)
     lines = [",".join(repr(float(v)) for v in row) for row in zip(*columns, strict=True)]
     title = f"T (C),f (Hz),{known},tan delta (-)"
-    expect(gs.read_sweeps(write(tmp_path, "\n".join([title, *lines]))))
+    expect(gs.read_sweeps(written([title, *lines])))
 
 
-def test_a_row_with_a_fault_between_tables_is_no_new_table(tmp_path):
+def test_a_row_with_a_fault_between_tables_is_no_new_table(written):
     title, half = "f (Hz);E' (MPa);E'' (MPa)", rows(";", order="fEL")
     parts = [f"T = 20 °C\n{title}", half[0], "1.0;8.O;1.0", "\nT [°C]: 40.1", *half[2:]]
     with pytest.raises(FileError, match=r"line 4: expected a number in column E'; got '8\.O'"):
-        gs.read_sweeps(write(tmp_path, "\n".join(parts)))
+        gs.read_sweeps(written(parts))
 
 
-def test_several_files_with_given_temperatures(tmp_path):
+def test_several_files_with_given_temperatures(written):
     title, half = "f (Hz),E' (MPa),E'' (MPa)", rows(order="fEL")
-    one = write(tmp_path, "\n".join(["T = 20 C", title, *half[:2]]), name="a.csv")
-    other = write(tmp_path, "\n".join(["T = 40.1 C", title, *half[2:]]), name="b.csv")
+    one = written(["T = 20 C", title, *half[:2]], "a.csv")
+    other = written(["T = 40.1 C", title, *half[2:]], "b.csv")
     expect(gs.read_sweeps([one, other]))
 
 
@@ -109,23 +103,23 @@ def test_excel(tmp_path):
         gs.read_sweeps(path)
 
 
-def test_reptate(tmp_path):
+def test_reptate(written):
     shifted = "T=20;Mw=13.5;chem=PI;\n 1.0E0  2.0E6  1.0E6  -10.0\n 6.283185307E0 3.0E6 1.5E6 -20\n"
-    sweeps = gs.read_sweeps(write(tmp_path, shifted, name="PI.tts"))
+    sweeps = gs.read_sweeps(written(shifted, "PI.tts"))
     assert sweeps.temperatures == pytest.approx([293.15])
     assert sweeps.frequency == pytest.approx([0.5 / np.pi, 1.0])
     assert sweeps.storage == pytest.approx([6e6, 9e6])
     assert sweeps.loss == pytest.approx([3e6, 4.5e6])
     titles = "T=0;label=PI;\nFreq\tG'\tG\"\tTemp\tStrain\nrad/s\tPa\tPa\t°C\t%\n"
     one = titles + "  100  3.4801E5  70871 -0.0079 0.967\n"
-    sweeps = gs.read_sweeps(write(tmp_path, one, name="PI.osc"))
+    sweeps = gs.read_sweeps(written(one, "PI.osc"))
     assert sweeps.temperatures == pytest.approx([273.15])
     assert sweeps.loss == pytest.approx([3 * 70871.0])
 
 
-def test_reptate_with_too_few_columns(tmp_path):
+def test_reptate_with_too_few_columns(written):
     with pytest.raises(InputError, match=r"must give the modulus .* the header has frequency, G'$"):
-        gs.read_sweeps(write(tmp_path, "T=20;\n1.0 2.0\n", name="PI.tts"))
+        gs.read_sweeps(written("T=20;\n1.0 2.0\n", "PI.tts"))
 
 
 def test_measured_polymer():
@@ -137,21 +131,24 @@ def test_measured_polymer():
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "names"),
+    ("old", "new", "error", "words"),
     [
-        ("(C)", "", "temperature_unit must be given"),
-        ("temperature (C)", "time (s)", "temperature of the rows must stand in a column"),
-        ("frequency (Hz)", "log t (s)", "columns must give the frequency"),
+        ("(C)", "", InputError, "temperature_unit must be given"),
+        ("temperature (C)", "time (s)", InputError, "of the rows must stand in a column"),
+        ("frequency (Hz)", "log t (s)", InputError, "columns must give the frequency"),
+        ("20.1", "", FileError, r"line 3: expected a temperature in every row; .* 1 of 4"),
+        ("0.75", "-0.75", FileError, r"line 5: expected a loss above zero.* got -0.75"),
+        ("19.9", "-300", FileError, "line 2: expected a temperature above absolute zero"),
     ],
 )
-def test_what_is_not_stated_is_asked_for(tmp_path, old, new, names):
-    path = write(tmp_path, "\n".join([PLAIN.replace(old, new), *rows()]))
-    with pytest.raises(InputError, match=names):
+def test_what_is_missing_is_asked_for_and_what_is_bad_is_named(written, old, new, error, words):
+    path = written("\n".join([PLAIN, *rows()]).replace(old, new))
+    with pytest.raises(error, match=words):
         gs.read_sweeps(path)
 
 
-def test_what_is_given_goes_before_the_file(tmp_path):
-    path = write(tmp_path, "\n".join(["a,b,c,d", *rows()]))
+def test_what_is_given_goes_before_the_file(written):
+    path = written(["a,b,c,d", *rows()])
     named = {"temperature": "a", "frequency": 2, "storage": "c", "loss": "d"}
     units = {"temperature_unit": "C", "frequency_unit": "rad/s", "modulus_unit": "kPa"}
     expect(gs.read_sweeps(path, columns=named, modulus="G", **units), 3e-3, 0.5 / np.pi)
@@ -159,9 +156,9 @@ def test_what_is_given_goes_before_the_file(tmp_path):
         gs.read_sweeps(path, columns={"storag": "c"})
 
 
-def test_two_columns_that_mean_the_same_are_asked_about(tmp_path):
+def test_two_columns_that_mean_the_same_are_asked_about(written):
     lines = [f"{row},{row.split(',')[2]}1" for row in rows()]
-    path = write(tmp_path, "\n".join([f"{PLAIN}, E' corrected (MPa)", *lines]))
+    path = written([f"{PLAIN}, E' corrected (MPa)", *lines])
     with pytest.raises(InputError, match="columns must say which is the storage, because 2 titles"):
         gs.read_sweeps(path)
     assert gs.read_sweeps(path, columns={"storage": 3}).storage[0] == 8e6
@@ -174,43 +171,33 @@ def moduli_at(celsius, scale=1.0):
 
 
 @pytest.mark.parametrize("titles", ["f [Hz],E' [MPa],E'' [MPa]", ""])
-def test_sweeps_without_their_temperatures_are_no_master_curve(tmp_path, titles):
+def test_sweeps_without_their_temperatures_are_no_master_curve(written, titles):
     units = {} if titles else {"frequency_unit": "Hz", "modulus_unit": "MPa", "modulus": "E"}
     table = [*moduli_at(-20.0), *moduli_at(0.0), *moduli_at(20.0)]
     words = (
         "the same frequencies again with moduli 1e\\+02 times apart.* add a column with the temp"
     )
     with pytest.raises(FileError, match=words):
-        gs.read_master_curve(write(tmp_path, "\n".join([titles, *table])), **units)
+        gs.read_master_curve(written([titles, *table]), **units)
 
 
-def test_two_specimens_of_one_master_curve_are_no_sweeps(tmp_path):
+def test_two_specimens_of_one_master_curve_are_no_sweeps(written):
     table = [*moduli_at(20.0), *moduli_at(20.0, 1.3)]
-    path = write(tmp_path, "\n".join(["f [Hz],E' [MPa],E'' [MPa]", *table]))
+    path = written(["f [Hz],E' [MPa],E'' [MPa]", *table])
     assert len(gs.read_master_curve(path)) == 8
 
 
-def test_moduli_far_apart_at_one_frequency_and_temperature_are_refused(tmp_path):
+def test_moduli_far_apart_at_one_frequency_and_temperature_are_refused(written):
     lines = [f"{t},{row}" for t in (0, 20) for s in (1.0, 3.0) for row in moduli_at(t, s)]
-    path = write(tmp_path, "\n".join(["T [C],f [Hz],E' [MPa],E'' [MPa]", *lines]))
+    path = written(["T [C],f [Hz],E' [MPa],E'' [MPa]", *lines])
     assert holds_sweeps(path)
     with pytest.raises(FileError, match=r"one measurement at each .* got moduli 3 times apart"):
         gs.read_sweeps(path)
 
 
-def test_missing_values_are_left_out_and_bad_ones_named(tmp_path):
-    lines = rows()
-    gone = [lines[0].replace("8.0", "n/a"), *lines[1:]]
-    assert len(gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *gone]))).storage) == 3
-    unnamed = [lines[0], lines[1].replace("20.1", ""), *lines[2:]]
-    with pytest.raises(FileError, match=r"line 3: expected a temperature in every row; .* 1 of 4"):
-        gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *unnamed])))
-    bad = [*lines[:3], lines[3].replace("0.75", "-0.75")]
-    with pytest.raises(FileError, match=r"line 5: expected a loss above zero.* got -0.75"):
-        gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *bad])))
-    cold = [lines[0].replace("19.9", "-300"), *lines[1:]]
-    with pytest.raises(FileError, match="line 2: expected a temperature above absolute zero"):
-        gs.read_sweeps(write(tmp_path, "\n".join([PLAIN, *cold])))
+def test_missing_values_are_left_out(written):
+    text = "\n".join([PLAIN, *rows()]).replace("8.0", "n/a")
+    assert len(gs.read_sweeps(written(text)).storage) == 3
 
 
 def ramp(frequency, offset):
@@ -238,11 +225,11 @@ def test_no_row_across_a_gap_of_a_ramp():
     assert found == pytest.approx([0.0, 5.0, 30.0, 35.0, 40.0])
 
 
-def test_master_curves_and_sweeps_are_told_apart(tmp_path):
+def test_master_curves_and_sweeps_are_told_apart(written):
     assert holds_sweeps(POLYMER)
     assert not holds_sweeps(DATA / "measured_dma.txt")
     shifted = [f"{t},{10.0**i},{8 + i},1" for i, t in enumerate([40, 40, 20, 20, 0, 0])]
-    assert not holds_sweeps(write(tmp_path, "\n".join([PLAIN, *shifted])))
+    assert not holds_sweeps(written([PLAIN, *shifted]))
 
 
 @pytest.mark.parametrize(
@@ -263,16 +250,16 @@ def test_temperatures_stated_above_a_table():
     assert with_primes('f;E";"Modul E"') == "f;E'';\"Modul E\""
 
 
-def test_strain_sweep(tmp_path):
+def test_strain_sweep(written):
     title = "Strain p-p (%), G' (MPa), G'' (MPa), Frequency (Hz), T (C)"
     lines = [title, "2.0,2.0,0.3,10,60.1", "0.2,3.0,0.2,10.05,59.9"]
-    (sweep,) = read_strain_sweeps(write(tmp_path, "\n".join(lines)))
+    (sweep,) = read_strain_sweeps(written(lines, "dma.csv"))
     assert sweep.strain == pytest.approx([0.001, 0.01])
     assert sweep.storage == pytest.approx([9e6, 6e6])
     assert (sweep.deformation, sweep.name) == ("shear", "dma")
     assert sweep.temperature == pytest.approx(333.15)
     assert sweep.frequency == pytest.approx(10.0, rel=0.01)
-    unknown = write(tmp_path, "\n".join([title, "2,2,1,n/a,-", "1,3,1,n/a,-"]))
+    unknown = written([title, "2,2,1,n/a,-", "1,3,1,n/a,-"])
     (bare,) = read_strain_sweeps(unknown)
     assert bare.frequency is None
     assert bare.temperature is None

@@ -1,7 +1,5 @@
 """Rubbers whose E*(w) is known at every frequency, cut where a measurement might end."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -38,9 +36,16 @@ class Truth:
     ) -> MasterCurve:
         """Return a master curve with normally distributed relative errors."""
         omega = np.geomspace(low, high, round(per_decade * np.log10(high / low)) + 1)
-        modulus = self.modulus(omega)
-        scatter = np.exp(noise * np.random.default_rng(seed).standard_normal((2, len(omega))))
-        return MasterCurve(omega / 2 / np.pi, modulus.real * scatter[0], modulus.imag * scatter[1])
+        return curve_of(self.modulus, omega, noise, seed)
+
+
+def curve_of(
+    modulus: Modulus, omega: NDArray[np.float64], noise: float = 0.0, seed: int = 0
+) -> MasterCurve:
+    """Return a master curve at angular frequencies [rad/s] with relative errors."""
+    values = modulus(omega)
+    scatter = np.exp(noise * np.random.default_rng(seed).standard_normal((2, len(omega))))
+    return MasterCurve(omega / 2 / np.pi, values.real * scatter[0], values.imag * scatter[1])
 
 
 def fractional_zener(

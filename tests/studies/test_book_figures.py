@@ -1,7 +1,5 @@
 """The pictures that explain the model come from one script, and their pages quote its numbers."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The parts of the study of chain and direct contact, on numbers by hand."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The same lines in the block and in the half-space: what finite strain changes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,20 +1,12 @@
 """The parts of the study of isotropic maps, on surfaces and numbers by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from gripscale.surface import HeightMap
 from studies.isotropic_maps import tables
 from studies.isotropic_maps.setting import AREA, FRICTION, SMALLEST
-from studies.isotropic_maps.solved import (
-    Numbers,
-    OfMap,
-    cut_off,
-    statistics,
-    turned_by_45_degrees,
-)
+from studies.isotropic_maps.solved import Numbers, OfMap, cut_off, statistics, turned_by_45_degrees
 
 POINTS = 64
 STEP = 1e-4

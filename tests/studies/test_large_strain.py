@@ -1,7 +1,5 @@
 """The law of large strain is that of its windows, and holds windows that it was not fitted to."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

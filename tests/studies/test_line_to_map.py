@@ -1,7 +1,5 @@
 """The parts of the study of the law from lines to maps, on small maps and numbers by hand."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The page beside measured friction states what its study finds."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

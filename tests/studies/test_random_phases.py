@@ -1,7 +1,5 @@
 """Surfaces of the same spectrum with random phases."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The strain of a scale: lines, the sweeps' law, and a few contacts against both judges."""
 
-from __future__ import annotations
-
 from unittest.mock import patch
 
 import numpy as np

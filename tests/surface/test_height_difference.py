@@ -5,11 +5,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from gripscale.core.errors import InputError
-from gripscale.surface import (
-    HeightDifference,
-    height_difference,
-    self_affine_profile,
-)
+from gripscale.surface import HeightDifference, height_difference, self_affine_profile
 from gripscale.surface.height_difference import find_plateau, log_weights
 
 from .surface_cases import profile_of

@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 
 import gripscale as gs
+from gripscale.case_file import SurfaceTable
+from gripscale.case_file.prepare import raw_surface
+from gripscale.case_file.proposals import UNITS_OF_SURFACE, open_surface, surface_proposal
 from gripscale.core.errors import FileError, GripscaleError, InputError
 from gripscale.io.text_table import read_text
 from gripscale.surface.read import _topography
@@ -95,10 +98,9 @@ PROFILES = {
 
 
 @pytest.mark.parametrize("kind", PROFILES)
-def test_a_profile_is_read_at_first_try(tmp_path, kind):
-    path = tmp_path / ("road.erd" if kind == "road profile" else "road.txt")
-    path.write_text(PROFILES[kind], encoding="utf-8")
-    profile = gs.read_profile(path)
+def test_a_profile_is_read_at_first_try(written, kind):
+    name = "road.erd" if kind == "road profile" else "road.txt"
+    profile = gs.read_profile(written(PROFILES[kind], name))
     assert profile.step == pytest.approx(STEP, rel=1e-4)
     np.testing.assert_allclose(profile.z, HEIGHTS, atol=2e-9)
 
@@ -111,9 +113,8 @@ def test_a_profile_is_read_at_first_try(tmp_path, kind):
         ("Länge (mm),Höhe (mm)", "cp1252"),
     ],
 )
-def test_code_pages(tmp_path, titles, code):
-    path = tmp_path / "road.csv"
-    path.write_bytes(f"{titles}\n{rows()}\n".encode(code))
+def test_code_pages(written, titles, code):
+    path = written(f"{titles}\n{rows()}\n".encode(code))
     np.testing.assert_allclose(gs.read_profile(path).z, HEIGHTS, atol=2e-9)
     assert read_text(path).startswith(titles)
 
@@ -138,32 +139,27 @@ def test_pairs_of_distances_and_heights(tmp_path):
     assert steps == pytest.approx([STEP, 2.0 * STEP, 2.0 * STEP])
 
 
-def test_a_unit_that_is_not_known_is_never_proposed_over(tmp_path):
-    from gripscale.case_file.proposals import UNITS_OF_SURFACE, open_surface
-
-    path = tmp_path / "road.csv"
-    path.write_text("x [furlong],z [mm]\n" + rows())
+def test_a_unit_that_is_not_known_is_never_proposed_over(written):
+    path = written("x [furlong],z [mm]\n" + rows())
     with pytest.raises(FileError, match="'furlong', which is no known unit of length"):
         open_surface(path, None, UNITS_OF_SURFACE)
 
 
 @pytest.mark.parametrize("blank", ["\u202f", "\u00a0", " "])
-def test_thousands_parted_by_blanks(tmp_path, blank):
+def test_thousands_parted_by_blanks(written, blank):
     lines = rows(z=1e-7, separator=";", form="{:.1f}").replace(".", ",").splitlines()
     parted = [
         line if len(line.partition(";")[2].lstrip("-")) < 6 else f"{line[:-5]}{blank}{line[-5:]}"
         for line in lines
     ]
-    path = tmp_path / "road.csv"
-    path.write_text("Distance (mm);Hauteur (nm)\n" + "\n".join(parted), encoding="utf-8")
+    path = written("Distance (mm);Hauteur (nm)\n" + "\n".join(parted))
     assert any(blank in line for line in parted)
     np.testing.assert_allclose(gs.read_profile(path).z, 1e-2 * HEIGHTS, atol=1e-10)
 
 
 @pytest.mark.parametrize("suffix", ["", ".prf", ".xlsx", ".dat"])
-def test_a_text_is_one_whatever_its_name(tmp_path, suffix):
-    path = tmp_path / f"road{suffix}"
-    path.write_text("x [mm],z [mm]\n" + rows())
+def test_a_text_is_one_whatever_its_name(written, suffix):
+    path = written("x [mm],z [mm]\n" + rows(), f"road{suffix}")
     np.testing.assert_allclose(gs.read_profile(path).z, HEIGHTS, atol=2e-9)
 
 
@@ -193,10 +189,9 @@ NEEDY = {
 
 
 @pytest.mark.parametrize("kind", NEEDY)
-def test_what_a_file_leaves_out_is_asked_for(tmp_path, kind):
+def test_what_a_file_leaves_out_is_asked_for(written, kind):
     text, options, words, missing = NEEDY[kind]
-    path = tmp_path / "road.csv"
-    path.write_text(text)
+    path = written(text)
     with pytest.raises(FileError, match=words) as refused:
         gs.read_profile(path)
     assert refused.value.missing == missing
@@ -206,9 +201,8 @@ def test_what_a_file_leaves_out_is_asked_for(tmp_path, kind):
         assert "channel" in options or profile.step == pytest.approx(STEP)
 
 
-def test_one_of_several_columns_of_heights(tmp_path):
-    path = tmp_path / "road.csv"
-    path.write_text(TRACKS)
+def test_one_of_several_columns_of_heights(written):
+    path = written(TRACKS)
     for channel in ("Right", 3):
         found = gs.read_profile(path, channel=channel)
         np.testing.assert_allclose(found.z, 2.0 * HEIGHTS, atol=2e-9)
@@ -260,45 +254,38 @@ MAPS = {
 
 
 @pytest.mark.parametrize("kind", MAPS)
-def test_a_map_is_read_at_first_try(tmp_path, kind):
-    path = tmp_path / "map.txt"
-    path.write_text(MAPS[kind], encoding="utf-8")
-    surface = gs.read_map(path)
+def test_a_map_is_read_at_first_try(written, kind):
+    surface = gs.read_map(written(MAPS[kind], "map.txt"))
     assert surface.x[1] - surface.x[0] == pytest.approx(1e-4)
     assert surface.y[1] - surface.y[0] == pytest.approx(1e-4)
     np.testing.assert_allclose(surface.z, MAP.T, atol=2e-12)
 
 
-def test_distances_at_the_edge_of_a_table_are_no_heights(tmp_path):
-    path = tmp_path / "map.csv"
-    rows = (
-        f"{0.1 * j:.1f},{line}" for j, line in enumerate(table(1e-3, separator=",").split("\n"))
-    )
-    path.write_text("y/x," + ",".join(f"{0.1 * i:.1f}" for i in range(24)) + "\n" + "\n".join(rows))
+def test_distances_at_the_edge_of_a_table_are_no_heights(written):
+    lines = table(1e-3, separator=",").split("\n")
+    titles = "y/x," + ",".join(f"{0.1 * i:.1f}" for i in range(24))
+    path = written("\n".join([titles, *(f"{0.1 * j:.1f},{line}" for j, line in enumerate(lines))]))
     with pytest.raises(FileError, match="column 1, which goes in equal steps"):
         gs.read_map(path, step=1e-4, z_unit="mm")
 
 
-def test_a_simple_field_of_gwyddion(tmp_path):
-    path = tmp_path / "map.gsf"
+def test_a_simple_field_of_gwyddion(written):
     sizes = "XRes = 24\nYRes = 20\nXReal = 0.0024\nYReal = 0.002\nXYUnits = m\nZUnits = nm\n"
     head = f"Gwyddion Simple Field 1.0\n{sizes}".encode()
     head += bytes(4 - len(head) % 4)
     heights = (1e9 * MAP).astype("<f4").tobytes()
-    path.write_bytes(head + heights)
-    surface = gs.read_map(path)
+    surface = gs.read_map(written(head + heights, "map.gsf"))
     assert surface.step == pytest.approx((1e-4, 1e-4))
     np.testing.assert_allclose(surface.z, MAP.T, rtol=1e-6)
-    path.write_bytes(head + heights[:-4])
     with pytest.raises(FileError, match="expected a simple field of Gwyddion"):
-        gs.read_map(path)
+        gs.read_map(written(head + heights[:-4], "map.gsf"))
 
 
 @pytest.mark.parametrize("name", ["map.sdf", "map.txt"])
-def test_a_map_with_a_trailer(tmp_path, name):
-    path = tmp_path / name
+def test_a_map_with_a_trailer(written, name):
     head = "aISO-1.0\nNumPoints = 24\nNumProfiles = 20\nXscale = 1e-4\nYscale = 1e-4\nZscale = 1e-6"
-    path.write_text(f"{head}\n*\n{table(1e-6)}\n*\n< PartName > plate 2 < /PartName >\n*\n")
+    text = f"{head}\n*\n{table(1e-6)}\n*\n< PartName > plate 2 < /PartName >\n*\n"
+    path = written(text, name)
     np.testing.assert_allclose(gs.read_map(path).z, MAP.T, atol=2e-12)
 
 
@@ -319,13 +306,8 @@ def test_a_spectrum_is_named_as_one(tmp_path, titles):
         gs.read_profile(path)
 
 
-def test_tracks_are_profiles_of_one_surface(tmp_path):
-    from gripscale.case_file import SurfaceTable
-    from gripscale.case_file.prepare import raw_surface
-    from gripscale.case_file.proposals import surface_proposal
-
-    path = tmp_path / "road.csv"
-    path.write_text(TRACKS)
+def test_tracks_are_profiles_of_one_surface(written):
+    path = written(TRACKS, "road.csv")
     keys = surface_proposal([path], [str(path)]).keys
     assert keys["channel"] == ["Left", "Right"]
     left, right = raw_surface(SurfaceTable(**keys))
@@ -335,17 +317,15 @@ def test_tracks_are_profiles_of_one_surface(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["map.nms", "map", "map.dat"])
-def test_an_instrument_file_is_known_without_its_name(tmp_path, name):
+def test_an_instrument_file_is_known_without_its_name(written, name):
     """The layout of NanoFocus has no first bytes of its own: numbers at fixed places."""
     low, high = float(MAP.min()), float(MAP.max())
     head = bytearray(3468)
     struct.pack_into("<dd", head, 16, 1e6 * low, 1e6 * high)  # um
     struct.pack_into("<IIdd", head, 1368, *MAP.T.shape, 0.1, 0.1)  # mm
     levels = np.rint((MAP - low) / (high - low) * 65534).astype("<u2")
-    path = tmp_path / name
-    path.write_bytes(bytes(head) + levels.tobytes())
     pytest.importorskip("SurfaceTopography")
-    surface = gs.read_map(path)
+    surface = gs.read_map(written(bytes(head) + levels.tobytes(), name))
     assert surface.x[1] - surface.x[0] == pytest.approx(1e-4)
     np.testing.assert_allclose(surface.z, MAP.T, atol=(high - low) / 65534)
 

@@ -1,3 +1,5 @@
+"""Profiles and height maps: what they keep, and what they refuse."""
+
 from dataclasses import replace
 
 import numpy as np
@@ -6,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gripscale.core.errors import InputError
-from gripscale.surface import Measured, Profile, height_difference
+from gripscale.surface import HeightMap, Measured, Profile, height_difference
 from gripscale.surface.profile import GRID_TOLERANCE, even_grid, uneven_step
 
 X = 1e-4 * np.arange(20)
@@ -167,3 +169,85 @@ def test_departures_within_the_tolerance_hardly_count():
     # 20000 departures know their variance to a percent; their cross terms cancel to 4e-4
     assert first(place + off) / first(place) == pytest.approx(1.0 + added, abs=5e-4)
     assert added < 0.002
+
+
+ALONG, ACROSS = np.arange(20) * 1e-4, np.arange(30) * 2e-4
+HEIGHTS = np.outer(np.sin(ALONG * 1e4), np.cos(ACROSS * 1e4))
+
+
+def test_a_map_knows_its_steps_and_gaps():
+    z = HEIGHTS.copy()
+    z[3, 4] = np.nan
+    surface = HeightMap(ALONG, ACROSS, z, name="slab")
+    assert surface.step == pytest.approx((1e-4, 2e-4))
+    assert surface.length == pytest.approx((19e-4, 58e-4))
+    assert surface.missing == 1
+    assert repr(surface).splitlines() == [
+        "HeightMap",
+        "  name  slab",
+        "  x     20 points, step 100 um, length 1.9 mm",
+        "  y     30 points, step 200 um, length 5.8 mm",
+        "  z     20 x 30 values from -1 m to 1 m, rms 486.5 mm, 1 missing",
+    ]
+
+
+def test_lines_of_a_map():
+    z = HEIGHTS.copy()
+    z[:, 4] = np.nan
+    z[2, 5] = np.nan
+    surface = HeightMap(ALONG, ACROSS, z, name="slab", source="slab.sur")
+    along_x, along_y = surface.lines(), surface.lines("y")
+    assert (len(along_x), len(along_y)) == (29, 20)  # the one without heights is left out
+    assert along_x[4].name == "slab, line 5 along x"
+    assert along_x[4].source == "slab.sur, line 5 along x"
+    assert along_x[4].missing == 1
+    np.testing.assert_array_equal(along_x[4].x, ALONG)
+    np.testing.assert_array_equal(along_y[7].x, ACROSS)
+    np.testing.assert_array_equal(along_y[7].z, z[7])
+    assert HeightMap(ALONG, ACROSS, HEIGHTS).lines()[3].name == "line 3 along x"
+    with pytest.raises(InputError, match="direction must be one of x, y; got 'z'"):
+        surface.lines("z")
+
+
+def test_a_map_turns_by_a_quarter():
+    surface = HeightMap(ALONG, ACROSS, HEIGHTS + ALONG[:, None], name="slab")
+    turned = surface.turned()
+    assert turned.z.shape == (30, 20)
+    np.testing.assert_array_equal(turned.x, ACROSS)
+    # a point at (x, y) is at (y, -x) now
+    i, j = 3, 8
+    at = np.argmin(np.abs(turned.y + ALONG[i]))
+    assert turned.z[j, at] == surface.z[i, j]
+    whole = turned.turned().turned().turned()
+    np.testing.assert_allclose(whole.x, ALONG)
+    np.testing.assert_array_equal(whole.z, surface.z)
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "z", "words"),
+    [
+        (ALONG[:1], ACROSS, HEIGHTS[:1], "at least 16 points a way; got 1 along x"),
+        (ALONG, ACROSS[:15], HEIGHTS[:, :15], "got 15 along y"),
+        (
+            ALONG,
+            ACROSS,
+            HEIGHTS.T,
+            r"z must have shape \(20, 30\), heights along x and then y; got \(30, 20\)",
+        ),
+        (ALONG, ACROSS, HEIGHTS[0], "two dimensions; got 1"),
+        (ALONG, ACROSS, "rough", "z must be a table of heights"),
+        (
+            ALONG,
+            ACROSS,
+            np.full(HEIGHTS.shape, np.nan),
+            "some heights; got 600 points, all missing",
+        ),
+        (ALONG, ACROSS, np.where(HEIGHTS > 0.9, np.inf, HEIGHTS), "numbers or NaN.*got inf"),
+        (ALONG**2, ACROSS, HEIGHTS, "x must increase in equal steps"),
+        (ALONG[::-1], ACROSS, HEIGHTS, "x must increase"),
+        (np.where(ALONG > 0, ALONG, np.nan), ACROSS, HEIGHTS, "x must be a list of finite numbers"),
+    ],
+)
+def test_what_is_no_map_is_refused(x, y, z, words):
+    with pytest.raises(InputError, match=words):
+        HeightMap(x, y, z)

@@ -1,7 +1,9 @@
-"""Maps of surveyors, scanners and workbooks: triangles, grids of ESRI, points; spacings in headers.
+"""Files of surveyors, scanners, workbooks and instruments, with spacings in headers.
 
 Files are printed with six digits or single precision: read right to 1e-6 of the largest number.
 """
+
+import time
 
 import numpy as np
 import openpyxl
@@ -106,11 +108,9 @@ def test_triangles_above_each_other_are_no_surface(tmp_path, corners):
 
 
 @pytest.mark.parametrize("content", [b"solid\nendsolid\n", b"x" * 90, b"vertex 1 2 nan " * 3])
-def test_a_file_without_triangles_is_refused(tmp_path, content):
-    path = tmp_path / "map.stl"
-    path.write_bytes(content)
+def test_a_file_without_triangles_is_refused(written, content):
     with pytest.raises(FileError, match=r"map\.stl: expected triangles of three vertices"):
-        gs.read_map(path, x_unit="mm")
+        gs.read_map(written(content, "map.stl"), x_unit="mm")
 
 
 ESRI = "ncols 20\nnrows 17\nxllcorner 350000.5\nyllcorner 5600000\ncellsize 0,2\nNODATA_value -99\n"
@@ -123,16 +123,14 @@ def esri(head=ESRI, code="-99"):
     return head + "\n".join(" ".join(row) for row in rows[::-1])
 
 
-def test_a_grid_of_esri(tmp_path):
-    path = tmp_path / "road.asc"
-    path.write_text(esri())
-    surface = gs.read_map(path, **MM)
+def test_a_grid_of_esri(written):
+    surface = gs.read_map(written(esri(), "road.asc"), **MM)
     assert surface.step == pytest.approx((0.2e-3, 0.2e-3))
     missing = np.zeros(Z.shape, dtype=bool)
     missing[4, 3] = True
     np.testing.assert_array_equal(np.isnan(surface.z), missing)
     np.testing.assert_allclose(surface.z[~missing], 1e-3 * Z[~missing], rtol=DIGITS)
-    path.write_text(esri(ESRI.replace("cellsize 0,2", "dx 0.2\ndy 0.3")))
+    path = written(esri(ESRI.replace("cellsize 0,2", "dx 0.2\ndy 0.3")), "road.asc")
     assert gs.read_map(path, **MM).step == pytest.approx((0.2e-3, 0.3e-3))
 
 
@@ -144,9 +142,8 @@ def test_a_grid_of_esri(tmp_path):
         ("cellsize 0,2", "cellsize 0", "expected cellsize finite and above zero; got 0"),
     ],
 )
-def test_a_faulty_grid_is_refused(tmp_path, old, new, words):
-    path = tmp_path / "road.asc"
-    path.write_text(esri(ESRI.replace(old, new)))
+def test_a_faulty_grid_is_refused(written, old, new, words):
+    path = written(esri(ESRI.replace(old, new)), "road.asc")
     with pytest.raises(FileError, match=words):
         gs.read_map(path, **MM)
     with pytest.raises(FileError, match=r"road\.asc: the file names no unit of length"):
@@ -154,7 +151,7 @@ def test_a_faulty_grid_is_refused(tmp_path, old, new, words):
 
 
 @pytest.mark.parametrize("suffix", [".xyz", ".asc"])
-def test_points_far_from_the_origin_with_colours(tmp_path, suffix):
+def test_points_far_from_the_origin_with_colours(written, suffix):
     """Coordinates of a survey, a tenth of the points left out; a profile is a line of the map."""
     rows = [
         f"{350000 + x:.3f} {5600000 + y:.3f} {Z[i, j]:.6g} 120 130 140"
@@ -162,10 +159,9 @@ def test_points_far_from_the_origin_with_colours(tmp_path, suffix):
         for i, x in enumerate(X)
         if (i * j) % 10 != 9
     ]
-    path = tmp_path / f"points{suffix}"
     head = [] if suffix == ".asc" else ["//X Y Z R G B"]
     cut = [row.rsplit(" ", 3)[0] for row in rows] if suffix == ".asc" else rows
-    path.write_text("\n".join([*head, *cut]))
+    path = written([*head, *cut], f"points{suffix}")
     surface = gs.read_map(path, **MM)
     i, j = np.indices(Z.shape)
     np.testing.assert_array_equal(np.isnan(surface.z), (i * j) % 10 == 9)
@@ -219,9 +215,8 @@ COLUMN = "\n".join(f"{height:.6g}" for height in Z.T.ravel())
 HEAD = "Profilometer\n# Spacing: 0.2 mm\n# Height unit: mm\n"
 
 
-def test_one_column_below_its_spacing(tmp_path):
-    path = tmp_path / "line.txt"
-    path.write_text(HEAD + COLUMN)
+def test_one_column_below_its_spacing(written):
+    path = written(HEAD + COLUMN, "line.txt")
     profile = gs.read_profile(path)
     assert profile.step == pytest.approx(0.2e-3)
     np.testing.assert_allclose(profile.z, 1e-3 * Z.T.ravel(), rtol=DIGITS)
@@ -238,3 +233,96 @@ def test_a_table_below_its_spacings(tmp_path):
     surface = gs.read_map(path)
     assert surface.step == pytest.approx((0.2e-3, 0.3e-3))
     np.testing.assert_allclose(surface.z, 1e-3 * Z, rtol=DIGITS)
+
+
+# Layouts of instruments: read right, or refused with the option that cures it.
+
+STEP = 50e-6
+HEIGHTS = 1e-3 * np.sin(np.arange(200) / 7.0)
+"""Heights of a profile [m], printed in mm with four decimals: right to half of 1e-7."""
+MAP = np.round(1e4 * np.random.default_rng(2).standard_normal((24, 18)))
+"""Counts of a map, of 24 points along x."""
+
+
+def test_a_profile_in_a_workbook(tmp_path):
+    book = openpyxl.Workbook()
+    sheet = book.active
+    sheet.append(["Distance [mm]", "Height [um]"])
+    for i, height in enumerate(HEIGHTS):
+        sheet.append([1e3 * STEP * i, 1e6 * height])
+    book.save(tmp_path / "road.xlsx")
+    profile = gs.read_profile(tmp_path / "road.xlsx")
+    assert profile.step == pytest.approx(STEP)
+    np.testing.assert_allclose(profile.z, HEIGHTS, atol=0.5001e-7)
+
+
+@pytest.mark.parametrize("decimal", [".", ","])
+@pytest.mark.parametrize("title", ["", "Height (mm)\n"])
+def test_one_column_of_heights_needs_its_step(written, title, decimal):
+    body = [f"{1e3 * height:.4f}".replace(".", decimal) for height in HEIGHTS]
+    body[3] = "nan"
+    path = written(title + "\n".join(body))
+    with pytest.raises(FileError, match="got one column of numbers: give step, the dist") as caught:
+        gs.read_profile(path)
+    assert caught.value.missing == "step"
+    profile = gs.read_profile(path, step=STEP, z_unit=None if title else "mm")
+    assert profile.step == pytest.approx(STEP)
+    expected = np.where(np.arange(200) == 3, np.nan, HEIGHTS)
+    np.testing.assert_allclose(profile.z, expected, atol=0.5001e-7)
+
+
+def test_a_step_beside_distances_is_refused(written):
+    path = written(["x [mm];z [mm]", *(f"{0.05 * i:.2f};1" for i in range(20))])
+    with pytest.raises(InputError, match=r"step must be left out; .* states where its points are"):
+        gs.read_profile(path, step=STEP)
+
+
+HEADER = """\
+aISO-1.0
+ManufacID   = HOUSE
+NumPoints   = 24
+NumProfiles = 18
+Xscale      = 1.5e-6
+Yscale      = 2.5e-6
+Zscale      = 1e-9
+Compression = 0
+DataType    = 6
+CheckType   = 0
+*
+"""
+
+
+@pytest.mark.parametrize("width", [1, 3, 24])
+@pytest.mark.parametrize("sign", ["=", ":", " "])
+def test_a_map_in_sdf_has_its_lengths_in_its_header(written, width, sign):
+    """Profile by profile along x; lines of three counts look like points to other readers."""
+    counts = [f"{count:g}" for count in MAP.T.ravel()]
+    counts[30] = "BAD"  # point 6 of the second profile
+    body = [" ".join(counts[i : i + width]) for i in range(0, len(counts), width)]
+    text = HEADER.replace("=", sign) + "\n".join(body) + "\n*\n"
+    surface = gs.read_map(written(text, "map.sdf"))
+    assert surface.step == pytest.approx((1.5e-6, 2.5e-6))
+    expected = 1e-9 * MAP
+    expected[6, 1] = np.nan
+    np.testing.assert_allclose(surface.z, expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("Xscale      = 1.5e-6\n", "", "the number Xscale in its header; got none"),
+        ("1.5e-6", "wide", "the number Xscale in its header; got 'wide'"),
+        ("2.5e-6", "0", "expected Yscale finite and above zero"),
+        ("2.5e-6", "2e666", "expected Yscale finite and above zero"),
+        ("2.5e-6", f"1{400 * '0'}", r"Yscale finite and above zero; got 10{,120}\.\.\.$"),
+        ("= 24", "= 25", "expected 25 x 18 heights by its header; got 432"),
+        ("= 18", "= 17.5", "expected a whole number as NumProfiles; got 17.5"),
+    ],
+)
+def test_a_faulty_sdf_is_refused_at_once(written, old, new, words):
+    body = "\n".join(f"{count:g}" for count in MAP.T.ravel())
+    path = written(HEADER.replace(old, new) + body, "map.sdf")
+    start = time.perf_counter()
+    with pytest.raises(FileError, match=words):
+        gs.read_map(path)
+    assert time.perf_counter() - start < 1.0

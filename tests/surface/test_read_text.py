@@ -9,12 +9,6 @@ from .surface_cases import ROAD
 ROWS = [(0.5 * i, (-1) ** i * 0.25 * i) for i in range(20)]
 
 
-def written(tmp_path, text, name="line.txt"):
-    path = tmp_path / name
-    path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return path
-
-
 def table(rows=ROWS, header="x [mm],z [um]\n", separator=",", end="\n"):
     return header + end.join(f"{x}{separator}{z}" for x, z in rows)
 
@@ -38,10 +32,10 @@ def test_captif_heights_are_those_of_the_file():
     assert profile.x[29] == pytest.approx(1.087e-3, abs=0.51e-6)
 
 
-def test_units_come_from_titles_or_arguments_and_must_agree(tmp_path):
-    bare = written(tmp_path, table(header=""))
+def test_units_come_from_titles_or_arguments_and_must_agree(written):
+    bare = written(table(header=""))
     assert read_profile(bare, x_unit="cm", z_unit="µm").x[1] == pytest.approx(0.5e-2)
-    titled = written(tmp_path, table(), "titled.txt")
+    titled = written(table(), "titled.txt")
     assert read_profile(titled, x_unit="mm").z[2] == pytest.approx(0.5e-6)
     with pytest.raises(InputError, match=r"x_unit is 'm'.*'mm'"):
         read_profile(titled, x_unit="m")
@@ -52,16 +46,16 @@ def test_units_come_from_titles_or_arguments_and_must_agree(tmp_path):
         read_profile(bare, x_unit="mm", z_unit="furlong")
 
 
-def test_a_text_file_is_one_profile(tmp_path):
-    path = written(tmp_path, table())
+def test_a_text_file_is_one_profile(written):
+    path = written(table())
     assert np.array_equal(read_profile(path, line=0).z, read_profile(path).z)
     with pytest.raises(InputError, match="from 0 to 0"):
         read_profile(path, line=1)
 
 
-def test_falling_rows_are_turned_round(tmp_path):
-    up = read_profile(written(tmp_path, table()))
-    down = read_profile(written(tmp_path, table([*ROWS[:0:-1], ROWS[0]]), "down.txt"))
+def test_falling_rows_are_turned_round(written):
+    up = read_profile(written(table()))
+    down = read_profile(written(table([*ROWS[:0:-1], ROWS[0]]), "down.txt"))
     assert np.array_equal(up.x, down.x)
     assert np.array_equal(up.z, down.z)
     assert up.notes == ()
@@ -92,9 +86,9 @@ BAD_FILES = {
 
 
 @pytest.mark.parametrize("kind", BAD_FILES)
-def test_a_bad_file_is_refused_with_path_and_place(tmp_path, kind):
+def test_a_bad_file_is_refused_with_path_and_place(written, kind):
     text, says = BAD_FILES[kind]
-    path = written(tmp_path, text)
+    path = written(text)
     with pytest.raises(FileError, match=says) as caught:
         read_profile(path)
     assert str(path) in str(caught.value)
@@ -104,8 +98,8 @@ def test_a_bad_file_is_refused_with_path_and_place(tmp_path, kind):
 @pytest.mark.parametrize(
     "title", ["depth [mm]", "Tiefe (mm)", "Profiltiefe [mm]", "Profondeur [mm]", "z_depth [mm]"]
 )
-def test_depths_are_doubted_until_the_way_they_count_is_stated(tmp_path, title):
-    path = written(tmp_path, table(header=f"x [mm];{title}\n", separator=";"))
+def test_depths_are_doubted_until_the_way_they_count_is_stated(written, title):
+    path = written(table(header=f"x [mm];{title}\n", separator=";"))
     taken, up, down = (read_profile(path, z_axis=axis) for axis in (None, "up", "down"))
     assert 'is taken as height, up: z_axis = "down" turns it over' in str(taken.doubts[0])
     assert up.doubts == down.doubts == ()
@@ -115,9 +109,9 @@ def test_depths_are_doubted_until_the_way_they_count_is_stated(tmp_path, title):
         read_profile(path, z_axis="left")
 
 
-def test_depths_of_a_map_are_doubted_and_turned_over(tmp_path):
+def test_depths_of_a_map_are_doubted_and_turned_over(written):
     rows = "\n".join(f"{x},{y},{x * y % 7}" for x in range(16) for y in range(16))
-    path = written(tmp_path, f"x [mm],y [mm],depth [mm]\n{rows}")
+    path = written(f"x [mm],y [mm],depth [mm]\n{rows}")
     taken, down = read_map(path), read_map(path, z_axis="down")
     assert "titled 'depth'" in str(taken.turned().lines()[0].doubts[0])
     assert down.doubts == ()

@@ -64,10 +64,7 @@ def test_standing_still_is_westergaard(load):
     assert found.friction_from_dissipation == 0.0
     full = found.pressure_received / load
     expected = contact_pressure(
-        found.x,
-        wavelength=WAVELENGTH,
-        pressure=found.pressure_received,
-        full_contact_pressure=full,
+        found.x, wavelength=WAVELENGTH, pressure=found.pressure_received, full_contact_pressure=full
     )
     edge = 0.5 * WAVELENGTH * float(contact_fraction(load))
     inside = np.abs(np.abs(found.x) - edge) > 4 * WAVELENGTH / 1024

@@ -1,7 +1,5 @@
 """Klueppel and Heinrich against closed forms of the integral, its limits and its scalings."""
 
-from __future__ import annotations
-
 import importlib
 from dataclasses import replace
 
@@ -11,12 +9,7 @@ import pytest
 from gripscale.core.errors import InputError
 from gripscale.model import Load, Model
 from gripscale.rubber import Rubber, styrene_butadiene
-from gripscale.surface import (
-    HeightDifference,
-    SelfAffineFit,
-    fit_self_affine,
-    height_difference,
-)
+from gripscale.surface import HeightDifference, SelfAffineFit, fit_self_affine, height_difference
 from gripscale.theory import KlueppelHeinrich, klueppel_heinrich
 from tests.theory.test_persson import road
 

@@ -9,31 +9,16 @@ from gripscale.half_space.model import DirectContact
 from gripscale.surface import ArealSpectrum
 from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave.problem import Sine, WaveLoad, WaveProblem
+from tests.half_space.rough_cases import many_waves
 
 RUBBER = gs.Rubber(2e6, [1e6, 1e6], [1e-2, 1e-3], 2e9)
 LENGTH, AMPLITUDE, PRESSURE = 1e-2, 4e-5, 2e4
 
 
-def road() -> gs.Profile:
-    random = np.random.default_rng(3)
-    x = np.arange(1000) * 1e-4
-    waves = [
-        2e-4 / k * np.cos(2.0 * np.pi * (k * x / 0.1 + phase))
-        for k, phase in enumerate(random.random(60), start=1)
-    ]
-    return gs.Profile(x, np.sum(waves, axis=0))
-
-
 def case(thickness: float | str | None) -> gs.Case:
-    return gs.Case(
-        road(),
-        RUBBER,
-        pressure="1 bar",
-        speed=0.3,
-        smallest_wavelength="2 mm",
-        waves=3,
-        thickness=thickness,
-    )
+    load = {"pressure": "1 bar", "speed": 0.3, "smallest_wavelength": "2 mm"}
+    line = many_waves(1000, 60, 2e-4, seed=3)
+    return gs.Case(line, RUBBER, **load, waves=3, thickness=thickness)
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.3])

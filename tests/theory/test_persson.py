@@ -1,7 +1,5 @@
 """Persson against exact limits, closed forms of his integrals, and himself."""
 
-from __future__ import annotations
-
 import importlib
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Persson's theory with softening: closed forms, and the values of the original program."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """The examples of the page on theories run and print what stands below them."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """The figures of docs/verification.md: `python -m tests.verification.draw docs/figures`."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

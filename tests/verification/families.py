@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 import gripscale as gs
 from gripscale import theory
 from gripscale.wave import FiniteStrainBlock, Mesh, ScaleResult, Sine, WaveLoad, WaveProblem
+from studies import shipped
 from tests.closed_forms import contact_fraction
 from tests.samples import ROOT
 
@@ -149,11 +150,8 @@ def zener_loads(points: int = 4096) -> Family:
     return _against("Zener, many loads", problems, [plane.solve(one) for one in problems])
 
 
-@cache
-def tread() -> gs.Rubber:
-    """Return the measured tread rubber of the shipped case."""
-    path = ROOT / "examples" / "data" / "rubber" / "measured_dma.txt"
-    return gs.fit_prony(gs.read_master_curve(path, reference_temperature=293.15))
+tread = cache(shipped.tread)
+"""The measured tread rubber of the shipped case."""
 
 
 def large_strain(*meshes: Mesh) -> Family:

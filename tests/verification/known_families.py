@@ -6,8 +6,6 @@ seed draws the numbers of a surface from the ranges in its function. Waves go do
 Vertical sides of stones and pores are `EDGE` wide, so that the heights resolve them.
 """
 
-from __future__ import annotations
-
 import zlib
 from collections.abc import Callable
 from functools import partial

@@ -13,8 +13,6 @@ of one core. They are kept in results/known_surfaces, and so are the contacts of
 `--kept` a changed law is judged in a minute. Who changes the solver deletes them.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import math
@@ -38,10 +36,10 @@ from gripscale.questions.answer.estimate import DIRECT, ESTIMATED, answer_of_sam
 from gripscale.rubber import styrene_butadiene
 from gripscale.rubber.softening import softening_of_sweeps
 from gripscale.surface import HeightMap, Profile
-from studies import surface_families
+from studies import shipped, surface_families
 from studies.direct_samples import SMALL_STRAIN, direct_samples
 from studies.treads import compound, sweeps
-from tests.samples import MEASURED_DMA, ROOT
+from tests.samples import ROOT
 from tests.verification import known_families
 from tests.verification.known_families import INTERMITTENT, LARGEST, RIDGED, SHAPE, STEP, surface
 
@@ -134,7 +132,7 @@ def rubber(name: str) -> gs.Rubber:
         return compound("S100")
     if name == "unfilled":
         return styrene_butadiene()
-    return gs.fit_prony(gs.read_master_curve(MEASURED_DMA, reference_temperature=293.15))
+    return shipped.tread()
 
 
 def kept(path: Path) -> dict[str, Any]:

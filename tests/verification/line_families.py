@@ -4,8 +4,6 @@ A seed draws the numbers of a line from the ranges in the function of its family
 on the families of `FITTED` and judged on those of `JUDGES`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """A random grid of loads as real roads bring them, to be solved cold."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Files with something wrong in them: bytes, digits, words, lines or encoding changed by chance."""
 
-from __future__ import annotations
-
 import io
 import random
 import re

@@ -1,7 +1,5 @@
 """Whole profiles with their loads: windows of the measured road, sums of sines, steep stones."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Random waves to be solved cold: the box that docs/limits.md states, and far outside of it."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Every reader of files with a small file it reads, and what anything it returns must be."""
 
-from __future__ import annotations
-
 import io
 import warnings
 from collections.abc import Callable

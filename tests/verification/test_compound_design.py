@@ -6,8 +6,6 @@ is the stated gap. What the first order is worth is measured by solving two hund
 hundred different ones that it finds best, and others at random.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

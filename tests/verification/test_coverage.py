@@ -4,8 +4,6 @@ True is the closed form or the half-plane for tiny, shallow contacts, else 512 c
 on 512 columns itself is judged by the closed forms only. An hour of processor time for all.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ Both frictions of a block are of one solution, so that they agree only where the
 crests.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

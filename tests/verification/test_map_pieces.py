@@ -4,8 +4,6 @@ A piece of 51 x 26 mm is a usual scan. Whole maps and parts are solved on grids 
 that their difference is that of the surface. Two minutes of one core.
 """
 
-from __future__ import annotations
-
 import math
 import zlib
 

@@ -4,8 +4,6 @@ Never another exception, a warning, a wait or memory beyond reason. `GRIPSCALE_M
 number of files, `GRIPSCALE_SEED` where they begin: a failure names the seed of its file.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random

@@ -1,7 +1,5 @@
 """White noise added to measured profiles: what it does to the contact, and what is stated."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

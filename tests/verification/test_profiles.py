@@ -4,8 +4,6 @@ Every answer has an equilibrium, and either its two frictions agree or its statu
 not.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

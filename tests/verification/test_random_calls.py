@@ -3,8 +3,6 @@
 `GRIPSCALE_CALLS` sets how many of each function; a failure names its seed.
 """
 
-from __future__ import annotations
-
 import os
 import random
 import time

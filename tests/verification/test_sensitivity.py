@@ -1,22 +1,12 @@
 """Derivatives of friction by one adjoint solution against central differences, at random."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.half_space.active_set import Accuracy, solve_grid
-from gripscale.half_space.grid_sequence import lost_by_harmonic
-from gripscale.half_space.response import Response
-from gripscale.half_space.sensitivity import (
-    Bands,
-    FrictionAdjoint,
-    half_space_of,
-    modulus_changes,
-    scalar_changes,
-)
+from gripscale.half_space.sensitivity import Bands, FrictionAdjoint, modulus_changes, scalar_changes
 from tests.half_space.rough_cases import isotropic_map
+from tests.half_space.test_sensitivity import again, line
 
 pytestmark = pytest.mark.verification
 
@@ -42,27 +32,15 @@ def random_rubber(random: np.random.Generator) -> gs.Rubber:
     )
 
 
-def random_line(random: np.random.Generator) -> gs.Profile:
-    """A Gaussian line of 32 largest waves, one period."""
-    points, length = 32768, 0.256
-    x = np.arange(points) * length / points
-    q = 2.0 * np.pi * np.fft.rfftfreq(points, length / points)
-    size = np.where((q > 0.0) & (q <= 2.0 * np.pi / 5e-4), np.maximum(q, 785.0) ** -1.3, 0.0)
-    z = np.fft.irfft(size * np.exp(2j * np.pi * random.random(q.size)), points)
-    return gs.Profile(x, z * (3e-4 / z.std()))
-
-
 def random_contact(seed: int, dimensions: int):
     """A contact of 0.2 % to all of the area at 1e-4 to 30 m/s, on a fine grid."""
     random = np.random.default_rng(1000 * dimensions + seed)
     rubber = random_rubber(random)
     if dimensions == 1:
-        surface, shortest = random_line(random), 5e-4
+        surface, shortest = line(32768, 0.256, 5e-4, random), 5e-4
     else:
-        surface, shortest = (
-            isotropic_map(64, seed=int(random.integers(1e6)), shortest=2.4e-3),
-            2.4e-3,
-        )
+        shortest = 2.4e-3
+        surface = isotropic_map(64, seed=int(random.integers(1e6)), shortest=shortest)
     speed, load = 10 ** random.uniform(-4.0, 1.5), 10 ** random.uniform(-3.0, -0.05)
     modulus = abs(rubber.plane_strain_modulus(2.0 * np.pi * speed / 2e-3))
     return gs.solve_rough_contact(
@@ -78,13 +56,9 @@ def random_contact(seed: int, dimensions: int):
 
 def log_friction(contact, change, pressure=1.0) -> float:
     """ln mu on the same grid with ln M changed and the pressure multiplied."""
-    grid = contact.grid
-    real = np.where(grid.own_opposite, np.real(change), change)
-    compliance = half_space_of(contact).compliance(grid) * np.exp(-real)
-    response = Response.with_compliance(compliance, grid, 1)
-    start = contact.pressure * (pressure * contact.nominal_pressure / contact.pressure.mean())
-    solved = solve_grid(response, contact.height, start, Accuracy(1e-9))
-    return float(np.log(lost_by_harmonic(compliance, grid, solved.pressure).sum()))
+    return float(
+        np.log(again(contact, change=change, pressure=pressure * contact.nominal_pressure))
+    )
 
 
 def errors(contact) -> dict[str, float]:

@@ -5,8 +5,6 @@ are sixteen others, those whose heights have a negative skewness also as surface
 and the stations of the shipped road. An hour of one core without the truths of the maps kept.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -7,8 +7,6 @@ the truth is binomial with p = 0.9: between 33 and 39 in 94 % of all cases, so t
 an interval of 70 % passes in 6 % of them, and one with an interval of 99 % in 33 %.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

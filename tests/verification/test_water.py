@@ -1,7 +1,5 @@
 """Water under a contact: percolation of the gap, errors of flow factors, wet over dry friction."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
@@ -13,7 +11,7 @@ from gripscale.half_space.grid_sequence import GridSequence, LevelContact, finer
 from gripscale.half_space.regions import periodic_regions
 from gripscale.half_space.response import HalfSpace
 from tests.half_space.rough_cases import isotropic_map, solve
-from tests.samples import MEASURED_DMA
+from tests.verification.families import tread
 
 pytestmark = pytest.mark.verification
 
@@ -79,8 +77,7 @@ def test_wet_over_dry_friction_of_a_gaussian_map(
     pressure: float, dry_area: float, wet_over_dry: float
 ) -> None:
     """Within 3 % of 512 x 512 points and 64 steps of load, where its stated error holds."""
-    rubber = gs.fit_prony(gs.read_master_curve(MEASURED_DMA))
-    wet = solve(isotropic_map(128), rubber=rubber, pressure=pressure, tolerance=None, water=True)
+    wet = solve(isotropic_map(128), rubber=tread(), pressure=pressure, tolerance=None, water=True)
     assert wet.water is not None
     assert wet.water.dry_contact_fraction == pytest.approx(dry_area, rel=0.1)
     ratio = wet.friction_from_dissipation / wet.water.dry_friction

@@ -1,7 +1,5 @@
 """Eight waves slid in time from rest: small to steep slopes, weak to strong memory."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Lines of which octaves are withheld and continued, judged by what was withheld."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -13,7 +11,7 @@ import gripscale as gs
 from gripscale.continuation import contact_by_cut_off
 from gripscale.half_space.grid import Grid, resampled
 from gripscale.surface.low_pass import transmission
-from tests.samples import ROOT
+from studies.shipped import DATA, road
 from tests.verification.families import tread
 from tests.verification.line_families import family_line
 
@@ -51,17 +49,11 @@ class Withheld:
 
 def measured_lines() -> list[Line]:
     """Return the two stations of the shipped road, and a machined surface of another instrument."""
-    folder = ROOT / "examples" / "data" / "road"
-    files = [folder / f"20211011_aylesbury_dec_station_{s}.dat" for s in (0, 1)]
-    machined = gs.read_profile(ROOT / "examples" / "data" / "surfaces" / "mitutoyo_2_mock.xlsx")
+    machined = gs.read_profile(DATA / "surfaces" / "mitutoyo_2_mock.xlsx")
     return [
-        Line("road", tuple(_clean(file) for file in files)),
+        Line("road", (road(0), road(1))),
         Line("machined", (gs.clean(machined)[0],), speed=0.01),
     ]
-
-
-def _clean(path: object) -> gs.Profile:
-    return gs.clean(gs.read_profile(path), crop=(0.12, 1.78))[0]
 
 
 def synthetic_lines(families: Iterable[str], seeds: Iterable[int]) -> Iterator[Line]:

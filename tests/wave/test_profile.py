@@ -1,18 +1,14 @@
-"""The finite-strain block on one period of sampled heights: known sines, half-plane, road."""
-
-from functools import cache
+"""The finite-strain block on one period of sampled heights: known sines and the half-plane."""
 
 import numpy as np
 import pytest
 
 import gripscale as gs
-from gripscale.half_space import one_period
-from gripscale.theory.half_plane import HalfPlane, contact_edges, nodes, solve_periodic_contact
+from gripscale.theory.half_plane import HalfPlane
 from gripscale.wave import SampledProfile, WaveLoad, WaveProblem
-from tests.samples import EXAMPLES
 from tests.samples import FAST_RUBBER as RUBBER
+from tests.verification.families import tread
 
-DATA = EXAMPLES / "data"
 WAVE = {"wavelength": 1e-3, "amplitude": 1.5e-4}
 MESH = {"columns": 64, "rows": 14}
 PERIOD = 38.4e-3
@@ -25,37 +21,11 @@ def sine(points=48, shift=0.0):
     return gs.Profile(x, WAVE["amplitude"] * np.cos(phase))
 
 
-@cache
-def tread():
-    return gs.fit_prony(gs.read_master_curve(DATA / "rubber" / "measured_dma.txt"))
-
-
 def sum_of_sines(waves, points=512):
     """Profile of (number, amplitude [m], phase [rad]) over one period of 38.4 mm."""
     angle = 2.0 * np.pi * np.arange(points) / points
     z = sum(a * np.cos(n * angle + phase) for n, a, phase in waves)
     return gs.Profile(PERIOD * angle / (2.0 * np.pi), z)
-
-
-def half_plane(rubber, profile, load, points=1024):
-    """Contact fraction and friction of one period of `profile` at small strain."""
-    amplitudes = np.fft.rfft(profile.z) / len(profile)
-    number = np.arange(amplitudes.size)
-    first = 2.0 * np.pi / (len(profile) * profile.step)
-
-    def height(angle):
-        return 2.0 * (amplitudes[1:] * np.exp(1j * np.outer(angle, number[1:]))).sum(axis=1).real
-
-    def compliance(m):
-        modulus = rubber.plane_strain_modulus(m * first * load["speed"])
-        return 2.0 * load["pressure"] / (first * m * modulus)
-
-    contact = solve_periodic_contact(compliance, height, points, 200)
-    assert contact.settled
-    turned = 1j * number[1:] * amplitudes[1:] * np.exp(1j * np.outer(nodes(points), number[1:]))
-    slope = 2.0 * first * turned.sum(axis=1).real
-    length = sum(end - start for start, end in contact_edges(contact))
-    return length / (2.0 * np.pi), float((contact.pressure * slope).mean())
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -107,10 +77,10 @@ def test_several_waves_at_once_are_near_the_half_plane(waves, columns):
     load = {"pressure": 3e5, "speed": 0.3}
     profile = sum_of_sines(waves)
     block = gs.solve_profile(tread(), profile, periodic=True, columns=columns, **load)
-    fraction, friction = half_plane(tread(), profile, load)
+    plane = gs.solve_rough_contact(tread(), profile, periodic=True, tolerance=2e-3, **load)
     assert block.converged
-    assert block.contact_fraction == pytest.approx(fraction, rel=0.03)
-    assert block.friction == pytest.approx(friction, rel=0.03)
+    assert block.contact_fraction == pytest.approx(plane.contact_fraction, rel=0.03)
+    assert block.friction == pytest.approx(plane.friction, rel=0.03)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -198,25 +168,6 @@ def test_the_half_plane_model_refuses_sampled_heights():
     problem = WaveProblem(RUBBER, SampledProfile(1e-3, sine().z), WaveLoad(1e5, 1.0))
     with pytest.raises(gs.InputError, match=r"profile must be a Sine .* got a SampledProfile"):
         HalfPlane().solve(problem)
-
-
-@pytest.mark.verification
-@pytest.mark.parametrize(("station", "first"), [(0, 7901), (1, 23809)])
-def test_windows_of_the_measured_road(station, first):
-    """Down to 2 mm: near the half-plane, and the two frictions near each other on a fine mesh."""
-    road, _ = gs.clean(
-        gs.read_profile(DATA / "road" / f"20211011_aylesbury_dec_station_{station}.dat")
-    )
-    points = slice(first, first + round(PERIOD / road.step) + 1)
-    window = gs.Profile(road.x[points], road.z[points])
-    load = {"pressure": 3e5, "speed": 0.3}
-    one = gs.solve_profile(tread(), window, smallest_wavelength=2e-3, columns=384, **load)
-    assert one.converged
-    assert one.friction_mismatch < 0.03
-    periodic = one_period(window, 2e-3)
-    fraction, friction = half_plane(tread(), periodic, load)
-    assert one.contact_fraction == pytest.approx(fraction, rel=0.04)
-    assert one.friction == pytest.approx(friction, rel=0.04)
 
 
 def self_affine(waves, slope):

@@ -98,13 +98,8 @@ def test_bad_value(change, message):
 
 def test_a_wave_that_cannot_be_solved_says_so():
     """One Newton iteration is not enough at large strain: a status, not an exception."""
-    result = gs.solve_scale(
-        gs.Rubber(3e6),
-        **(GOOD | {"amplitude": 3e-4, "pressure": 3e6}),
-        columns=32,
-        rows=8,
-        max_iterations=1,
-    )
+    steep = GOOD | {"amplitude": 3e-4, "pressure": 3e6}
+    result = gs.solve_scale(gs.Rubber(3e6), **steep, columns=32, rows=8, max_iterations=1)
     assert result.status == "iteration limit"
     assert result.why.startswith("iteration limit at ")
     assert not result.converged

@@ -37,27 +37,14 @@ def test_start_stop_and_reversal():
     assert run.time[-1] == pytest.approx(7 * PASSAGE)
 
 
-def made_up(friction, wavelengths=4.0):
-    """A run with a given course of friction over its distance in wavelengths."""
-    distance = np.linspace(0.0, wavelengths, 401)
-    values = friction(distance)
-    same = np.ones_like(distance)
-    return TransientResult(
-        time=distance,
-        distance=distance,
-        speed=same,
-        pressure=same,
-        friction=values,
-        contact_fraction=0.3 * same,
-        indentation=same,
-        status="converged",
-        newton_iterations=0,
-        wavelength=1.0,
-    )
-
-
 def test_cycle_of_a_made_up_course():
-    run = made_up(lambda x: 0.5 + 0.1 * np.sin(2 * np.pi * x))
+    """Friction over a distance of four wavelengths."""
+    distance = np.linspace(0.0, 4.0, 401)
+    same = np.ones_like(distance)
+    moments = dict.fromkeys(("speed", "pressure", "contact_fraction", "indentation"), same)
+    course = {"time": distance, "distance": distance, "wavelength": 1.0, "newton_iterations": 0}
+    friction = 0.5 + 0.1 * np.sin(2 * np.pi * distance)
+    run = TransientResult(friction=friction, status="converged", **course, **moments)
     assert run.cycle()["friction"] == pytest.approx((0.5, 0.4, 0.6), abs=1e-3)
 
 

@@ -9,16 +9,13 @@ import pytest
 import gripscale as gs
 from tests.samples import FAST_RUBBER as RUBBER
 
+LOAD = {"pressure": 3e6, "load_time": 1e-3}
+WAVE = {"wavelength": 1e-3, "amplitude": 1.5e-4}
+
 
 @pytest.mark.parametrize("varied", ["speed", "pressure", "amplitude"])
 def test_a_warm_start_finds_the_same_solution_sooner(varied):
-    load = {
-        "wavelength": 1e-3,
-        "amplitude": 1.5e-4,
-        "pressure": 3e6,
-        "speed": 1.0,
-        "load_time": 1e-3,
-    }
+    load = WAVE | LOAD | {"speed": 1.0}
     first = gs.solve_scale(RUBBER, **load)
     load[varied] *= 1.1
     cold = gs.solve_scale(RUBBER, **load)
@@ -31,9 +28,6 @@ def test_a_warm_start_finds_the_same_solution_sooner(varied):
 
 
 # A large wave is solved by several threads, to the same last bit as by one.
-
-LOAD = {"pressure": 3e6, "load_time": 1e-3}
-WAVE = {"wavelength": 1e-3, "amplitude": 1.5e-4}
 
 
 def fields(result):

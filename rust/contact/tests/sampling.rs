@@ -43,35 +43,30 @@ fn largest_error(
     largest
 }
 
-/// Differences of step 1e-6 are wrong by step^2 times third derivatives of 1e4, and by round-off of 1e-10.
+/// The slopes are the derivatives of the heights, and the turning stiffness that of horizontal forces, of
+/// both signs as dual weights make of a traction at an edge. Differences of step 1e-6 are wrong by step^2
+/// times third derivatives of 1e4, and by round-off of 1e-10.
 #[test]
-fn slopes_are_the_derivatives_of_heights() {
-    let heights = rough();
-    for (sampling, order) in BOTH.into_iter().flat_map(|s| [(s, 1), (s, 2)]) {
-        let mesh = mesh(order);
-        let at = |x| SampledProfile::new(&heights, sampling, &mesh, x);
-        let slope = at(abscissae(&mesh)).slope;
-        let entry =
-            |a: usize, b: usize| slope.row(a).filter(|(c, _)| *c == b).map(|(_, v)| v).sum();
-        let error = largest_error(&mesh, entry, |x| at(x).height);
-        assert!(error < 1e-7, "{sampling:?} {order}: {error}");
-    }
-}
-
-/// Forces of both signs, as dual weights make of a traction at an edge.
-#[test]
-fn the_turning_stiffness_is_the_derivative_of_horizontal_forces() {
+fn slopes_and_turning_stiffness_are_derivatives() {
     let heights = rough();
     for (sampling, order) in BOTH.into_iter().flat_map(|s| [(s, 1), (s, 2)]) {
         let mesh = mesh(order);
         let force: Vec<f64> = (0..24).map(|a| f64::from(a % 5) - 1.0).collect();
         let at = |x| SampledProfile::new(&heights, sampling, &mesh, x);
-        let stiffness = at(abscissae(&mesh)).turning_stiffness(&heights, &force);
-        let entry =
-            |a: usize, b: usize| stiffness.row(a).filter(|(c, _)| *c == b).map(|(_, v)| v).sum();
-        let error = largest_error(&mesh, entry, |x| at(x).slope.transposed(&force));
+        let sampled = at(abscissae(&mesh));
+        let stiffness = sampled.turning_stiffness(&heights, &force);
+        let slope = |a: usize, b: usize| entry(sampled.slope.row(a), b);
+        let error = largest_error(&mesh, slope, |x| at(x).height);
+        assert!(error < 1e-7, "{sampling:?} {order}: {error}");
+        let bend = |a: usize, b: usize| entry(stiffness.row(a), b);
+        let error = largest_error(&mesh, bend, |x| at(x).slope.transposed(&force));
         assert!(error < 1e-5, "{sampling:?} {order}: {error}");
     }
+}
+
+/// The sum of a row's entries in one column.
+fn entry(row: impl Iterator<Item = (usize, f64)>, column: usize) -> f64 {
+    row.filter(|&(c, _)| c == column).map(|(_, value)| value).sum()
 }
 
 /// Over a patch of equal elements a parabola is lifted by its mean over the chords, h'' d^2 / 12 with the

@@ -1,4 +1,4 @@
 mod dissipation;
 mod energy;
-pub mod material_point;
-pub mod sliding_history;
+mod material_point;
+mod sliding_history;

@@ -10,7 +10,7 @@ fn rubber() -> Maxwell {
 }
 
 /// Weight of Y in column e - m in H in column e, for every m.
-pub fn weights(history: &SlidingHistory) -> Vec<f64> {
+fn weights(history: &SlidingHistory) -> Vec<f64> {
     let mut weights = vec![0.0; history.lines.length()];
     history.lines.clone().inverse(&history.spectrum, &mut weights);
     weights
