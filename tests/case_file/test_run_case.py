@@ -1,5 +1,6 @@
 """The chain of a case as a library solves it: objects back, nothing on the console."""
 
+import numpy as np
 import pytest
 
 import gripscale as gs
@@ -26,6 +27,9 @@ def test_answer_of_sine_waves_is_that_of_their_chain(case, capsys):
     assert result.contact_fraction == alone.contact_fraction
     assert "mesh_x" in result.chain
     assert not result.failure
+    assert not result.reliable
+    assert np.isnan(result.friction_interval).all()
+    assert result.lines[0].endswith(" by the chain of waves, without an interval")
     rest = gs.answer(read.replace(speed=0.0))
     assert rest.contact_fraction > alone.contact_fraction
     assert [path.name for path in case.parent.iterdir()] == ["case.toml"]

@@ -99,14 +99,34 @@ def two_sheets(folder: Path) -> list[object]:
     return ["fit-rubber", folder / "dma.xlsx"]
 
 
-NOT_COMPARED = [
-    (["--vary", "rubber=case"], f"vary must be one of {', '.join(COMPARED_OVER)};"),
-    (["--vary", "speed=0.3"], "speed must have at least two values; got 0.3"),
-    (["--models", "persion"], "unknown model persion; did you mean persson?"),
-    (["--seeds", "0"], "seeds must be a whole number from 1 to 1000; got 0"),
-    (["--measured", "none.csv"], "none.csv: cannot be read (no such file)"),
-    (["--models", "klueppel_heinrich"], "no model of klueppel_heinrich applies to this case"),
-]
+OF_A_CASE = [
+    (["compare", "--vary", "rubber=case"], f"vary must be one of {', '.join(COMPARED_OVER)};"),
+    (["compare", "--vary", "speed=0.3"], "speed must have at least two values; got 0.3"),
+    (["compare", "--models", "persion"], "unknown model persion; did you mean persson?"),
+    (["compare", "--seeds", "0"], "seeds must be a whole number from 1 to 1000; got 0"),
+    (["compare", "--measured", "none.csv"], "none.csv: cannot be read (no such file)"),
+    (["compare", "--models", "klueppel_heinrich"],
+     "no model of klueppel_heinrich applies to this case"),
+    (["study", "--vary", "speed=1", "--vary", "speed=2"], "vary must name different inputs"),
+    (["study", "--vary", "speed=1", "--workers", "0"], "workers must be a whole number from 1"),
+    (["study", "--vary", "surface=none.txt"], "surface none.txt is neither a file"),
+    (["study", "--vary", "speed=1", "--cluster", "here"], 'cluster must be "local" or the address'),
+    (["uncertainty", "--range", "cut_off"], "range must be such as"),
+    (["uncertainty", "--model", "all"], "model must be one of"),
+    (["uncertainty", "--without", "weather"], "unknown source weather"),
+    (["uncertainty", "--range", "bulk_modulus=1 mm:2 mm"], "bulk_modulus"),
+    (["cut-off", "--down-to", "soon"], "--down-to = 'soon'"),
+    (["calibrate"], "[measured] friction must name a table of measured friction; got none"),
+    *((["calibrate", "--measured", "mu.csv", *options], sentence) for options, sentence in (
+        (["--law", "bell"], "law must be one of constant, gaussian, le_gal_klueppel; got 'bell'"),
+        (["--model", "wave"], "model must be one of direct, chain; got 'wave'"),
+        (["--hold-out", "p"], "hold_out must be one of temperature, speed; got 'p'"),
+        (["--fixed", "widt=1"], "unknown parameter widt; did you mean width?"),
+        (["--fixed", "width"], 'fixed must be such as "width=0.1"; got'),
+        (["--fixed", "width=a"], "fixed width = 'a': expected a number"),
+        (["--fixed", "stress_0=3"], "fixed stress_0 = '3': the unit is missing; expected one of"),
+    )),
+]  # fmt: skip
 MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
     (lambda at: ["run", at / "case"], "case does not exist"),
     (lambda at: ["run", at / "dma.txt"], "dma.txt is no case file (TOML); `gripscale"),
@@ -133,10 +153,9 @@ MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
      "must have a unit, such as"),
     (lambda at: ["study", at / "case.toml", "--vary", "rubber=case,dmo.txt"],
      "rubber dmo.txt is neit"),
-    (lambda at: ["calibrate", at / "case.toml"],
-     "[measured] friction must name a table of measured friction; got none"),
-    *((lambda at, words=words: ["compare", at / "case.toml", *words], sentence)
-      for words, sentence in NOT_COMPARED),
+    (lambda at: ["docs", "limit"], "unknown page limit; did you mean limits?"),
+    *((lambda at, words=words: [words[0], at / "case.toml", *words[1:]], sentence)
+      for words, sentence in OF_A_CASE),
 ]  # fmt: skip
 
 
@@ -147,9 +166,16 @@ MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
     ids=[f"{i}: {words[:30]}" for i, (_, words) in enumerate(MISTAKES)],
 )
 def test_a_mistake_is_one_sentence(
-    shell: Shell, changed: Callable[..., Path], command: Callable[[Path], list[object]], words: str
+    shell: Shell,
+    changed: Callable[..., Path],
+    monkeypatch: pytest.MonkeyPatch,
+    command: Callable[[Path], list[object]],
+    words: str,
 ) -> None:
-    refused(shell(*command(changed().parent)), words)
+    folder = changed().parent
+    (folder / "mu.csv").write_text("speed [m/s],friction\n" + "0.1,0.7\n1,0.8\n2,0.9\n" * 2)
+    monkeypatch.chdir(folder)
+    refused(shell(*command(folder)), words)
 
 
 @pytest.mark.usefixtures("undrawn")

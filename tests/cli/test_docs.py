@@ -31,12 +31,6 @@ def test_a_page_is_shown_from_a_chapter_on(shell: Shell) -> None:
     assert len(part) < len(whole)
 
 
-def test_an_unknown_page_is_one_sentence(shell: Shell) -> None:
-    refused = shell("docs", "limit")
-    assert refused.exit_code == 2
-    assert "unknown page limit; did you mean limits?" in refused.stderr
-
-
 def test_every_pointer_of_the_program_leads_to_a_page_and_a_chapter() -> None:
     sources = [*ROOT.glob("python/gripscale/**/*.py"), ROOT / "rust" / "status.rs"]
     found = {match for path in sources for match in POINTER.findall(path.read_text("utf-8"))}

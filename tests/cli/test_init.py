@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -91,12 +89,6 @@ def test_what_it_says_comes_next_is_what_the_tutorial_does(shell: Shell, tmp_pat
     ]
 
 
-def test_the_package_runs_as_a_module() -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "gripscale", "--version"], capture_output=True, text=True, check=True
-    )
-    assert done.stdout == f"gripscale {gripscale.__version__}\n"
-    told = subprocess.run(
-        [sys.executable, "-m", "gripscale"], capture_output=True, text=True, check=False
-    )
-    assert "gripscale init FOLDER" in " ".join((told.stdout + told.stderr).split())
+def test_version_and_first_step_are_said(shell: Shell) -> None:
+    assert shell("--version").stdout == f"gripscale {gripscale.__version__}\n"
+    assert "gripscale init FOLDER" in " ".join(shell().output.split())

@@ -5,23 +5,16 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
-import gripscale as gs
-from gripscale.case_file import read_case
 from gripscale.chain.chain import Chain
 from gripscale.core.provenance import CASE_TITLE
-from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.model import METHOD, TOTALS
-from gripscale.questions import Factor, LogNormalValue
-from gripscale.questions.vary.axis import axes_of
 from tests.run_case import run_case
 from tests.samples import COARSE_BLOCK, case_text, three_waves, write_maxwell, write_road
 
@@ -123,37 +116,3 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
         },
     )
     return netcdf.save(data, tmp_path_factory.mktemp("study") / "study.nc")
-
-
-@pytest.fixture(scope="session")
-def compared(run_folder: Path) -> list[xr.Dataset]:
-    """A comparison of the run's case, alone and over two speeds; a sample of it failed."""
-    results = read_case(run_folder.parent / "case.toml")
-    measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], [0.02, 0.03], source="mu.csv")
-    options: dict[str, Any] = {"models": ["chain_half_plane", "direct", "persson"]}
-    made = gs.compare(results, measured=measured, tolerance=0.2, **options).ladder
-    factors = [
-        Factor(
-            "finite_strain", "finite strain", LogNormalValue(1.02, 0.01), LogNormalValue(0.98, 0.1)
-        )
-    ]
-    alone = replace(made, factors=factors)
-    (axis,) = axes_of({"speed": [0.3, 3.0]})
-    setups = [
-        replace(made.setups[0], load=replace(made.setups[0].load, speed=speed))
-        for speed in axis.values
-    ]
-    failed = made.samples.copy(deep=True)
-    for name in ("prediction_status", "prediction_status_word"):
-        failed[name].values[1, 1] = "tolerance not met"
-    both = xr.concat([made.samples, failed], "speed")
-    over = replace(alone, axis=axis, setups=setups, samples=both)
-    return [data.assign_attrs(kind="comparison") for data in (alone.data, over.data)]
-
-
-@pytest.fixture
-def compared_folder(compared: list[xr.Dataset], tmp_path: Path) -> Path:
-    """The folder of that comparison."""
-    for name, data in zip(("comparison", "over_speed"), compared, strict=True):
-        netcdf.save(data, tmp_path / f"{name}.nc")
-    return tmp_path

@@ -8,12 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bokeh import models
 from bokeh.core.serialization import DeserializationError
 
 from gripscale.charts import draw
 from gripscale.charts.bokeh_parts import Part, document, model
 from gripscale.charts.chart import CrossLine, Outline, Panel, PlotAxis, Series, ShadedBand, ValueMap
-from gripscale.charts.page import draw_linked
+from gripscale.charts.page import draw_linked, draw_panel
 from gripscale.questions.page_of_folder import read_result
 
 X = np.array([1.0, 2.0, 4.0])
@@ -89,3 +90,25 @@ def test_a_part_stands_once_in_a_document() -> None:
     first, second = root["attributes"]["children"]
     assert first["attributes"]["x_range"]["attributes"] == {"start": 0.0, "end": 1.0}
     assert second["attributes"]["x_range"] == {"id": shared.id}
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "marks"),
+    [
+        (0.4, 0.7, [0.4, 0.5, 0.6, 0.7]),
+        (0.3, 0.9, [0.3, 0.4, 0.5, 0.7]),  # 0.6, 0.8 and 0.9 would touch on a telephone
+        (0.02, 0.6, [0.02, 0.05, 0.1, 0.2, 0.5]),
+        (0.00996, 0.692, [0.01, 0.03, 0.1, 0.3]),
+        (1e-9, 1e-7, []),  # as powers of ten, which Bokeh writes for the decades alone
+        (0.01, 1e3, []),
+    ],
+)
+def test_a_short_log_axis_has_numbers_along(low: float, high: float, marks: list[float]) -> None:
+    values = np.array([low, high])
+    panel = Panel(PlotAxis("x [-]"), PlotAxis("y [-]", log=True), [Series(values, values)])
+    axis = model(draw_panel(panel).figure).yaxis[0]
+    if not marks:
+        assert isinstance(axis.formatter, models.LogTickFormatter)
+        return
+    inside = [tick for tick in axis.ticker.ticks if 0.99 * low <= tick <= 1.01 * high]
+    assert inside == pytest.approx(marks)

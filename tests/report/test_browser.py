@@ -220,19 +220,14 @@ def test_case_can_be_copied(visited: Visit) -> None:
     assert button.inner_text() in ("Copied", "Selected: press Ctrl+C")
 
 
-def check_widths(seen: Visit, *widths: int) -> None:
-    """Assert that nothing of the page goes beyond windows of `widths`."""
-    for width in widths:
-        seen.page.set_viewport_size({"width": width, "height": 900})
-        # figures are fitted a moment after the window has changed
-        drawn(seen).until("limit => document.documentElement.scrollWidth <= limit", width)
-    assert seen.said == []
-
-
 def test_a_telephone_has_all_legends_and_nothing_overflows(browser: Any, run_page: Path) -> None:
     with visit(browser, run_page, 390) as seen:
         assert check_figures(opened(seen)) >= 11
-        check_widths(seen, 390, 800)
+        for width in (390, 800):
+            seen.page.set_viewport_size({"width": width, "height": 900})
+            # figures are fitted a moment after the window has changed
+            drawn(seen).until("limit => document.documentElement.scrollWidth <= limit", width)
+        assert seen.said == []
 
 
 def test_a_picture_fits_a_telephone_and_a_touch_makes_it_readable(
@@ -271,13 +266,3 @@ def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path) -> None
         assert check_figures(opened(seen)) >= 2
         assert seen.said == []
         assert seen.asked == []
-
-
-def test_comparison_is_drawn_and_fits_a_narrow_window(browser: Any, compared_folder: Path) -> None:
-    with visit(browser, write_report(compared_folder)) as seen:
-        opened(seen)
-        pictures = seen.page.locator("figure img").all()
-        assert len(pictures) == 3
-        assert all(one.evaluate("e => e.complete && e.naturalWidth > 300") for one in pictures)
-        assert seen.asked == []
-        check_widths(seen, 420)

@@ -6,6 +6,8 @@ import builtins
 import hashlib
 import re
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +20,7 @@ from gripscale.io import netcdf
 from gripscale.questions.inputs.page import rubber_facts
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.questions.page_of_folder import write_report
+from tests.samples import Shell
 
 from .conftest import WAVES, read
 from .reading import Page
@@ -152,3 +155,29 @@ def test_run_records_its_inputs_beside_the_prediction(run_folder: Path) -> None:
     np.testing.assert_allclose(np.nanmin(lowest[0]), heights.min(), rtol=1e-12)
     assert data["mesh_x"].shape == (3, 9, 33)
     assert (data["columns"] == 32).all()
+
+
+def test_command_writes_the_page_and_says_where(
+    study_file: Path, tmp_path: Path, shell: Shell
+) -> None:
+    done = shell("report", study_file, "--output", tmp_path / "page.html")
+    assert done.exit_code == 0, done.output
+    assert "page.html" in done.stdout
+    assert (tmp_path / "page.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    done = shell("report", study_file, "--output", tmp_path / "nowhere" / "page.html")
+    assert done.exit_code == 2
+    assert done.stderr.count("\n") == 1
+    assert "cannot be written" in done.stderr
+
+
+def test_page_imports_only_what_it_is_made_with(run_folder: Path, tmp_path: Path) -> None:
+    code = (
+        "import sys, gc, gripscale\n"
+        "gripscale.questions.write_report(sys.argv[1], sys.argv[2])\n"
+        "assert gc.isenabled()\n"
+        "print(*sys.modules)"
+    )
+    command = [sys.executable, "-c", code, str(run_folder), str(tmp_path / "page.html")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    unneeded = {"bokeh.models", "fontTools.subset", "scipy.optimize", "rich", "typer"}
+    assert unneeded & set(done.stdout.split()) == set()

@@ -14,7 +14,6 @@ from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.io.table import significant
 from gripscale.questions import Study, Variation
-from gripscale.questions.answer.answer import answer
 from gripscale.questions.inputs.page import input_sections
 from gripscale.questions.page_of_folder import read_result, write_report
 from gripscale.questions.vary.charts import stacked_panels, study_pictures, totals_figure
@@ -47,23 +46,6 @@ def solved(folder: Path) -> xr.Dataset:
     study = Study(read_case(folder / "case.toml"), {"speed": [0.3, 3.0]})
     assert study.model.name == "direct"
     return study.run(folder / "study")
-
-
-def test_a_point_of_a_study_is_the_answer_of_a_run(folder: Path, solved: xr.Dataset) -> None:
-    """Number, factors and interval: the same model on the same surface."""
-    run = answer(read_case(folder / "case.toml")).data
-    assert run is not None
-    point = solved.isel(speed=0)
-    for name in ("friction", "contact_fraction"):
-        for end in ("", "_half_width", "_factor", "_sampling_error"):
-            np.testing.assert_allclose(
-                point[f"answer_{name}{end}"], run[f"answer_{name}{end}"], rtol=1e-12
-            )
-        low, high = (float(point[f"answer_{name}_{end}"]) for end in ("low", "high"))
-        value = float(point[f"answer_{name}"])
-        assert low * high == pytest.approx(value**2) or (name, high) == ("contact_fraction", 1.0)
-        half_width = float(run[f"answer_{name}_half_width"])
-        assert (high - low) / (2.0 * value) == pytest.approx(half_width)
 
 
 def test_lines_cards_and_page_lead_with_the_range_and_its_factors(

@@ -6,37 +6,19 @@ import os
 import re
 import subprocess
 import sys
-from html.parser import HTMLParser
+from collections.abc import Iterator
 from inspect import ismodule
-from pathlib import Path
 
 import pytest
 
 import gripscale
 from gripscale import chain
 from gripscale.case_file.keys import sections
+from tests.report.reading import Page
 from tests.samples import ROOT
 
 LOADING = {"script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src"}
 """Tags that make a browser fetch, with the attribute that says what; links are looked at apart."""
-
-
-class Loads(HTMLParser):
-    """Collects what a page makes a browser fetch, and its ids."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.targets: list[str] = []
-        self.ids: set[str] = set()
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        values = {name: value or "" for name, value in attrs}
-        self.ids |= {values["id"]} if "id" in values else set()
-        fetched = values.get(LOADING.get(tag, ""))
-        if tag == "link" and values.get("rel") not in ("canonical", "prev", "next"):
-            fetched = values.get("href")
-        if fetched:
-            self.targets.append(fetched)
 
 
 @pytest.fixture(scope="module")
@@ -54,10 +36,14 @@ def site(tmp_path_factory):
     return folder
 
 
-def read(page: Path) -> Loads:
-    loads = Loads()
-    loads.feed(page.read_text(encoding="utf-8"))
-    return loads
+def loaded(page: Page) -> Iterator[str]:
+    """Yield what a page makes a browser fetch."""
+    for tag, attrs in page.tags:
+        fetched = attrs.get(LOADING.get(tag, ""))
+        if tag == "link" and attrs.get("rel") not in ("canonical", "prev", "next"):
+            fetched = attrs.get("href")
+        if fetched:
+            yield fetched
 
 
 def test_no_page_loads_anything_from_elsewhere(site):
@@ -65,7 +51,7 @@ def test_no_page_loads_anything_from_elsewhere(site):
     assert len(pages) > 14
     for page in pages:
         assert "$$" not in page.read_text(encoding="utf-8"), "equations are MathML"
-        for target in read(page).targets:
+        for target in loaded(Page(page)):
             assert not re.match(r"(\w+:)?//", target), f"{page.name} loads {target}"
             if not target.startswith("data:") and page.name != "404.html":
                 file = page.parent / target.partition("?")[0].partition("#")[0]
@@ -89,7 +75,8 @@ def test_every_key_of_a_case_is_on_its_page(site):
 
 
 def test_every_public_name_has_its_entry(site):
-    ids = set().union(*(read(page).ids for page in (site / "reference").glob("*.html")))
+    pages = map(Page, (site / "reference").glob("*.html"))
+    ids = {attrs["id"] or "" for page in pages for _, attrs in page.tags if "id" in attrs}
     packages = {name for name in gripscale.__all__ if ismodule(getattr(gripscale, name))}
     same = {"ScaleResult"}  # another name of ScaleResult
     names = [f"gripscale.{name}" for name in gripscale.__all__ if name not in packages | same]

@@ -26,7 +26,6 @@ from gripscale.questions.design.compound_limits import CompoundLimits, PointLimi
 from gripscale.questions.design.compound_search import design_problem
 from gripscale.questions.design.goal_friction import CompoundGoal, Gain, gain
 from gripscale.questions.design.question import CompoundDesign, design_figure
-from gripscale.questions.page_of_folder import write_report
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, SHIFTED_RUBBER, Shell, case_text, write_road, write_short_road
@@ -56,29 +55,15 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def data(case):
-    design = gs.design(read_case(case), folder=case.parent / "stored", levels=LEVELS)
-    design.save(case.parent / "stored" / "design.nc")
-    return design.data
+    return gs.design(read_case(case), levels=LEVELS).data
 
 
-def test_the_page_begins_with_the_gain(case, data):
+def test_friction_now_and_then_are_answers_with_the_gain_between(case, data):
+    """What `gripscale run` prints, not the direct contact that the search is made of."""
     same = data.isel(point=1)
     now, then = float(same.today_answer_friction[0]), float(same.answer_friction[0])
+    assert now == pytest.approx(gs.answer(read_case(case)).friction, rel=1e-12)
     assert then / now == pytest.approx(1.0 + float(same.gain), rel=1e-9)
-    page = write_report(case.parent / "stored" / "design.nc", case.parent / "design.html")
-    text = page.read_text(encoding="utf-8")
-    assert text.index(f"{now:.3f} now → {then:.3f} with the design") < text.index("Trade-off")
-
-
-def test_todays_friction_is_the_answer(case, data):
-    """What `gripscale run` prints, not the direct contact that the search is made of."""
-    answer = gs.answer(read_case(case)).friction
-    assert float(data.today_answer_friction[0]) == pytest.approx(answer, rel=1e-12)
-
-
-def test_shares_at_a_limit_are_per_cent(data):
-    column = next(c for c in CompoundDesign(data).table().columns if c.name == "limited_share")
-    assert column.format(0.5) == "50 %"
 
 
 def test_the_promised_friction_is_that_of_a_new_contact(case, data):

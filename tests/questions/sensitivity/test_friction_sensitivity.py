@@ -16,7 +16,6 @@ from gripscale.conditions import Conditions
 from gripscale.core.errors import InputError
 from gripscale.half_space import DirectContact
 from gripscale.questions import FrictionSensitivity
-from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.sensitivity.friction_sensitivity import (
     FEEDBACK,
     KELVIN_STEP,
@@ -30,7 +29,6 @@ from tests.samples import (
     SHIFTED_RUBBER,
     SHIFTED_SINES,
     THERMAL,
-    Shell,
     case_text,
     write_short_road,
 )
@@ -149,16 +147,6 @@ def test_rules_of_thumb_are_shifted_to_the_master_curve(data):
     wet = data.rule_frequency.sel(rule="wet grip")
     assert float(wet) == pytest.approx(20.0 * np.pi * 10.0**log_a, rel=1e-9)
     assert ((data.rule_share >= 0.0) & (data.rule_share <= 1.2)).all()
-
-
-def test_command_leads_with_the_answer(folder, shell: Shell):
-    result = shell("sensitivity", folder / "case.toml", "--output", folder / "command")
-    lines = result.stdout.splitlines()
-    answer = next(i for i, line in enumerate(lines) if line.startswith("Answer: 1 % more E″"))
-    assert answer <= 4
-    assert (folder / "command" / "figures" / "sensitivity.png").is_file()
-    page = write_report(folder / "command").read_text(encoding="utf-8")
-    assert "What decides the friction of " in page
 
 
 def test_refuses_rest_and_other_inputs(folder, tmp_path):

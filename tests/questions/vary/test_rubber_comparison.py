@@ -15,7 +15,6 @@ from gripscale.conditions.conditions import TREADS
 from gripscale.core.errors import InputError
 from gripscale.io.table import significant
 from gripscale.questions import Compounds, at_one_temperature, compare_compounds
-from gripscale.questions.page_of_folder import write_report
 from gripscale.questions.vary.charts import ranking_figure
 from gripscale.questions.vary.friction_ratio import (
     FrictionRatio,
@@ -161,12 +160,7 @@ def test_confidence_is_that_of_students_t() -> None:
     assert FrictionRatio(0.0, 0.0).confidence == 0.5
 
 
-def test_their_page_has_ranking_figures_and_inputs(made: Compounds, tmp_path: Path) -> None:
-    made.save(tmp_path / "compounds.nc")
-    page = write_report(tmp_path).read_text()
-    for word in ("lossy", "Compounds by friction", "Compounds side by side", "Maxwell elements"):
-        assert word in page
-    assert page.index("friction μ ranks lossy") < page.index("Compounds by friction")
+def test_the_ranking_is_drawn(made: Compounds) -> None:
     ratios, running, decades = ranking_figure(made.data, "rubber").axes
     labels = [text.get_text() for text in ratios.get_xticklabels()]
     assert labels == [significant(mu, 2) for mu in made.data.answer_friction.values]

@@ -55,20 +55,3 @@ def test_failed_chain_ends_with_its_own_code(
     assert len(result.stderr.splitlines()) == 1
     assert "1 of 2 predictions failed; the first: wave 3" in result.stderr
     assert (case.parent / "results" / "study" / "study.nc").exists()
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (["--vary", "speed=1", "--vary", "speed=2"], "vary must name different inputs"),
-        (["--vary", "speed=1", "--workers", "0"], "workers must be a whole number from 1"),
-        (["--vary", "rubber=none.txt"], "rubber none.txt is neither a file here"),
-        (["--vary", "surface=none.txt"], "surface none.txt is neither a file"),
-        (["--vary", "speed=1", "--cluster", "nonsense"], 'cluster must be "local" or the address'),
-    ],
-)
-def test_bad_option_is_refused(shell: Shell, case: Path, options: list[str], words: str) -> None:
-    result = shell("study", case, *options)
-    assert result.exit_code == 2, result.output
-    assert len(result.stderr.splitlines()) == 1
-    assert words in result.stderr
