@@ -100,13 +100,6 @@ def test_order_does_not_matter_and_what_is_stated_is_no_doubt(tmp_path):
     assert not doubted(case, OF_ANOTHER_CASE)
 
 
-def test_whether_the_rubber_is_filled_is_the_first_question(tmp_path):
-    files = [road(tmp_path / "road.csv"), sweeps(tmp_path / "dma.csv")]
-    case = new_case(files, tmp_path / "case.toml")
-    assert "filled" not in keys(case)["rubber"]
-    assert case.findings[0].sentence.startswith("Whether the rubber is filled")
-
-
 def test_units_that_no_file_states_are_proposed_and_doubted(tmp_path):
     files = [
         road(tmp_path / "road.csv", "Weg;Hoehe", 1.0),

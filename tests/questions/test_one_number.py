@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 import xarray as xr
 from typer.testing import CliRunner
@@ -23,6 +22,7 @@ from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, answer_numbe
 from gripscale.questions.page_of_folder import read_result
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane
+from tests.half_space.rough_cases import isotropic_map
 from tests.samples import GENTLE_SINES, SHIFTED_RUBBER
 
 LOAD: dict[str, Any] = {"pressure": 3e5, "speed": 0.3, "footprint": 0.05}
@@ -35,18 +35,6 @@ def road(seed: int) -> gs.Profile:
     length = {1: 0.12, 2: 0.09}[seed]
     line = self_affine_profile(0.8, 3e-3, 4e-4, length=length, step=2e-4, seed=seed)
     return replace(line, name=f"lane {seed}")
-
-
-def height_map() -> gs.HeightMap:
-    """Return 32 by 64 heights: waves of falling amplitude in all directions."""
-    random = np.random.default_rng(0)
-    x, y = np.meshgrid(0.2e-3 * np.arange(64), 0.4e-3 * np.arange(32), indexing="ij")
-    heights = np.zeros_like(x)
-    for wavelength in np.geomspace(12e-3, 0.8e-3, 40):
-        angle, phase = random.uniform(0.0, 2.0 * np.pi, 2)
-        along = np.cos(angle) * x + np.sin(angle) * y
-        heights += 0.01 * wavelength * np.cos(2.0 * np.pi * along / wavelength + phase)
-    return gs.HeightMap(x[:, 0], y[0], heights)
 
 
 def case_of(surface: Any, **options: Any) -> gs.Case:
@@ -69,7 +57,7 @@ CASES: Mapping[str, Any] = {
     "calibrated": lambda: (road(1), {"conditions": calibrated()}),
     "several_profiles": lambda: ([road(1), road(2)], {}),
     "several_sheared": lambda: ([road(1), road(2)], {"conditions": SHEARED}),
-    "map": lambda: (height_map(), {}),
+    "map": lambda: (isotropic_map(64, shortest=1.6e-3), {}),
     "waves": lambda: (GENTLE_SINES, {}),
     "static": lambda: (road(1), {"speed": 0.0}),
     "thickness": lambda: (road(1), {"thickness": 8e-3}),

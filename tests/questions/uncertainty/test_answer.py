@@ -63,6 +63,7 @@ def test_without_errors_of_inputs_number_and_interval_are_those_of_run(
     )
 
 
+@pytest.mark.verification
 def test_processes_give_the_same_answer(small_case: Case, certain: xr.Dataset) -> None:
     """With what it rests on, which comes from the waves and not from the measurement."""
     choice = only(bulk_modulus="2 GPa")

@@ -130,14 +130,6 @@ def test_the_same_samples_at_each_speed(run, over_speed):
     assert np.corrcoef(data.friction.values[0])[0, 1] > 0.8
 
 
-def test_both_models_have_the_same_draws(small_case):
-    choice = Uncertainty(without=["waves", "load_time", "cleaning"])
-    data = propagate(small_case, choice, samples=10, models=["chain", "direct"])
-    assert list(data.model.values) == ["chain", "direct"]
-    assert int(data.failed.sum()) == 0
-    assert data.sizes["sample"] == 10
-
-
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [

@@ -24,10 +24,11 @@ from gripscale.experiment import Progress, Task, task
 from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.questions import Study
+from gripscale.questions.terminal import PROGRESS_LINES
 from gripscale.surface import Surface
 from gripscale.theory import HalfPlane
 from gripscale.wave import FiniteStrainBlock, Mesh, Sine
-from tests.samples import fail_waves
+from tests.samples import Shell, fail_waves
 
 Compare = Callable[[xr.Dataset, xr.Dataset], None]
 SPEEDS = [0.01, 1.0]
@@ -222,3 +223,33 @@ def test_a_study_says_what_lies_beyond_the_band(case: Path, shell: Any) -> None:
     assert result.total_decades_below_band.values[0] == pytest.approx(
         np.log10(0.01 / (2e-4 * np.pi))
     )
+
+
+def test_command_solves_prints_draws_and_resumes(
+    shell: Shell, case: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(PROGRESS_LINES, "1")
+    asked = ("study", case, "--vary", "speed=0.01:1:log3", "--vary", "pressure=1 bar,3 bar")
+    result = shell(*asked)
+    assert result.exit_code == 0, result.output
+    target = case.parent / "results" / "study"
+    written = {
+        str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
+    }
+    files = {"case.toml", "study.nc"}
+    assert written == files | {".case", "report.html", "figures/totals.png"}
+    assert "[6/6] speed" in result.stdout
+    data = netcdf.load_dataset(target / "study.nc")
+    assert f"{float(data.total_friction[2, 1]):.3f}" in result.stdout
+    assert result.stdout.count("converged") == 6
+    assert max(len(line) for line in result.stdout.splitlines() if "in /" not in line) <= 100
+    again = shell(*asked)
+    assert again.stdout.partition("Answer")[2] == result.stdout.partition("Answer")[2]
+
+
+def test_names_are_drawn_as_points(shell: Shell, case: Path, tmp_path: Path) -> None:
+    vary = ("--vary", "rubber=case", "--vary", "surface=case,synthetic_dense_asphalt")
+    result = shell("study", case, *vary, "--output", tmp_path)
+    assert result.exit_code == 0, result.output
+    names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
+    assert names == {"totals", "wavelength"}

@@ -44,6 +44,7 @@ CASE = gs.Case(
     footprint=0.05,
     waves=2,
     smallest_wavelength=1e-3,
+    cleaning={},
     chain=Chain(HalfPlane(points=256)),
     conditions=Conditions(heat="none"),
 )
