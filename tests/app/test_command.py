@@ -1,10 +1,7 @@
 """`gripscale app` refuses what it cannot serve in one sentence, before it serves anything."""
 
-from __future__ import annotations
-
 import socket
 import sys
-from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -23,9 +20,7 @@ from gripscale.core.errors import InputError
         (["--folder", "file"], "is not a folder"),
     ],
 )
-def test_what_cannot_be_served(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], sentence: str
-) -> None:
+def test_what_cannot_be_served(tmp_path, monkeypatch, arguments, sentence):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "file").write_text("")
     with socket.socket() as other:
@@ -41,7 +36,7 @@ def test_what_cannot_be_served(
     assert not list(tmp_path.glob("visits/*"))
 
 
-def test_what_to_install_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_to_install_is_said(tmp_path, monkeypatch):
     monkeypatch.delitem(sys.modules, "gripscale.app.server", raising=False)
     monkeypatch.setitem(sys.modules, "panel", None)
     with pytest.raises(InputError, match=r"needs panel.*pip install 'gripscale\[app\]'"):

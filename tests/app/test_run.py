@@ -1,11 +1,8 @@
 """A run is a process: its lines are the progress, stopping it ends it, the same case goes on."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import time
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -13,12 +10,11 @@ from typer.testing import CliRunner
 
 from gripscale.app.case import CaseState, VisitFolder
 from gripscale.app.run_tabs import compared_runs, run_status
-from gripscale.app.runs import COMMANDS, AppRun, Runs
+from gripscale.app.runs import COMMANDS, Runs
 from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.questions.inputs.charts_of_rubber import rubber_charts
 from gripscale.questions.page_of_folder import read_result
-from gripscale.questions.registry import Form
 from tests.run_case import run_case
 from tests.samples import ROOT
 
@@ -44,13 +40,13 @@ rows = 60
 
 
 @pytest.fixture
-def runs(tmp_path: Path) -> Runs:
+def runs(tmp_path):
     state = CaseState(VisitFolder.new(tmp_path))
     state.set_text(SLOW)
     return Runs(state)
 
 
-def there(pid: int) -> bool:
+def there(pid):
     try:
         os.kill(pid, 0)
     except ProcessLookupError:
@@ -58,7 +54,7 @@ def there(pid: int) -> bool:
     return True
 
 
-def ended(run: AppRun) -> AppRun:
+def ended(run):
     until = time.monotonic() + 60
     while run.running and time.monotonic() < until:
         time.sleep(0.1)
@@ -66,7 +62,7 @@ def ended(run: AppRun) -> AppRun:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="asks for the process by a signal")
-def test_stopping_ends_the_process_and_the_same_case_goes_on_in_its_folder(runs: Runs) -> None:
+def test_stopping_ends_the_process_and_the_same_case_goes_on_in_its_folder(runs):
     run = runs.start()
     assert run.state == "running"
     assert there(run.pid)
@@ -81,7 +77,7 @@ def test_stopping_ends_the_process_and_the_same_case_goes_on_in_its_folder(runs:
     runs.stop()
 
 
-def test_a_failed_run_says_its_sentence(runs: Runs) -> None:
+def test_a_failed_run_says_its_sentence(runs):
     state = runs._state
     state.set(("surface", "sines"), None)
     state.set(("surface", "files"), ["inputs/no.txt"])
@@ -92,7 +88,7 @@ def test_a_failed_run_says_its_sentence(runs: Runs) -> None:
     assert said.startswith("inputs/no.txt: cannot be read (no such file)")
 
 
-def by_name(name: str) -> Form:
+def by_name(name):
     return next(command for command in COMMANDS if command.command == name)
 
 
@@ -113,8 +109,8 @@ def by_name(name: str) -> Form:
     ],
 )  # fmt: skip
 def test_other_commands_than_run_are_run_once_and_shown(
-    tmp_path: Path, small: Path, command: str, case: str, others: int, words: list[str]
-) -> None:
+    tmp_path, small, command, case, others, words
+):
     state = CaseState(VisitFolder.new(tmp_path))
     (small / "alone.toml").write_text(CASE.replace("../elsewhere/", ""))
     state.set_text(state.text_of(ROOT / case if case else small / "alone.toml"))
@@ -129,7 +125,7 @@ def test_other_commands_than_run_are_run_once_and_shown(
     assert runs.start(by_name(command), {}, files) is run, "what is finished is not repeated"
 
 
-def test_each_command_is_one_that_gripscale_has_with_its_options() -> None:
+def test_each_command_is_one_that_gripscale_has_with_its_options():
     """Words of the command lines, from what the commands print of themselves."""
     for command in COMMANDS:
         words = [command.command, "--help"]
@@ -145,7 +141,7 @@ def test_each_command_is_one_that_gripscale_has_with_its_options() -> None:
 
 
 @pytest.mark.parametrize("name", ["../x.csv", "/etc/passwd", "--output", "~/x.csv"])
-def test_files_beside_the_case_are_those_of_the_visit(runs: Runs, name: str) -> None:
+def test_files_beside_the_case_are_those_of_the_visit(runs, name):
     with pytest.raises(InputError, match="lies outside the folder of this page"):
         runs.start(by_name("compare-rubbers"), others=[name])
     with pytest.raises(InputError, match="expected other compounds; got none"):
@@ -154,7 +150,7 @@ def test_files_beside_the_case_are_those_of_the_visit(runs: Runs, name: str) -> 
 
 
 @pytest.fixture(scope="module")
-def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def ran(small, tmp_path_factory):
     """Return the folder of a run."""
     place = tmp_path_factory.mktemp("ran")
     for name in ("road.txt", "dma.txt"):
@@ -164,7 +160,7 @@ def ran(small: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place / "out"
 
 
-def test_runs_are_compared_by_their_answers(ran: Path) -> None:
+def test_runs_are_compared_by_their_answers(ran):
     text = (ran / "case.toml").read_text()
     faster = text.replace('speed = "', 'speed = "1')
     runs = [
@@ -178,7 +174,7 @@ def test_runs_are_compared_by_their_answers(ran: Path) -> None:
     assert columns["changes"][1].startswith("load.speed = 1")
 
 
-def test_a_fit_before_any_run_has_no_diamonds(ran: Path) -> None:
+def test_a_fit_before_any_run_has_no_diamonds(ran):
     result = read_result(ran)
     for excited, drawn in ((None, False), (result.chain, True)):
         moduli, factor, *_ = rubber_charts(result.inputs, excited)

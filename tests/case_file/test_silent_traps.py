@@ -189,7 +189,7 @@ def test_questions_on_a_misread_rubber_say_so(tmp_path):
         assert str(input_doubts_of(data)[0]).startswith("E' and E'' do not belong to one rubber:")
 
 
-def test_doubts_of_the_inputs_come_first() -> None:
+def test_doubts_of_the_inputs_come_first():
     doubted = {INPUT_DOUBTS: to_json([doubt("Is the unit right?")])}
     assert no_answer(xr.Dataset({"status": "contact too narrow"}, attrs=doubted)) == (
         "none. Is the unit right? The chain of waves has no result: contact too narrow."
@@ -270,7 +270,6 @@ def test_a_foreign_road_has_not_the_crop_of_the_case(tmp_path):
     (tmp_path / "other.txt").write_text(road_text(ROUGH.z[::-1]), encoding="utf-8")
     for name, length in (("road.txt", 0.1), ("other.txt", 0.2)):
         measured = read_surface(name, file).measured
-        assert measured is not None
         assert measured.cleaned[0].length == pytest.approx(length, abs=1e-9)
     assert read_surface("road.txt", file).note == ""
     assert read_surface("other.txt", file).note == (

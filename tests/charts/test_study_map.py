@@ -1,9 +1,6 @@
 """Studies over speed and temperature: all temperatures over a_T v, on paper and on the page."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
@@ -22,7 +19,7 @@ KELVIN = np.array([283.15, 293.15, 313.15])
 
 
 @pytest.fixture
-def study() -> xr.Dataset:
+def study():
     """A study whose friction is a function of a_T v alone, one prediction of which failed."""
     reduced = SPEED[:, None] * RUBBER.shift.a(KELVIN, 293.15)
     friction = 0.5 + 0.1 * np.tanh(np.log10(reduced))
@@ -48,7 +45,7 @@ def study() -> xr.Dataset:
     return with_master_curve(data, RUBBER)
 
 
-def test_the_variables_are_listed_with_their_units(study: xr.Dataset) -> None:
+def test_the_variables_are_listed_with_their_units(study):
     text = (DOCS / "conditions.md").read_text(encoding="utf-8")
     listed = dict(re.findall(r"^\| `(\w+)` \| (\S+) \|", text, re.MULTILINE))
     known = {"speed", "temperature", "prediction_status", *TOTALS}
@@ -57,7 +54,7 @@ def test_the_variables_are_listed_with_their_units(study: xr.Dataset) -> None:
     }
 
 
-def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
+def test_temperatures_are_drawn_over_reduced_speed(study):
     friction = friction_master_figure(study).axes[0]
     assert len(friction.lines) == 3
     for i, one in enumerate(friction.lines):
@@ -66,7 +63,7 @@ def test_temperatures_are_drawn_over_reduced_speed(study: xr.Dataset) -> None:
     assert len({mpl.colors.to_hex(one.get_color()) for one in friction.lines}) == 3
 
 
-def test_page_shows_celsius_and_reduced_speed(study: xr.Dataset, tmp_path: Path) -> None:
+def test_page_shows_celsius_and_reduced_speed(study, tmp_path):
     page = Variation(study).page(tmp_path / "page.html").read_text(encoding="utf-8")
     assert "25 of 75 predictions lie beyond the temperatures of the shift" in page
     assert 'id="figure-friction-master-curve"' in page

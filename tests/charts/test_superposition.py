@@ -1,7 +1,5 @@
 """What the figures of a superposition show, read back from their axes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -21,7 +19,7 @@ TRUE = WLF(8.86, 101.6, 293.15)
 
 
 @pytest.fixture(scope="module")
-def sweeps() -> Sweeps:
+def sweeps():
     hertz = np.geomspace(0.1, 30.0, 6)
     rows = []
     for kelvin in (263.15, 273.15, 283.15, 293.15):

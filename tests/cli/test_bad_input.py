@@ -3,24 +3,18 @@
 What is wrong with files and with keys of a case is tested with their readers.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
-from collections.abc import Callable
-from pathlib import Path
 
 import openpyxl
 import pytest
-from typer.testing import Result
 
 from gripscale.questions.compare.comparison import COMPARED_OVER
 from gripscale.theory import HalfPlane
-from tests.samples import Shell
 
 
-def refused(result: Result, *words: str) -> None:
+def refused(result, *words):
     assert result.exit_code == 2, result.output
     (sentence,) = result.stderr.splitlines()
     assert sentence.startswith("error: ")
@@ -30,10 +24,10 @@ def refused(result: Result, *words: str) -> None:
 
 
 @pytest.fixture
-def never_solved(monkeypatch: pytest.MonkeyPatch) -> None:
+def never_solved(monkeypatch):
     """Let nothing get as far as a solver."""
 
-    def solve(*_: object) -> None:
+    def solve(*_):
         raise AssertionError("solved with bad input")
 
     monkeypatch.setattr(HalfPlane, "solve", solve)
@@ -52,9 +46,7 @@ def never_solved(monkeypatch: pytest.MonkeyPatch) -> None:
         ("[load]", '[measured]\nfriction = "no.csv"\n[load]', "measured", "friction"),
     ],
 )
-def test_a_refusal_ends_with_the_command_that_lists_the_keys(
-    shell: Shell, changed: Callable[..., Path], old: str, new: str, table: str, key: str
-) -> None:
+def test_a_refusal_ends_with_the_command_that_lists_the_keys(shell, changed, old, new, table, key):
     words, case = ["keys", *filter(None, [table])], changed(old, new)
     refused(shell("run", case), f"ee `{' '.join(['gripscale', *words])}`\n")
     assert key in shell(*words).stdout.split()
@@ -70,9 +62,7 @@ def test_a_refusal_ends_with_the_command_that_lists_the_keys(
         ("dma.txt", "# Frequency (Hz) E' (MPa) E'' (MPa)\n1 2 x\n2 3 4\n"),
     ],
 )
-def test_bad_measurement_is_refused(
-    shell: Shell, changed: Callable[..., Path], name: str, text: str
-) -> None:
+def test_bad_measurement_is_refused(shell, changed, name, text):
     case = changed()
     (case.parent / name).write_text(text)
     refused(shell("run", case), name)
@@ -80,7 +70,7 @@ def test_bad_measurement_is_refused(
 
 
 @pytest.mark.usefixtures("never_solved")
-def test_file_in_place_of_the_output_folder(shell: Shell, changed: Callable[..., Path]) -> None:
+def test_file_in_place_of_the_output_folder(shell, changed):
     case = changed()
     blocked = case.parent / "results"
     blocked.write_text("in the way")
@@ -89,7 +79,7 @@ def test_file_in_place_of_the_output_folder(shell: Shell, changed: Callable[...,
     assert blocked.read_text() == "in the way"
 
 
-def two_sheets(folder: Path) -> list[object]:
+def two_sheets(folder):
     book = openpyxl.Workbook()
     for name in ("20 C", "40 C"):
         sheet = book.create_sheet(name)
@@ -126,7 +116,7 @@ OF_THE_FIT = [
     (["--fixed", "width=a"], "fixed width = 'a': expected a number"),
     (["--fixed", "stress_0=3"], "fixed stress_0 = '3': the unit is missing; expected one of"),
 ]
-MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
+MISTAKES = [
     (lambda at: ["run", at / "case"], "case does not exist"),
     (lambda at: ["run", at / "dma.txt"], "dma.txt is no case file (TOML); `gripscale"),
     (lambda at: ["report", at / "case.toml"], "case.toml is a case, not a result: `gripscale run`"),
@@ -167,12 +157,7 @@ MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
     MISTAKES,
     ids=[f"{i}: {words[:30]}" for i, (_, words) in enumerate(MISTAKES)],
 )
-def test_a_mistake_is_one_sentence(
-    shell: Shell,
-    changed: Callable[..., Path],
-    command: Callable[[Path], list[object]],
-    words: str,
-) -> None:
+def test_a_mistake_is_one_sentence(shell, changed, command, words):
     folder = changed().parent
     (folder / "mu.csv").write_text("speed [m/s],friction\n" + "0.1,0.7\n1,0.8\n2,0.9\n" * 2)
     refused(shell(*command(folder)), words)
@@ -186,9 +171,7 @@ def test_a_mistake_is_one_sentence(
         ('"100 mm"', '"1 mm"', "  The footprint, 1 mm, is shorter than the"),
     ],
 )
-def test_what_is_no_mistake_runs(
-    shell: Shell, changed: Callable[..., Path], old: str, new: str, words: str
-) -> None:
+def test_what_is_no_mistake_runs(shell, changed, old, new, words):
     result = shell("run", changed(old, new), columns=400)
     assert result.exit_code == 0, result.output
     assert words in result.stdout
@@ -201,13 +184,13 @@ def test_what_is_no_mistake_runs(
         ("--header", "1", "--terms", "6"),
     ],
 )
-def test_options_of_a_file_are_taken(shell: Shell, inputs: Path, options: tuple[str, ...]) -> None:
+def test_options_of_a_file_are_taken(shell, inputs, options):
     result = shell("fit-rubber", inputs / "dma.txt", *options)
     assert result.exit_code == 0, result.output
     assert "Maxwell elements" in result.stdout
 
 
-def test_a_shell_sees_the_sentence_and_the_code(changed: Callable[..., Path]) -> None:
+def test_a_shell_sees_the_sentence_and_the_code(changed):
     case = changed("scales = 3", "scale = 3")
     program = "from gripscale.cli import main; main()"
     done = subprocess.run(

@@ -1,11 +1,8 @@
 """`gripscale calibrate`: the area term of a case from its measured friction."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import shutil
-from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -19,14 +16,14 @@ from gripscale.questions.calibration.calibration_law import parse_fixed
 from gripscale.questions.calibration.question import Calibration, fitted_figure
 from gripscale.questions.vary.inputs import default_model
 from tests.report.reading import Page
-from tests.samples import EXAMPLES, Shell
+from tests.samples import EXAMPLES
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 FOLDER = EXAMPLES / "measured_friction"
 
 
 @pytest.fixture(scope="module")
-def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def case(tmp_path_factory):
     """A copy of the shipped case with synthetic friction."""
     folder = tmp_path_factory.mktemp("case")
     for name in ("case.toml", "synthetic_friction.csv"):
@@ -35,7 +32,7 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def calibrated(case: Path) -> tuple[str, Path]:
+def calibrated(case):
     """What the command says of it, and its folder."""
     asked = ["calibrate", str(case), "--model", "chain", "--hold-out", "temperature"]
     result = CliRunner().invoke(app, asked, env={"COLUMNS": "100"})
@@ -43,7 +40,7 @@ def calibrated(case: Path) -> tuple[str, Path]:
     return result.stdout, case.parent / "results" / "calibration"
 
 
-def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
+def test_command_leaves_everything_behind(calibrated):
     said, target = calibrated
     files = {"shear_stress.toml", "calibration.nc", "predictions", "measured_and_fitted.png"}
     assert {path.name for path in target.iterdir()} == files | {".case", "report.html"}
@@ -68,7 +65,7 @@ def test_command_leaves_everything_behind(calibrated: tuple[str, Path]) -> None:
         assert word in page
 
 
-def test_the_surface_decides_what_predicts(case: Path, inputs: Path) -> None:
+def test_the_surface_decides_what_predicts(case, inputs):
     assert default_model(read_case(case)) == "chain"
     measured = inputs / "of_a_profile.toml"
     measured.write_text('[surface]\nfiles = ["road.txt"]\nscales = 3\n', encoding="utf-8")
@@ -81,9 +78,7 @@ def test_the_surface_decides_what_predicts(case: Path, inputs: Path) -> None:
     assert default_model(read, [read.surface, waves]) == "chain"
 
 
-def test_the_page_names_the_command_that_makes_it_again(
-    shell: Shell, calibrated: tuple[str, Path], case: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_page_names_the_command_that_makes_it_again(shell, calibrated, case, monkeypatch):
     """Word for word, options included: run again, it prints the same answer."""
     said, target = calibrated
     text = Page(target / "report.html").text
@@ -95,7 +90,7 @@ def test_the_page_names_the_command_that_makes_it_again(
     assert "τ_0" in answers.pop()
 
 
-def test_what_needs_no_prediction_is_refused_before_any(case: Path, tmp_path: Path) -> None:
+def test_what_needs_no_prediction_is_refused_before_any(case, tmp_path):
     few = tmp_path / "few.csv"
     few.write_text("speed [m/s],friction\n0.1,0.9\n1,0.9\n")
     short = case.with_name("short.toml")
@@ -109,7 +104,7 @@ def test_what_needs_no_prediction_is_refused_before_any(case: Path, tmp_path: Pa
             gs.calibrate(read_case(short), on_task=pytest.fail, **options)
 
 
-def test_fixed_parameters_have_units() -> None:
+def test_fixed_parameters_have_units():
     texts = ["stress_0=5 MPa", "speed_0 = 6 mm/s", "activation_energy=0.9 eV", "width=0.1",
              "reference_temperature=20 C"]  # fmt: skip
     assert parse_fixed(texts) == pytest.approx(

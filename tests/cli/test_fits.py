@@ -1,19 +1,15 @@
 """`gripscale fit-surface` and `gripscale fit-rubber`, with one sweep or several temperatures."""
 
-from __future__ import annotations
-
 import json
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from gripscale.rubber import WLF, Rubber, read_master_curve, read_shift_table, springpot_modulus
-from tests.samples import Shell
 
 
-def test_surface_half_prints_the_waves(shell: Shell, inputs: Path, tmp_path: Path) -> None:
+def test_surface_half_prints_the_waves(shell, inputs, tmp_path):
     target = tmp_path / "figures"
     options = ["--scales", 3, "--s-wavelength", 3, "--crop", "10 mm", "390 mm", "--output", target]
     result = shell("fit-surface", inputs / "road.txt", *options)
@@ -32,7 +28,7 @@ def test_surface_half_prints_the_waves(shell: Shell, inputs: Path, tmp_path: Pat
     }
 
 
-def test_surface_half_takes_units_that_no_file_states(shell: Shell, tmp_path: Path) -> None:
+def test_surface_half_takes_units_that_no_file_states(shell, tmp_path):
     heights = np.random.default_rng(1).normal(size=(20, 20))
     line, table = tmp_path / "line.txt", tmp_path / "table.txt"
     line.write_text("\n".join(f"{n} {z:.4f}" for n, z in enumerate(heights.flat)))
@@ -48,9 +44,7 @@ def test_surface_half_takes_units_that_no_file_states(shell: Shell, tmp_path: Pa
     assert "give --step," in shell("fit-surface", line).output
 
 
-def test_surface_half_doubts_depths_first_and_turns_them_over(
-    shell: Shell, inputs: Path, tmp_path: Path
-) -> None:
+def test_surface_half_doubts_depths_first_and_turns_them_over(shell, inputs, tmp_path):
     road = tmp_path / "depths.txt"
     road.write_text((inputs / "road.txt").read_text().replace("z [mm]", "depth [mm]"))
     options = ["--scales", 2, "--crop", "10 mm", "390 mm"]
@@ -62,7 +56,7 @@ def test_surface_half_doubts_depths_first_and_turns_them_over(
     assert "doubt:" not in stated.stdout
 
 
-def test_surface_half_to_a_cut_off_of_the_upper_part(shell: Shell, inputs: Path) -> None:
+def test_surface_half_to_a_cut_off_of_the_upper_part(shell, inputs):
     options = ["--scales", 4, "--crop", "10 mm", "390 mm", "--top-height-fraction", 0.5]
     result = shell("fit-surface", inputs / "road.txt", *options, "--cut-off", "4 mm")
     assert result.exit_code == 0, result.output
@@ -75,10 +69,10 @@ def test_surface_half_to_a_cut_off_of_the_upper_part(shell: Shell, inputs: Path)
     assert "either smallest_wavelength (the last wave) or cut_off" in " ".join(both.stderr.split())
 
 
-def test_surface_half_says_where_the_waves_end(shell: Shell, inputs: Path) -> None:
+def test_surface_half_says_where_the_waves_end(shell, inputs):
     road, crop = inputs / "road.txt", ["--crop", "10 mm", "390 mm"]
 
-    def notes(*options: object) -> str:
+    def notes(*options):
         result = shell("fit-surface", road, *crop, *options)
         assert result.exit_code == 0, result.output
         return " ".join(result.stdout.split())
@@ -91,7 +85,7 @@ def test_surface_half_says_where_the_waves_end(shell: Shell, inputs: Path) -> No
     assert measured.count("note:") == 1
 
 
-def test_rubber_half_draws_strain_sweeps(shell: Shell, inputs: Path, tmp_path: Path) -> None:
+def test_rubber_half_draws_strain_sweeps(shell, inputs, tmp_path):
     strain, target = np.geomspace(0.01, 20.0, 12), tmp_path / "out"
     rows = [
         f"{celsius},{s:.6g},{2 + 6 / (1 + s / c):.6g},{1 / (1 + s / c):.6g}"
@@ -120,7 +114,7 @@ def test_rubber_half_draws_strain_sweeps(shell: Shell, inputs: Path, tmp_path: P
 
 
 @pytest.fixture
-def tracks(tmp_path: Path) -> Path:
+def tracks(tmp_path):
     x = 0.1 * np.arange(2000)
     z = np.random.default_rng(1).standard_normal((2, 2000)).cumsum(axis=1) * 0.02
     path = tmp_path / "road.csv"
@@ -128,9 +122,7 @@ def tracks(tmp_path: Path) -> Path:
     return path
 
 
-def test_the_option_that_a_message_names_cures_it(
-    shell: Shell, tracks: Path, tmp_path: Path
-) -> None:
+def test_the_option_that_a_message_names_cures_it(shell, tracks, tmp_path):
     refused = shell("fit-surface", tracks)
     assert "give --channel, its title or number, such as --channel 2" in " ".join(
         refused.output.split()
@@ -161,7 +153,7 @@ TRUE = WLF(8.86, 101.6, ROOM)
 
 
 @pytest.fixture(scope="module")
-def sweeps(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def sweeps(tmp_path_factory):
     """Six sweeps of an unfilled rubber with one per cent of scatter."""
     generator, lines = np.random.default_rng(3), ["T (C);f (Hz);E' (MPa);E'' (MPa)"]
     for celsius in (-12.0, -4.0, 4.0, 12.0, 20.0, 28.0):
@@ -175,7 +167,7 @@ def sweeps(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_sweeps_become_a_rubber_and_files(shell: Shell, sweeps: Path, tmp_path: Path) -> None:
+def test_sweeps_become_a_rubber_and_files(shell, sweeps, tmp_path):
     target = tmp_path / "out"
     result = shell("fit-rubber", sweeps, "--reference-temperature", "20 C", "--output", target)
     assert result.exit_code == 0, result.output
@@ -197,7 +189,7 @@ def test_sweeps_become_a_rubber_and_files(shell: Shell, sweeps: Path, tmp_path: 
     }
 
 
-def test_a_table_edited_by_hand_is_honoured(shell: Shell, sweeps: Path, tmp_path: Path) -> None:
+def test_a_table_edited_by_hand_is_honoured(shell, sweeps, tmp_path):
     table = tmp_path / "mine.csv"
     celsius = (-12.0, -4.0, 4.0, 12.0, 20.0, 28.0)
     table.write_text(
@@ -211,7 +203,7 @@ def test_a_table_edited_by_hand_is_honoured(shell: Shell, sweeps: Path, tmp_path
     assert master.frequency[-1] == pytest.approx(30.0 * 1e4)
 
 
-def test_one_sweep_is_a_master_curve_at_its_temperature(shell: Shell, tmp_path: Path) -> None:
+def test_one_sweep_is_a_master_curve_at_its_temperature(shell, tmp_path):
     omega = np.geomspace(1e-2, 1e4, 30)
     modulus = Rubber(1e6, [2e6, 5e6], [1e-1, 1e-3]).complex_modulus(omega) / 3.0
     rows = [f" {w:.5E} {g.real:.5E} {g.imag:.5E}" for w, g in zip(omega, modulus, strict=True)]
@@ -230,9 +222,7 @@ def test_one_sweep_is_a_master_curve_at_its_temperature(shell: Shell, tmp_path: 
     }
 
 
-def test_what_sweeps_need_and_a_master_curve_does_not(
-    shell: Shell, sweeps: Path, inputs: Path
-) -> None:
+def test_what_sweeps_need_and_a_master_curve_does_not(shell, sweeps, inputs):
     for words, sentence in (
         ((inputs / "dma.txt", "--vertical"), "sweeps at several temperatures; got a master curve"),
         ((sweeps, "--reference-temperature", "80 C"), "must lie within the temperatures measured"),

@@ -1,9 +1,5 @@
 """Cases that allow no good answer: `run`, `compare` and the page say so before any number."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -11,7 +7,6 @@ from gripscale.surface import self_affine_profile
 from tests.report.reading import Page
 from tests.samples import (
     HALF_PLANE,
-    Shell,
     case_text,
     write_master_curve,
     write_maxwell,
@@ -26,7 +21,7 @@ CASE = case_text(
 
 
 @pytest.fixture
-def case(tmp_path: Path) -> Path:
+def case(tmp_path):
     """A rough road of 0.6 m and a rubber measured over all its frequencies."""
     write_maxwell(tmp_path / "dma.txt")
     road = self_affine_profile(0.8, 1e-2, 8e-4, length=0.6, step=2e-4, seed=1)
@@ -35,13 +30,13 @@ def case(tmp_path: Path) -> Path:
     return tmp_path / "case.toml"
 
 
-def replaced(case: Path, old: str, new: str) -> None:
+def replaced(case, old, new):
     text = case.read_text()
     assert old in text
     case.write_text(text.replace(old, new))
 
 
-def test_the_first_line_says_that_there_is_no_answer(shell: Shell, case: Path) -> None:
+def test_the_first_line_says_that_there_is_no_answer(shell, case):
     replaced(case, "scales", 'crop = ["200 mm", "220 mm"]\nscales')
     result = shell("compare", case, "--models", "chain_half_plane,direct", columns=400)
     assert result.exit_code == 0, result.output
@@ -56,7 +51,7 @@ def test_the_first_line_says_that_there_is_no_answer(shell: Shell, case: Path) -
     assert statement in page.text
 
 
-def test_what_cannot_be_solved_is_an_error_before_all_else(shell: Shell, case: Path) -> None:
+def test_what_cannot_be_solved_is_an_error_before_all_else(shell, case):
     frequency = np.geomspace(1e-3, 1e3, 49)
     relaxed = 1j * frequency / (1.0 + 1j * frequency)
     write_master_curve(case.with_name("dma.txt"), frequency, 1e6 * relaxed + 1e3j * frequency)

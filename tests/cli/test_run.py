@@ -1,18 +1,13 @@
 """`gripscale run` from files to tables, figures and results."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner, Result
+from typer.testing import CliRunner
 
 from gripscale.case_file.folder import AT_TIMES, CASE_NOTE, RESULT_FILES
 from gripscale.cli import app
@@ -21,8 +16,7 @@ from gripscale.experiment import Task
 from gripscale.io import netcdf
 from gripscale.questions.terminal import time_left
 from gripscale.theory import HalfPlane
-from gripscale.wave import ScaleResult, WaveProblem
-from tests.samples import HALF_PLANE, TWO_WAVES, Shell, case_text
+from tests.samples import HALF_PLANE, TWO_WAVES, case_text
 
 WAVES_BY_HAND = case_text(
     '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"', solver=HALF_PLANE
@@ -30,14 +24,14 @@ WAVES_BY_HAND = case_text(
 
 
 @pytest.fixture(scope="module")
-def done(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
+def done(inputs, tmp_path_factory):
     """The small case, run once."""
     target = tmp_path_factory.mktemp("done") / "deep" / "results"
     arguments = ["run", str(inputs / "case.toml"), "--output", str(target)]
     return CliRunner().invoke(app, arguments, env={"COLUMNS": "100"}), target
 
 
-def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
+def test_run_ends_well_and_writes_everything(done):
     result, target = done
     assert result.exit_code == 0, result.output
     assert result.stderr == ""
@@ -51,9 +45,7 @@ def test_run_ends_well_and_writes_everything(done: tuple[Result, Path]) -> None:
     )
 
 
-def test_figures_are_files_where_the_case_asks_for_them(
-    shell: Shell, changed: Callable[..., Path]
-) -> None:
+def test_figures_are_files_where_the_case_asks_for_them(shell, changed):
     case = changed("[output]", '[output]\nfigures = ["svg"]')
     result = shell("run", case)
     assert "Results and figures are in" in result.output
@@ -62,7 +54,7 @@ def test_figures_are_files_where_the_case_asks_for_them(
     assert written == {name for name in RESULT_FILES if name.endswith(".svg")} - of_others
 
 
-def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -> None:
+def test_output_fits_its_width_without_colour_codes(done):
     result, target = done
     assert "wave 3 of 3" not in result.output  # progress is for terminals
     assert "\x1b" not in result.output
@@ -71,9 +63,7 @@ def test_output_fits_its_width_without_colour_codes(done: tuple[Result, Path]) -
     assert "…" not in result.output
 
 
-def test_a_run_prints_one_screen_and_the_rest_where_it_is_asked_for(
-    done: tuple[Result, Path], inputs: Path, shell: Shell
-) -> None:
+def test_a_run_prints_one_screen_and_the_rest_where_it_is_asked_for(done, inputs, shell):
     result, target = done
     lines = result.output.splitlines()
     assert len(lines) <= 45
@@ -90,9 +80,7 @@ def test_a_run_prints_one_screen_and_the_rest_where_it_is_asked_for(
         assert words not in result.output
 
 
-def test_case_is_copied_but_for_the_names_of_its_files(
-    done: tuple[Result, Path], inputs: Path
-) -> None:
+def test_case_is_copied_but_for_the_names_of_its_files(done, inputs):
     text = (inputs / "case.toml").read_text()
     for name in ("road.txt", "dma.txt"):
         text = text.replace(name, f"inputs/{name}")
@@ -101,14 +89,10 @@ def test_case_is_copied_but_for_the_names_of_its_files(
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_a_chain_that_fails_leaves_the_answer_of_a_measured_surface(
-    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_chain_that_fails_leaves_the_answer_of_a_measured_surface(shell, changed, monkeypatch):
     solve = HalfPlane.solve
 
-    def failing(
-        self: HalfPlane, problem: WaveProblem, start: ScaleResult | None = None
-    ) -> ScaleResult:
+    def failing(self, problem, start=None):
         return replace(solve(self, problem, start), status=Status.ITERATION_LIMIT)
 
     monkeypatch.setattr(HalfPlane, "solve", failing)
@@ -130,9 +114,7 @@ def test_a_chain_that_fails_leaves_the_answer_of_a_measured_surface(
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
-    shell: Shell, changed: Callable[..., Path]
-) -> None:
+def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(shell, changed):
     case = changed()
     figures = case.parent / "results" / "figures"
     figures.mkdir(parents=True)
@@ -146,10 +128,8 @@ def test_an_earlier_run_leaves_nothing_behind_and_other_files_stay(
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_what_was_finished_before_ctrl_c_is_kept_and_not_solved_again(
-    shell: Shell, changed: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def stop(*_: object, **__: object) -> None:
+def test_what_was_finished_before_ctrl_c_is_kept_and_not_solved_again(shell, changed, monkeypatch):
+    def stop(*_, **__):
         raise KeyboardInterrupt
 
     case, solve = changed(), Task.solve
@@ -166,9 +146,9 @@ def test_what_was_finished_before_ctrl_c_is_kept_and_not_solved_again(
     assert stopped.exit_code == 130
     assert "Answer: " in stopped.stdout
     assert f"what was finished is kept in {case.parent / 'results'}" in stopped.stderr
-    solved: list[str] = []
+    solved = []
 
-    def counting(self: Task, *arguments: Any, **options: Any) -> Any:
+    def counting(self, *arguments, **options):
         solved.append(self.model.name)
         return solve(self, *arguments, **options)
 
@@ -179,7 +159,7 @@ def test_what_was_finished_before_ctrl_c_is_kept_and_not_solved_again(
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_waves_by_hand_and_a_named_rubber_need_no_files(shell: Shell, tmp_path: Path) -> None:
+def test_waves_by_hand_and_a_named_rubber_need_no_files(shell, tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(WAVES_BY_HAND.replace('"0.3 m/s"', "0"))
     result = shell("run", case)
@@ -199,7 +179,7 @@ def test_waves_by_hand_and_a_named_rubber_need_no_files(shell: Shell, tmp_path: 
         (600.0, "; about 10 min left"),
     ],
 )
-def test_a_line_says_how_long_the_others_may_take(seconds: float, words: str) -> None:
+def test_a_line_says_how_long_the_others_may_take(seconds, words):
     assert time_left(seconds) == words
 
 
@@ -207,7 +187,7 @@ EXTRAS = ("bokeh", "jinja2", "panel", "openpyxl", "dask", "distributed", "Surfac
 WITHOUT = f"import sys\nsys.modules |= dict.fromkeys({EXTRAS})\n"
 
 
-def test_a_run_is_drawn(tmp_path: Path) -> None:
+def test_a_run_is_drawn(tmp_path):
     (tmp_path / "case.toml").write_text(case_text(TWO_WAVES, solver=HALF_PLANE))
     (tmp_path / "sitecustomize.py").write_text(WITHOUT)
     subprocess.run(

@@ -1,9 +1,6 @@
 """README and documentation quote the numbers of the shipped case that the commands give."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import pytest
 
@@ -22,15 +19,15 @@ STORED = json.loads(NUMBERS.read_text(encoding="utf-8"))
         (DOCS / "direct-contact.md", "compare: large strain"),
     ],
 )
-def test_the_answer_is_quoted(page: Path, name: str) -> None:
+def test_the_answer_is_quoted(page, name):
     assert STORED[name] in " ".join(page.read_text(encoding="utf-8").split())
 
 
-def test_the_file_has_what_a_run_gives() -> None:
+def test_the_file_has_what_a_run_gives():
     assert of_run() == {name: STORED[name] for name in STORED if name.startswith("run")}
 
 
 @pytest.mark.verification
-def test_the_file_has_what_a_comparison_gives() -> None:
+def test_the_file_has_what_a_comparison_gives():
     """A minute of one core."""
     assert of_comparison() == {name: STORED[name] for name in ["compare: large strain"]}

@@ -1,11 +1,8 @@
 """`gripscale export rubber`, `tables` and `mesh`."""
 
-from __future__ import annotations
-
 import csv
 import json
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,12 +18,12 @@ from tests.export.readers import READERS, read_abaqus
 from tests.samples import MAXWELL, case_text, write_maxwell
 
 
-def run(*arguments: object):
+def run(*arguments):
     return CliRunner().invoke(app, ["export", *map(str, arguments)])
 
 
 @pytest.fixture(scope="module")
-def inputs(tmp_path_factory) -> Path:
+def inputs(tmp_path_factory):
     """A folder with a measured rubber, a case of it, and the file of a rubber."""
     folder = tmp_path_factory.mktemp("inputs")
     write_maxwell(folder / "dma.txt")
@@ -92,7 +89,7 @@ def test_what_cannot_be_a_rubber_is_one_sentence(inputs, tmp_path, source, optio
 
 
 @pytest.fixture(scope="module")
-def result(tmp_path_factory) -> Path:
+def result(tmp_path_factory):
     """The file of a prediction of two waves by the block."""
     prediction = gs.solve_chain(
         Rubber(6e6, [3e6, 5e6], [1e-2, 1e-4]),

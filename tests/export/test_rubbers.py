@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import ClassVar
 from xml.etree import ElementTree as ET
 
@@ -38,12 +37,12 @@ ENERGIES = (NeoHookean(), MooneyRivlin(0.3), Yeoh(-0.05, 0.004), Isihara(0.2, -0
 
 
 @pytest.fixture(scope="module")
-def measured() -> Rubber:
+def measured():
     """The measured tread: 23 elements, a thousand times stiffer at once than relaxed."""
     return fit_prony(read_master_curve(DMA))
 
 
-def band(rubber: Rubber) -> np.ndarray:
+def band(rubber):
     return np.geomspace(0.01 / rubber.relaxation_times.max(), 100 / rubber.relaxation_times.min())
 
 
@@ -218,7 +217,7 @@ SBR = styrene_butadiene()
 BAND = (1.0, 1e5)
 
 
-def errors(rubber: Rubber) -> list[float]:
+def errors(rubber):
     """Return the largest relative errors of E', E'' and E''/E' over the band, at 1000 points."""
     omega = 2.0 * np.pi * np.geomspace(*BAND, 1000)
     here, exact = rubber.complex_modulus(omega), SBR.complex_modulus(omega)
@@ -226,7 +225,7 @@ def errors(rubber: Rubber) -> list[float]:
     return [float(np.abs(part - 1.0).max()) for part in (*parts, parts[1] / parts[0])]
 
 
-def test_the_misfit_is_that_within_the_band() -> None:
+def test_the_misfit_is_that_within_the_band():
     reduction = reduced(SBR, band=BAND, terms=10)
     stated = [reduction.storage, reduction.loss, reduction.loss_factor]
     # 20 points per decade miss the largest by less than a tenth of it
@@ -240,7 +239,7 @@ def test_the_misfit_is_that_within_the_band() -> None:
         assert getattr(reduction.rubber, kept) == getattr(SBR, kept)
 
 
-def test_fewer_terms_miss_more_and_all_of_them_nothing() -> None:
+def test_fewer_terms_miss_more_and_all_of_them_nothing():
     worst = [max(errors(reduced(SBR, band=BAND, terms=terms).rubber)) for terms in (2, 4, 8, 16)]
     assert worst == sorted(worst, reverse=True)
     single = Rubber(2e6, [5e6], [1e-3])
@@ -248,7 +247,7 @@ def test_fewer_terms_miss_more_and_all_of_them_nothing() -> None:
     assert max(again.storage, again.loss) < 0.01
 
 
-def test_what_cannot_be_reduced_is_refused() -> None:
+def test_what_cannot_be_reduced_is_refused():
     with pytest.raises(InputError, match="got an elastic one"):
         reduced(Rubber(2e6, [], []))
     with pytest.raises(InputError, match="terms must be a whole number from 1 to 200; got 0"):
@@ -257,7 +256,7 @@ def test_what_cannot_be_reduced_is_refused() -> None:
         reduced(SBR, band=(1e3, 1.0))
 
 
-def test_the_command_states_the_misfit(tmp_path: Path) -> None:
+def test_the_command_states_the_misfit(tmp_path):
     write_maxwell(tmp_path / "dma.txt")
     target = tmp_path / "rubber.inp"
     arguments = ["export", "rubber", tmp_path / "dma.txt", "--to", "abaqus", "--output", target]

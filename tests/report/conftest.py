@@ -1,11 +1,7 @@
 """Results to report on: a coarse run; the same with a failed wave; a small study."""
 
-from __future__ import annotations
-
 import json
 import shutil
-from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,7 +22,7 @@ CASE = '# A small case <b>with</b> "marks" & signs\n' + case_text(
 WAVES = 3
 
 
-def write_inputs(folder: Path) -> None:
+def write_inputs(folder):
     """Write two roads of three waves, a Maxwell rubber and the case."""
     for name, phase in (("road", 0.0), ("lane", 0.7)):
         write_road(folder / f"{name}.txt", three_waves(phase))
@@ -35,7 +31,7 @@ def write_inputs(folder: Path) -> None:
 
 
 @pytest.fixture(scope="session")
-def run_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+def run_folder(tmp_path_factory):
     """The results folder of a real run, without its printed figures."""
     folder = tmp_path_factory.mktemp("somewhere-private")
     write_inputs(folder)
@@ -44,14 +40,14 @@ def run_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     shutil.rmtree(folder)
 
 
-def read(path: Path) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
+def read(path):
     """Return a prediction and the groups beside it."""
     tree = netcdf.load_tree(path)
     groups = {name: part.to_dataset(inherit=False) for name, part in tree.children.items()}
     return tree.to_dataset(), groups
 
 
-def fail_second_wave(data: xr.Dataset) -> xr.Dataset:
+def fail_second_wave(data):
     """Return a prediction that ended at its second wave."""
     cut = data.isel(scale=slice(0, 2)).copy(deep=True)
     cut["status"] = ("scale", np.array(["converged", "iteration limit"], dtype=object))
@@ -67,7 +63,7 @@ def fail_second_wave(data: xr.Dataset) -> xr.Dataset:
 
 
 @pytest.fixture
-def failed_folder(run_folder: Path, tmp_path: Path) -> Path:
+def failed_folder(run_folder, tmp_path):
     """The run with a chain that failed at its second wave."""
     target = tmp_path / "failed"
     shutil.copytree(run_folder, target)
@@ -77,7 +73,7 @@ def failed_folder(run_folder: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def study_file(tmp_path_factory):
     """A study over two speeds and two rubbers, one prediction of which failed."""
     axes, waves = ("speed", "rubber"), ("speed", "rubber", "scale")
     area = np.linspace(0.2, 0.9, 12).reshape(2, 2, 3)

@@ -1,7 +1,5 @@
 """Failures point to a chapter that is there."""
 
-from __future__ import annotations
-
 import pytest
 
 from gripscale.cli.docs import anchors
@@ -17,13 +15,13 @@ FAILURES = [status for status in Status if status != "converged"]
 
 
 @pytest.mark.parametrize("chapter", sorted({*(status.chapter for status in Status), BEYOND}))
-def test_chapters_are_there(chapter: str) -> None:
+def test_chapters_are_there(chapter):
     page, _, anchor = chapter.partition("#")
     assert anchor in anchors((DOCS / page).read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("status", FAILURES)
-def test_a_failure_says_what_to_do_and_where_to_read(status: Status) -> None:
+def test_a_failure_says_what_to_do_and_where_to_read(status):
     assert status.sentence[0].isupper()
     assert status.sentence.endswith(".")
     assert status.advice.endswith(".")
@@ -33,18 +31,18 @@ def test_a_failure_says_what_to_do_and_where_to_read(status: Status) -> None:
 
 
 @pytest.mark.parametrize("word", ["", "converged", "a word of a later version"])
-def test_a_failure_without_a_known_word_is_its_sentence(word: str) -> None:
+def test_a_failure_without_a_known_word_is_its_sentence(word):
     text = "wave 3 of 3 did not converge: iteration limit"
     assert explained(Failure(text, word)) == text
 
 
-def test_a_chapter_is_found_without_the_source() -> None:
+def test_a_chapter_is_found_without_the_source():
     words = chapter_words("docs/reading-results.md#beyond-the-measured-band")
     assert words == "`gripscale docs reading-results#beyond-the-measured-band`"
     assert chapter_words("docs/limits.md") == "`gripscale docs limits`"
     assert chapter_words("`gripscale keys rubber`") == "`gripscale keys rubber`"
 
 
-def test_refusals_point_by_their_kind_and_others_nowhere() -> None:
+def test_refusals_point_by_their_kind_and_others_nowhere():
     assert explained(ExtrapolationError("far beyond")) == f"far beyond; see {chapter_words(BEYOND)}"
     assert explained(InputError("speed must be positive")) == "speed must be positive"

@@ -1,7 +1,5 @@
 """The pictures of the equations are those of their LaTeX."""
 
-from __future__ import annotations
-
 import base64
 import html
 import re
@@ -19,32 +17,30 @@ from tests.report.draw_equations import drawn
 
 
 @pytest.mark.parametrize("name", method_equations())
-def test_picture_is_of_its_equation(name: str) -> None:
+def test_picture_is_of_its_equation(name):
     equation = method_equations()[name]
     picture = html.unescape(base64.b64decode(equation.data).decode("utf-8"))
     assert f"<!-- ${equation.latex}$ -->" in picture
 
 
-def test_picture_is_what_matplotlib_draws() -> None:
+def test_picture_is_what_matplotlib_draws():
     first = method_equations()["correlation"]
     size = r'width="([\d.]+)pt" height="([\d.]+)pt"'
     new_size, stored = (
         re.search(size, text)
         for text in (drawn(first.latex), base64.b64decode(first.data).decode("utf-8"))
     )
-    assert new_size is not None
-    assert stored is not None
     for new, old in zip(new_size.groups(), stored.groups(), strict=True):
         assert float(new) == pytest.approx(float(old), rel=0.02)
 
 
-def names(*methods: tuple[str, ...]) -> list[str]:
+def names(*methods):
     """Return the names of the equations in the section of methods."""
     elements = method_section(*methods).elements
     return [element.name for element in elements if isinstance(element, Equation)]
 
 
-def test_the_method_is_that_of_the_models_that_were_run() -> None:
+def test_the_method_is_that_of_the_models_that_were_run():
     direct = ["prony", "half_space", "rough_contact", "rough_friction"]
     dry = AnswerModel(conditions=Conditions(shear_stress=ConstantStress(1e6)))
     assert names(DirectContact.method) == direct
@@ -56,7 +52,7 @@ def test_the_method_is_that_of_the_models_that_were_run() -> None:
     assert set(method_equations()) <= both  # none that no model names
 
 
-def test_a_model_without_equations_says_what_it_is() -> None:
+def test_a_model_without_equations_says_what_it_is():
     (element,) = method_section(Persson().method).elements
     assert isinstance(element, Text)
     assert "Persson" in str(element)

@@ -1,11 +1,8 @@
 """The table a person reads, in the terminal and on a page: its numbers, its units, its width."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -29,14 +26,14 @@ from tests.samples import THREE_SINES as SINES
 class Spring(Rubber):
     """A rubber with E* = 4 MPa + 3 MPa i at any frequency, so that |E*| is 5 MPa."""
 
-    def complex_modulus(self, omega: Any) -> Any:
+    def complex_modulus(self, omega):
         return np.full(np.shape(omega), 4e6 + 3e6j)
 
 
 RUBBER = Spring(5e6, [1e6], [1.0], valid_band=(1.0, 2 * np.pi * 100.0))
 
 
-def wave(i: int, speed: float, status: str = "converged") -> ScaleResult:
+def wave(i, speed, status="converged"):
     """Return one of three waves with powers of two in contact and friction."""
     friction = 0.125 * 2**i if speed > 0.0 else 0.0
     return ScaleResult(
@@ -59,16 +56,16 @@ def wave(i: int, speed: float, status: str = "converged") -> ScaleResult:
     )
 
 
-def solved(speed: float = 0.25, statuses: tuple[str, ...] = ("converged",) * 3) -> xr.Dataset:
+def solved(speed=0.25, statuses=("converged",) * 3):
     waves = [wave(i, speed, status) for i, status in enumerate(statuses)]
     return ChainResult(RUBBER, SINES, Load(3e5, speed, 0.1), waves, 3).to_dataset()
 
 
-def row(text: str, wave: int) -> list[str]:
+def row(text, wave):
     return next(line.split() for line in text.splitlines() if line.split()[:1] == [str(wave)])
 
 
-def test_a_wave_fills_its_row() -> None:
+def test_a_wave_fills_its_row():
     text = as_text(prediction_table(solved(), "Dynamic"), width=120)
     assert row(text, 2) == [
         *("2", "4.00", "0.500", "0.785", "0.600", "5.00", "0.750*"),
@@ -85,14 +82,14 @@ def test_a_wave_fills_its_row() -> None:
     assert text.count("beyond the measured") == 1
 
 
-def test_nothing_at_rest_has_friction() -> None:
+def test_nothing_at_rest_has_friction():
     text = as_text(prediction_table(solved(speed=0.0), "Static"), width=120)
     assert row(text, 1)[6] == "-"
     assert row(text, 1)[9:12] == ["-", "-", "-"]
     assert "no friction at rest" in text
 
 
-def test_failed_wave_has_no_totals() -> None:
+def test_failed_wave_has_no_totals():
     failed = solved(statuses=("converged", "iteration limit"))
     assert totals(failed) == "No totals: wave 2 did not converge (iteration limit)."
     assert "iteration limit" in as_text(prediction_table(failed, "Dynamic"), width=100)
@@ -101,7 +98,7 @@ def test_failed_wave_has_no_totals() -> None:
 
 
 @pytest.mark.parametrize("width", [80, 100])
-def test_long_status_is_wrapped_not_cut_off(width: int) -> None:
+def test_long_status_is_wrapped_not_cut_off(width):
     status = "active set not settled after 200 iterations, and the load step was cut 14 times"
     failed = solved(statuses=("converged", "iteration limit"))
     failed["status"].values[1] = status
@@ -111,7 +108,7 @@ def test_long_status_is_wrapped_not_cut_off(width: int) -> None:
     assert max(map(len, table.splitlines())) <= width
 
 
-def test_model_without_waves_shows_its_totals() -> None:
+def test_model_without_waves_shows_its_totals():
     numbers = dict(zip(TOTALS, (0.0123, 0.456, 0.451), strict=True))
     load = Load(3e5, 0.3, 0.1)
     data = predicted_answer(xr.Dataset(), numbers, "converged", "toy", load)
@@ -123,7 +120,7 @@ def test_model_without_waves_shows_its_totals() -> None:
     assert totals(failed) == "No totals: no contact."
 
 
-def test_brackets_are_text_not_markup() -> None:
+def test_brackets_are_text_not_markup():
     assert as_text("lag [mm], [bold]", "x") == "lag [mm], [bold]\nx\n"
 
 
@@ -140,11 +137,11 @@ def test_brackets_are_text_not_markup() -> None:
         (float("inf"), "inf"),
     ],
 )
-def test_significant_digits(value: float, text: str) -> None:
+def test_significant_digits(value, text):
     assert significant(value) == text
 
 
-def test_loads_are_in_the_units_of_the_case() -> None:
+def test_loads_are_in_the_units_of_the_case():
     """Pressures of 3, 6 and 24 bar at 0.25 m/s, that is 0.9 km/h."""
     data = solved().assign_attrs(display_units='{"pressure": "bar", "speed": "km/h"}')
     table = as_text(prediction_table(data, ""), width=120)
@@ -166,7 +163,7 @@ TABLE = Table(
 )
 
 
-def test_terminal_shows_groups_units_and_marks() -> None:
+def test_terminal_shows_groups_units_and_marks():
     lines = as_text(TABLE, width=80).splitlines()
     assert lines[0] == "Loads & ranges"
     assert lines[1].split() == ["load", "result"]
@@ -178,14 +175,14 @@ def test_terminal_shows_groups_units_and_marks() -> None:
     assert lines[-1] == "A note."
 
 
-def test_a_table_that_is_too_wide_is_divided_between_groups() -> None:
+def test_a_table_that_is_too_wide_is_divided_between_groups():
     lines = as_text(TABLE, width=38).splitlines()
     heads = [line.split() for line in lines if line.startswith("model")]
     assert heads == [["model", "bar"], ["model", "range", "share"]]
     assert max(map(len, lines)) <= 38
 
 
-def test_a_table_without_groups_is_divided_between_columns() -> None:
+def test_a_table_without_groups_is_divided_between_columns():
     model = Column("model", ["chain", "direct"])
     parts = [Column(f"part {i}", np.array([1.0, 2.0])) for i in range(8)]
     lines = as_text(Table("parts", [model, *parts]), width=30).splitlines()
@@ -195,7 +192,7 @@ def test_a_table_without_groups_is_divided_between_columns() -> None:
     assert max(map(len, lines)) <= 30
 
 
-def test_what_must_not_be_trusted_is_red() -> None:
+def test_what_must_not_be_trusted_is_red():
     console = Console(width=80, record=True, force_terminal=True, color_system="standard")
     with console.capture() as capture:
         console.print(TABLE)
@@ -204,7 +201,7 @@ def test_what_must_not_be_trusted_is_red() -> None:
     assert "-0.100 to 0.200" in red[0]
 
 
-def test_a_page_escapes_texts_and_sets_minus_signs() -> None:
+def test_a_page_escapes_texts_and_sets_minus_signs():
     page = TABLE.__html__()
     assert "&lt;b&gt;chain&lt;/b&gt;" in page
     assert "<b>" not in page
@@ -215,17 +212,16 @@ def test_a_page_escapes_texts_and_sets_minus_signs() -> None:
     assert page.count('<tr class="strong">') == 1
 
 
-def test_a_long_heading_breaks_into_few_lines_on_a_narrow_page() -> None:
+def test_a_long_heading_breaks_into_few_lines_on_a_narrow_page():
     """A heading of many words would be one word a line where a table is wider than the page."""
     long = "low end of the 90 % interval, over that of the first, answer of the friction"
     page = Table("t", [Column("low", np.array([1.0]), long)]).__html__()
     head = re.search(r'<th scope="col" class="">(low[^<]*)</th>', page)
-    assert head is not None
     assert " ".join(head[1].split()) == long
     assert len(head[1].split(" ")) <= 6
 
 
-def test_commands_of_a_text_are_code_and_markup_is_not() -> None:
+def test_commands_of_a_text_are_code_and_markup_is_not():
     text, page = "<b> is; `gripscale run` runs", "&lt;b&gt; is; <code>gripscale run</code> runs"
     assert with_code(text) == page
     assert f'<p class="note">{page}</p>' in replace(TABLE, notes=[text]).__html__()
@@ -234,7 +230,7 @@ def test_commands_of_a_text_are_code_and_markup_is_not() -> None:
 UNIT = {"units": "1"}
 
 
-def study(**attributes: object) -> xr.Dataset:
+def study(**attributes):
     """A study over two speeds and two rubbers, of which one prediction failed."""
     place = ("speed", "rubber")
     status = np.array([["converged", "wave 2 failed"], ["converged", "converged"]], dtype=object)
@@ -259,14 +255,14 @@ def study(**attributes: object) -> xr.Dataset:
     )
 
 
-def rows(result: xr.Dataset) -> list[dict[str, object]]:
+def rows(result):
     table = summary_table(result)
     titles = [f"{c.name} [{c.unit.replace('1', '-')}]" if c.unit else c.name for c in table.columns]
     values = [[None if x != x else x for x in column.values] for column in table.columns]
     return [dict(zip(titles, row, strict=True)) for row in zip(*values, strict=True)]
 
 
-def test_a_row_for_each_point_of_a_study() -> None:
+def test_a_row_for_each_point_of_a_study():
     first, failed, _, last = rows(study())
     assert (first["speed [m/s]"], first["rubber"]) == (0.1, "soft")
     assert (failed["speed [m/s]"], failed["rubber"]) == (0.1, "hard")
@@ -283,13 +279,13 @@ def test_a_row_for_each_point_of_a_study() -> None:
     assert not {"nominal_speed [m/s]", "prediction_key", "friction [-]"} & set(first)
 
 
-def test_doubts_stand_in_each_row() -> None:
+def test_doubts_stand_in_each_row():
     doubted = rows(study(input_doubts=to_json([doubt("The unit of heights looks wrong.")])))
     assert {row["not_to_rely_on"] for row in doubted} == {"The unit of heights looks wrong."}
     assert "not_to_rely_on" not in rows(study())[0]
 
 
-def test_models_of_a_comparison_and_points_of_a_design_are_rows() -> None:
+def test_models_of_a_comparison_and_points_of_a_design_are_rows():
     words = np.array(["converged", "none"], dtype=object)
     comparison = xr.Dataset({"status": ("model", words)}, {"model": ["chain", "direct"]})
     assert [row["model"] for row in rows(comparison)] == ["chain", "direct"]
@@ -297,7 +293,7 @@ def test_models_of_a_comparison_and_points_of_a_design_are_rows() -> None:
     assert [(row["point"], row["gain [-]"]) for row in rows(design)] == [(0, 0.1), (1, 0.2)]
 
 
-def test_the_answer_stands_beside_the_direct_contact() -> None:
+def test_the_answer_stands_beside_the_direct_contact():
     words = np.array(["converged", "converged"], dtype=object)
     comparison = xr.Dataset(
         {
@@ -314,7 +310,7 @@ def test_the_answer_stands_beside_the_direct_contact() -> None:
     assert chain["cutoff_wavelength [m]"] == direct["cutoff_wavelength [m]"] == 1e-4
 
 
-def test_rubber_at_rest_has_no_friction() -> None:
+def test_rubber_at_rest_has_no_friction():
     results = (
         xr.Dataset({"prediction_status": "converged", "nominal_speed": v, "total_friction": 0.0})
         for v in (1.0, 0.0)

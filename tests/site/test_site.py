@@ -1,12 +1,9 @@
 """The site builds without a warning, has every page, and loads nothing from elsewhere."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
 from inspect import ismodule
 
 import pytest
@@ -36,7 +33,7 @@ def site(tmp_path_factory):
     return folder
 
 
-def loaded(page: Page) -> Iterator[str]:
+def loaded(page):
     """Yield what a page makes a browser fetch."""
     for tag, attrs in page.tags:
         fetched = attrs.get(LOADING.get(tag, ""))

@@ -1,23 +1,19 @@
 """A case made in Python and the case file with the same inputs have one answer."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 import gripscale as gs
-from gripscale.core.finding import Finding
 from gripscale.half_space import model
 
 DATA = Path(__file__).parents[3] / "examples" / "data"
 ROAD = DATA / "road" / "20211011_aylesbury_dec_station_0.dat"
 DMA = DATA / "rubber" / "measured_dma.txt"
 CROP = (0.3, 0.6)
-LOAD: dict[str, Any] = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
-UNFILLED: dict[str, Any] = {**LOAD, "filled": False}
+LOAD = {"pressure": 3e5, "speed": 0.3, "footprint": 0.1}
+UNFILLED = {**LOAD, "filled": False}
 END, WAVES = 2e-3, 4
 
 CASE = f"""\
@@ -39,7 +35,7 @@ footprint = "100 mm"
 """
 
 
-def made(**other: Any) -> gs.Case:
+def made(**other):
     """Return the case made in Python, with other arguments where they are given."""
     profile = gs.read_profile(ROAD)
     rubber = gs.read_master_curve(DMA, reference_temperature=293.15)
@@ -47,18 +43,18 @@ def made(**other: Any) -> gs.Case:
     return gs.Case(profile, rubber, cleaning={"crop": CROP}, **arguments)
 
 
-def numbers(answer: gs.Answer) -> list[object]:
+def numbers(answer):
     """Return friction and contact fraction with their intervals."""
     names = ("friction", "contact_fraction")
     return [getattr(answer, f"{name}{end}") for name in names for end in ("", "_interval")]
 
 
 @pytest.fixture(scope="module")
-def answer() -> gs.Answer:
+def answer():
     return gs.answer(made())
 
 
-def test_a_profile_may_be_cleaned_and_a_master_curve_fitted_before(answer: gs.Answer) -> None:
+def test_a_profile_may_be_cleaned_and_a_master_curve_fitted_before(answer):
     """A series that was fitted evenly gives another answer, whose interval knows."""
     assert answer.reliable
     profile, _ = gs.clean(gs.read_profile(ROAD), crop=CROP)
@@ -70,7 +66,7 @@ def test_a_profile_may_be_cleaned_and_a_master_curve_fitted_before(answer: gs.An
     assert even.friction_interval[0] < answer.friction < even.friction_interval[1]
 
 
-def test_texts_with_units_are_the_same_case(answer: gs.Answer) -> None:
+def test_texts_with_units_are_the_same_case(answer):
     texts = {"pressure": "300 kPa", "speed": "0.3 m/s", "footprint": "100 mm"}
     same = gs.answer(made(**texts, smallest_wavelength="2 mm"))
     assert numbers(same) == numbers(answer)
@@ -86,17 +82,17 @@ def test_texts_with_units_are_the_same_case(answer: gs.Answer) -> None:
         ({"conditions": gs.conditions.Conditions(temperature=313.15)}, "shift"),
     ],
 )
-def test_a_bad_input_is_refused_in_one_sentence(wrong: dict[str, Any], sentence: str) -> None:
+def test_a_bad_input_is_refused_in_one_sentence(wrong, sentence):
     with pytest.raises(gs.InputError, match=sentence) as refused:
         made(**wrong)
     assert "\n" not in str(refused.value)
 
 
-def tread_of(answer: gs.Answer) -> list[Finding]:
+def tread_of(answer):
     return [finding for finding in answer.findings if finding.key == "rubber.thickness"]
 
 
-def test_rubber_without_end_is_compared_with_a_tread(answer: gs.Answer, tmp_path: Path) -> None:
+def test_rubber_without_end_is_compared_with_a_tread(answer, tmp_path):
     """The effect is that of the case with 8 mm of rubber, within the 5 % of both grids."""
     (told,) = tread_of(answer)
     thin = gs.answer(made(thickness="8 mm"))
@@ -110,15 +106,15 @@ def test_rubber_without_end_is_compared_with_a_tread(answer: gs.Answer, tmp_path
     assert str(kept) == str(answer)
 
 
-def test_a_tread_within_the_sampling_error_is_no_finding(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_tread_within_the_sampling_error_is_no_finding(monkeypatch):
     """Of a tread of a metre nothing is said: the layer is a half-space."""
     monkeypatch.setattr(model, "TREAD", 1.0)
     monkeypatch.setattr(model, "FELT", 0.0)
     assert tread_of(gs.answer(made())) == []
 
 
-def test_other_questions_do_not_pay_for_the_tread(monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(*_: object) -> None:
+def test_other_questions_do_not_pay_for_the_tread(monkeypatch):
+    def refuse(*_):
         raise AssertionError("a tread was solved")
 
     monkeypatch.setattr(model, "log_change", refuse)
@@ -128,7 +124,7 @@ def test_other_questions_do_not_pay_for_the_tread(monkeypatch: pytest.MonkeyPatc
         gs.answer(made())
 
 
-def test_profiles_across_each_other_say_that_a_road_is_isotropic() -> None:
+def test_profiles_across_each_other_say_that_a_road_is_isotropic():
     """Both stations of the road, one of them taken to lie across: ridges are no finding then."""
     other = ROAD.with_name(ROAD.name.replace("station_0", "station_1"))
     lines = [gs.read_profile(ROAD), replace(gs.read_profile(other), lay="across")]

@@ -1,9 +1,5 @@
 """What the variables of results are: roles, intervals, and the names of an earlier version."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -14,11 +10,11 @@ from gripscale.questions.answer.variables import believed, described
 from gripscale.questions.page_of_folder import load
 
 
-def with_interval(start: str, value: float) -> dict[str, float]:
+def with_interval(start, value):
     return {start: value, f"{start}_low": 0.9 * value, f"{start}_high": 1.1 * value}
 
 
-def earlier() -> xr.Dataset:
+def earlier():
     """Return an answer with an area term as version 0.1 named its numbers."""
     friction = with_interval("answer_friction", 0.2) | with_interval("answer_total_friction", 0.9)
     area = with_interval("answer_contact_fraction", 0.03)
@@ -26,7 +22,7 @@ def earlier() -> xr.Dataset:
     return xr.Dataset(friction | area | others)
 
 
-def test_a_variable_names_its_role_and_its_interval_in_the_file(tmp_path: Path) -> None:
+def test_a_variable_names_its_role_and_its_interval_in_the_file(tmp_path):
     data = xr.Dataset(with_interval("answer_friction", 0.2) | {"total_friction": 0.21})
     netcdf.save(described(data), tmp_path / "answer.nc")
     read = netcdf.load_dataset(tmp_path / "answer.nc")
@@ -36,13 +32,13 @@ def test_a_variable_names_its_role_and_its_interval_in_the_file(tmp_path: Path) 
     assert read.total_friction.attrs["role"] == "number"
 
 
-def test_without_an_answer_the_total_is_to_be_believed() -> None:
+def test_without_an_answer_the_total_is_to_be_believed():
     data = described(xr.Dataset({"total_friction": 0.21, "answer_friction": np.nan}))
     assert data.total_friction.attrs["role"] == "answer"
     assert believed(data, "friction") == "total_friction"
 
 
-def test_a_file_of_an_earlier_version_has_the_names_of_today(tmp_path: Path) -> None:
+def test_a_file_of_an_earlier_version_has_the_names_of_today(tmp_path):
     netcdf.save(earlier().assign_attrs(kind="answer"), tmp_path / "answer.nc")
     answer = load(tmp_path / "answer.nc")
     assert isinstance(answer, Answer)

@@ -1,7 +1,5 @@
 """A comparison in its conditions: what reaches which model, and what is said of it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -10,7 +8,6 @@ import pytest
 import gripscale as gs
 from gripscale.chain import Chain
 from gripscale.conditions import Conditions, ConstantStress
-from gripscale.questions import SolvedLadder
 from gripscale.questions.compare.question import temperature_only
 from gripscale.rubber import WLF, styrene_butadiene
 from gripscale.surface import self_affine_profile
@@ -31,11 +28,11 @@ CASE = gs.Case(
 
 
 @pytest.fixture(scope="module")
-def made() -> SolvedLadder:
+def made():
     return gs.compare(CASE, seeds=1, models=["chain_half_plane", "direct", "persson"]).ladder
 
 
-def test_chain_and_direct_contact_know_every_effect(made: SolvedLadder) -> None:
+def test_chain_and_direct_contact_know_every_effect(made):
     (subject,) = made.setups
     alone = gs.solve_rough_contact(
         subject.rubber,
@@ -54,9 +51,9 @@ def test_chain_and_direct_contact_know_every_effect(made: SolvedLadder) -> None:
         assert member.total_adhesive_friction == pytest.approx(2e6 * area / 3e5, rel=1e-12)
 
 
-def test_a_theory_knows_temperature_and_softening(made: SolvedLadder) -> None:
+def test_a_theory_knows_temperature_and_softening(made):
     subject, persson = made.setups[0], made.data.sel(model="persson")
-    line = subject.surface.measured.cleaned[0]  # type: ignore[union-attr]
+    line = subject.surface.measured.cleaned[0]
     spectrum = gs.surface.areal_spectrum(gs.surface.profile_spectrum(line))
     end = 2 * math.pi / spectrum.wavenumber[-1]
     smallest = max(float(subject.surface.sines.wavelength[-1]), end)
@@ -72,7 +69,7 @@ def test_a_theory_knows_temperature_and_softening(made: SolvedLadder) -> None:
     assert any(words in line for line in temperature_only(made.data))
 
 
-def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: SolvedLadder) -> None:
+def test_a_comparison_over_the_temperature_asks_every_model_at_it(made):
     models, temperatures = ["chain_half_plane", "persson"], {"temperature": "20 C,35 C"}
     over = gs.compare(CASE, vary=temperatures, seeds=1, models=models)
     data = over.data
@@ -82,6 +79,5 @@ def test_a_comparison_over_the_temperature_asks_every_model_at_it(made: SolvedLa
         assert float(warm.total_friction.sel(model=member)) == pytest.approx(own, rel=1e-12)
         cold = float(data.total_friction.sel(temperature=293.15, model=member))
         assert abs(cold / own - 1.0) > 0.01
-    assert over.ladder is not None
     kelvins = [setup.continuation.conditions.temperature for setup in over.ladder.setups]
     assert kelvins == [293.15, 308.15], "roughness below the measurement, too"

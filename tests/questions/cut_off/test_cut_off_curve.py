@@ -1,9 +1,6 @@
 """Contact and friction against the cut-off: command, page, run, answer and rule."""
 
-from __future__ import annotations
-
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,7 +15,7 @@ from gripscale.io import netcdf
 from gripscale.questions.cut_off.curve import AREA, FRICTION, at_cut_off, continuation_doubts
 from gripscale.questions.cut_off.question import cut_off
 from tests.half_space.rough_cases import isotropic_heights
-from tests.samples import HALF_PLANE, Shell, case_text, write_short_road
+from tests.samples import HALF_PLANE, case_text, write_short_road
 from tests.verification.families import tread
 from tests.verification.line_families import family_line
 from tests.verification.withheld_octaves import coarser
@@ -29,7 +26,7 @@ BELOW = '\n[below_measurement]\ndown_to = "0.15 mm"\nhurst = 0.8\n'
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     """A case on 0.1 m of road with points every 0.1 mm."""
     folder = tmp_path_factory.mktemp("cut_off")
     write_short_road(folder)
@@ -73,7 +70,7 @@ def test_rules_lie_on_the_curve(data):
     assert math.isnan(at_cut_off(data, FRICTION, 1e-6))
 
 
-def test_the_command_shows_numbers_as_they_are_solved(folder, shell: Shell):
+def test_the_command_shows_numbers_as_they_are_solved(folder, shell):
     out = folder / "command"
     options = ("--down-to", "0.2 mm", "--hurst", 0.8, "--output", out)
     lines = shell("cut-off", folder / "case.toml", *options).stdout.split("\n")
@@ -82,7 +79,7 @@ def test_the_command_shows_numbers_as_they_are_solved(folder, shell: Shell):
     assert (out / "figures" / "cut_off.png").is_file()
 
 
-def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell: Shell, data):
+def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell, data):
     """Its answer is that without it, times the ratio of the curve."""
     result = shell("run", folder / "below.toml", "--output", folder / "below", "--figures")
     assert result.exit_code == 0, result.output

@@ -1,11 +1,8 @@
 """A whole design from a case: promised friction, gain with its interval, files, and the command."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -28,14 +25,14 @@ from gripscale.questions.design.goal_friction import CompoundGoal, Gain, gain
 from gripscale.questions.design.question import CompoundDesign, design_figure
 from gripscale.rubber import ShiftTable
 from gripscale.surface import self_affine_profile
-from tests.samples import HALF_PLANE, SHIFTED_RUBBER, Shell, case_text, write_road, write_short_road
+from tests.samples import HALF_PLANE, SHIFTED_RUBBER, case_text, write_road, write_short_road
 
 SURFACE = 'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "1 mm"'
 CASE = case_text(SURFACE, 'file = "dma.txt"', HALF_PLANE)
 LEVELS = [0.8, 1.0, 1.2]
 
 
-def losses(rubber: gs.Rubber, hertz: float) -> np.ndarray:
+def losses(rubber, hertz):
     """tan(delta) and J'' [1/Pa], -Im(1/E*), at a frequency."""
     omega = 2.0 * np.pi * hertz
     compliance = -(1.0 / rubber.complex_modulus(omega)).imag
@@ -43,7 +40,7 @@ def losses(rubber: gs.Rubber, hertz: float) -> np.ndarray:
 
 
 @pytest.fixture(scope="module")
-def case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def case(tmp_path_factory):
     folder = tmp_path_factory.mktemp("design")
     write_short_road(folder)
     road = self_affine_profile(0.8, 3e-3, 8e-4, length=0.4, step=1e-4, seed=1)
@@ -219,7 +216,7 @@ def test_answer_first_and_the_limits_named(data):
 
 
 def test_the_figure_draws_the_answer_and_no_near_copy_of_it(data):
-    def labels(last: float) -> set[str]:
+    def labels(last):
         made = data.isel(point=[0, 1, 1]).assign(rolling_ratio=("point", [0.8, 1.0, last]))
         return {text.get_text() for text in design_figure(made).legends[0].get_texts()}
 
@@ -301,7 +298,7 @@ def test_what_is_no_goal_limit_or_level_is_refused(parse, text, words):
         parse(text, *default)
 
 
-def test_the_command_writes_what_it_says(case: Path, shell: Shell, tmp_path: Path) -> None:
+def test_the_command_writes_what_it_says(case, shell, tmp_path):
     arguments = ["design", case, "--output", tmp_path, "--levels", "0.8,1,1.2"]
     result = shell(*arguments, "--rubber", "styrene_butadiene", "--goal", "speed=0.1 m/s")
     assert result.exit_code == 0, result.output

@@ -1,14 +1,10 @@
 """Derivatives of the friction of a case: profiles together, shifted frequencies, command, page."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import gripscale as gs
 from gripscale.case_file.prepare import read_case
@@ -34,13 +30,13 @@ from tests.samples import (
 )
 
 
-def measured(*profiles: gs.Profile) -> Surface:
+def measured(*profiles):
     """A surface of profiles, with waves that only state the cut-off."""
     return Surface(SHIFTED_SINES, "", measured=Measured([(p, p) for p in profiles], [], None, ""))
 
 
 @pytest.fixture(scope="module")
-def roads() -> list[gs.Profile]:
+def roads():
     """Two roads of different length and roughness."""
     return [
         self_affine_profile(0.8, 4e-3, rms, length=length, step=1e-4, seed=seed)
@@ -110,7 +106,7 @@ CASE = case_text(
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     """A folder with a case of a short road."""
     path = tmp_path_factory.mktemp("sensitivity")
     write_short_road(path)
@@ -119,7 +115,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def data(folder: Path) -> xr.Dataset:
+def data(folder):
     """Derivatives at three temperatures."""
     return gs.sensitivity(
         read_case(folder / "case.toml"),

@@ -1,7 +1,5 @@
 """Blocks of profiles scatter as other stretches of the same road do, and make no steps."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -12,7 +10,7 @@ from gripscale.surface import height_difference, self_affine_profile
 WAVE = 9e-3
 
 
-def road(seed: int, length: float = 0.6):
+def road(seed, length=0.6):
     return self_affine_profile(0.8, 3e-3, 8e-4, length, 2e-4, seed)
 
 

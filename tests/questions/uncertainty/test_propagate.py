@@ -1,7 +1,5 @@
 """Samples to quantiles: resumed, failures said, the same samples at each speed."""
 
-from __future__ import annotations
-
 import shutil
 from collections import Counter
 
@@ -65,7 +63,7 @@ def test_the_answer_without_the_errors_comes_before_the_samples(small_case, run,
     """It is that of a run: its interval holds no error of the inputs."""
     _, target, _ = run
     shutil.copytree(target / "predictions", tmp_path / "predictions")
-    told: list[object] = []
+    told = []
     asked = TWELVE | {"folder": tmp_path, "on_answer": told.append, "on_task": told.append}
     propagate(small_case, QUICK, **asked)
     (at,) = (i for i, each in enumerate(told) if isinstance(each, xr.Dataset))

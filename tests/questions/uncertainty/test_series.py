@@ -1,7 +1,5 @@
 """Drawn Prony series: as wide as the noise of the measurement, wider where there is none."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -15,7 +13,7 @@ FREQUENCY = np.geomspace(1e-1, 1e6, 60)
 OMEGA = 2 * np.pi * np.geomspace(1.0, 1e5, 6)
 
 
-def series(noise: float, seed: int):
+def series(noise, seed):
     modulus = TRUE.complex_modulus(2 * np.pi * FREQUENCY)
     factors = np.exp(noise * np.random.default_rng(seed).standard_normal((2, FREQUENCY.size)))
     master = MasterCurve(FREQUENCY, modulus.real * factors[0], modulus.imag * factors[1])
@@ -23,14 +21,14 @@ def series(noise: float, seed: int):
     return SeriesScatter.of(master, fit, rubber.bulk_modulus), rubber
 
 
-def drawn(scatter: SeriesScatter, omega: np.ndarray, number: int = 60) -> np.ndarray:
+def drawn(scatter, omega, number=60):
     """Return E* of draws, shape (draws, frequencies)."""
     random = np.random.default_rng(1)
     found = [scatter.draw(random) for _ in range(number)]
     return np.array([one.storage(omega) + 1j * one.loss(omega) for one in found])
 
 
-def spread(values: np.ndarray) -> np.ndarray:
+def spread(values):
     """Return standard deviations of ln E' and ln E'', shape (2, frequencies)."""
     return np.array([np.log(values.real).std(axis=0), np.log(values.imag).std(axis=0)])
 

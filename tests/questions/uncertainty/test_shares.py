@@ -1,21 +1,19 @@
 """Shares of variance against functions whose Sobol indices are known in closed form."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 from gripscale.questions import shares
 
 
-def evenly(samples: int, seed: int, count: int) -> np.ndarray:
+def evenly(samples, seed, count):
     """Return numbers spread evenly from -1 to 1, a column for each source: variance 1/3."""
     random = np.random.default_rng(seed)
     places = np.array([random.permutation(samples) for _ in range(count)])
     return (2.0 * (places + random.random(places.shape)) / samples - 1.0).T
 
 
-def answer(x: np.ndarray) -> np.ndarray:
+def answer(x):
     """Return exp(3 x_0 + 2 x_1 + 3 x_2^2 + 2 x_3 x_4), x evenly spread from -1 to 1.
 
     Variances: 9/3, 4/3, 9 (1/5 - 1/9) = 4/5, and 4/9 of the interaction, which is nobody's own.
@@ -27,7 +25,7 @@ VARIANCES = np.array([3.0, 4 / 3, 0.8, 0.0, 0.0])
 EXACT = VARIANCES / (VARIANCES.sum() + 4 / 9)
 
 
-def estimated(samples: int, seed: int):
+def estimated(samples, seed):
     x = evenly(samples, seed, 5)
     return shares(answer(x), {f"x{k}": x[:, [k]] for k in range(5)})
 

@@ -1,7 +1,5 @@
 """Each source alone: what it draws, from where to where, and what it changes."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,9 +1,5 @@
 """Every row of a study is the answer of its case, whatever the case has."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -22,7 +18,7 @@ CASES = {
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     """Two profiles of different lengths, so that means over them differ by their weights."""
     folder = tmp_path_factory.mktemp("answers")
     for name, length, seed in (("road", 0.4, 1), ("lane", 0.2, 2)):
@@ -34,7 +30,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_a_row_is_the_answer(folder: Path, name: str) -> None:
+def test_a_row_is_the_answer(folder, name):
     case = read_case(folder / f"{name}.toml")
     row = gs.vary(case, speed=[0.3]).data.isel(speed=0)
     answer = gs.answer(case)
@@ -48,7 +44,7 @@ def test_a_row_is_the_answer(folder: Path, name: str) -> None:
         assert any("roughness continued" in str(label) for label in row.factor_label.values)
 
 
-def test_a_varied_row_is_the_answer_of_the_varied_case(folder: Path) -> None:
+def test_a_varied_row_is_the_answer_of_the_varied_case(folder):
     case = read_case(folder / "profiles.toml")
     rows = gs.vary(case, pressure=["2 bar", "5 bar"], speed=3.0).data
     other = gs.Case(case.surface, case.rubber, pressure="5 bar", speed=3.0)
@@ -56,7 +52,7 @@ def test_a_varied_row_is_the_answer_of_the_varied_case(folder: Path) -> None:
     assert float(row.answer_friction) == pytest.approx(gs.answer(other).friction, rel=1e-12)
 
 
-def test_friction_by_octave_and_by_relaxation_time_add_up(folder: Path) -> None:
+def test_friction_by_octave_and_by_relaxation_time_add_up(folder):
     data = gs.vary(read_case(folder / "profiles.toml"), speed=[0.3, 3.0]).data
     np.testing.assert_allclose(data.octave_friction.sum("octave"), data.answer_friction, rtol=1e-9)
     octave = np.log2(data.octave.values / 1e-3)
@@ -68,7 +64,7 @@ def test_friction_by_octave_and_by_relaxation_time_add_up(folder: Path) -> None:
     assert -1.2 < float(mean[1] - mean[0]) < -0.5
 
 
-def test_there_is_no_friction_at_rest(folder: Path) -> None:
+def test_there_is_no_friction_at_rest(folder):
     result = gs.vary(read_case(folder / "profiles.toml"), speed=[0.0, 0.3])
     texts = {column.name: column.texts() for column in result.table().columns}
     assert texts["answer_friction"][0] == "-"
@@ -77,7 +73,7 @@ def test_there_is_no_friction_at_rest(folder: Path) -> None:
     assert " at 0 m/s" not in result.lines[0].partition("real contact area")[0]
 
 
-def test_waves_by_hand_have_no_direct_contact() -> None:
+def test_waves_by_hand_have_no_direct_contact():
     waves = gs.SineStack([5e-3, 1e-3], [2e-4, 4e-5])
     case = gs.Case(waves, gs.Rubber(2e6, [4e6], [1e-3]), pressure=3e5, speed=0.3)
     with pytest.raises(InputError, match="needs a measured profile; got waves stated by hand"):

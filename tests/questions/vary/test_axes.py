@@ -1,9 +1,5 @@
 """What may be varied, and the one sentence for each way of getting it wrong."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -32,13 +28,13 @@ from gripscale.questions.vary.axis import axes_of, parse_axes
         ("rubber", "case,here/dma.txt", ("case", "here/dma.txt")),
     ],
 )
-def test_values_are_read(name: str, given: Any, values: tuple[Any, ...]) -> None:
+def test_values_are_read(name, given, values):
     axis = axes_of({name: given})[0]
     assert axis.values == values
     assert len(axis.labels) == len(values)
 
 
-def test_labels_are_short_unless_they_would_be_equal() -> None:
+def test_labels_are_short_unless_they_would_be_equal():
     assert axes_of({"temperature": [293.15, "40 C"]})[0].labels == ("20 C", "40 C")
     assert axes_of({"rubber": "case,a/dma.txt"})[0].labels == ("case", "dma")
     assert axes_of({"rubber": "b/dma.txt,a/dma.txt"})[0].labels == ("b/dma.txt", "a/dma.txt")
@@ -72,13 +68,13 @@ def test_labels_are_short_unless_they_would_be_equal() -> None:
         ({"speed": np.ones((2, 2))}, "speed must be a finite number .*; got an array of shape"),
     ],
 )
-def test_wrong_axis_is_one_sentence(vary: dict[str, Any], words: str) -> None:
+def test_wrong_axis_is_one_sentence(vary, words):
     with pytest.raises(InputError, match=words) as caught:
         axes_of(vary)
     assert "\n" not in str(caught.value)
 
 
-def test_option_is_a_name_and_its_values() -> None:
+def test_option_is_a_name_and_its_values():
     assert parse_axes(["speed = 1:2:lin2"]) == {"speed": "1:2:lin2"}
     for wrong in ("speed", "speed=", "sped=1"):
         with pytest.raises(InputError, match="vary must be"):

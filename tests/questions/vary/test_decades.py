@@ -1,7 +1,5 @@
 """The split of friction by relaxation time against harmonics written out by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -14,7 +12,7 @@ WAVELENGTH, SPEED, FRICTION = 10e-3, 0.3, 0.2
 OMEGA = 2.0 * np.pi * SPEED / WAVELENGTH
 
 
-def one_wave(first: float, second: float, status: str = "converged") -> xr.Dataset:
+def one_wave(first, second, status="converged"):
     """Return a wave whose pressure has two harmonics, at uneven abscissas, padded with NaN."""
     x = WAVELENGTH * (np.linspace(0.0, 1.0, 400, endpoint=False) - 0.5)
     x = x + 0.01 * WAVELENGTH * np.sin(2.0 * np.pi * x / WAVELENGTH)
@@ -32,7 +30,7 @@ def one_wave(first: float, second: float, status: str = "converged") -> xr.Datas
     ).assign(prediction_status=status, nominal_speed=SPEED)
 
 
-def by_hand(first: float, second: float) -> float:
+def by_hand(first, second):
     """Return the friction of the slower element: D_k = |p_k|^2 E''/|E*|^2, k = 1 and 2."""
     slow, both = 0.0, 0.0
     for order, height in ((1, first), (2, second)):
@@ -45,7 +43,7 @@ def by_hand(first: float, second: float) -> float:
 
 
 @pytest.mark.parametrize(("first", "second"), [(0.8, 0.0), (0.0, 0.8), (0.5, 0.3)])
-def test_split_is_that_of_the_harmonics(first: float, second: float) -> None:
+def test_split_is_that_of_the_harmonics(first, second):
     parts = friction_by_decade(one_wave(first, second), RUBBER)
     assert set(parts) == {-2, -4}
     # The trapezoidal rule on smooth uneven nodes is exact to second order: (1/400)^2.
@@ -53,17 +51,17 @@ def test_split_is_that_of_the_harmonics(first: float, second: float) -> None:
     assert sum(parts.values()) == pytest.approx(FRICTION, rel=1e-12)
 
 
-def test_no_split_without_a_solution_or_sliding() -> None:
+def test_no_split_without_a_solution_or_sliding():
     assert friction_by_decade(one_wave(0.8, 0.1, "iteration limit"), RUBBER) == {}
     rest = one_wave(0.8, 0.1).assign(nominal_speed=0.0)
     assert friction_by_decade(rest, RUBBER) == {}
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.3, 0.5, 0.99])
-def test_elements_as_dense_as_a_spectrum_do_not_jump_between_decades(shift: float) -> None:
+def test_elements_as_dense_as_a_spectrum_do_not_jump_between_decades(shift):
     """Elements 2/3 of a decade apart with equal shares: 3/2 of one in each decade, wherever."""
     place = np.arange(-6.0, 2.0, 2.0 / 3.0) + shift
-    parts: dict[int, float] = {}
+    parts = {}
     for n, part in in_decades(place, np.ones_like(place)):
         parts[n] = parts.get(n, 0.0) + part
     inner = [parts[n] for n in range(-5, 1)]

@@ -1,9 +1,6 @@
 """Surfaces and rubbers by name and file; measured surfaces are fitted anew where waves vary."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,7 +18,7 @@ STACK = gs.SineStack(wavelength=20e-3 / 3.0 ** np.arange(5), amplitude=2e-3 / 2.
 
 
 @pytest.fixture
-def measured(tmp_path: Path) -> Path:
+def measured(tmp_path):
     """A case on a made-up road of five waves, and a copy of the road under another name."""
     profile = sine_profile(STACK, length=0.5, step=1e-4, seed=3)
     for name in ("road.txt", "other.txt"):
@@ -36,7 +33,7 @@ def measured(tmp_path: Path) -> Path:
     return path
 
 
-def test_measured_surface_is_fitted_anew(measured: Path) -> None:
+def test_measured_surface_is_fitted_anew(measured):
     road = case_surface(read_case_file(measured))
     base = road.varied().sines
     assert (len(base), base.wavelength[-1]) == (5, pytest.approx(0.25e-3))
@@ -46,7 +43,7 @@ def test_measured_surface_is_fitted_anew(measured: Path) -> None:
     assert (len(finer), finer.wavelength[-1]) == (5, pytest.approx(0.1e-3))
 
 
-def test_fixed_factor_leaves_room_for_what_varies(measured: Path) -> None:
+def test_fixed_factor_leaves_room_for_what_varies(measured):
     text = measured.read_text().replace('smallest_wavelength = "0.25 mm"', "s_wavelength = 3")
     measured.write_text(text)
     road = case_surface(read_case_file(measured))
@@ -56,9 +53,8 @@ def test_fixed_factor_leaves_room_for_what_varies(measured: Path) -> None:
     assert 1e-4 <= finer.wavelength[-1] < 3e-4
 
 
-def test_cut_off_is_fitted_anew(measured: Path) -> None:
+def test_cut_off_is_fitted_anew(measured):
     road = case_surface(read_case_file(measured))
-    assert road.correlation is not None
     cut = road.varied(cut_off=0.2e-3, waves=4).sines
     own = gs.fit_sines(road.correlation, scales=4, cut_off=0.2e-3)
     np.testing.assert_array_equal(cut.amplitude, own.amplitude)
@@ -69,7 +65,7 @@ def test_cut_off_is_fitted_anew(measured: Path) -> None:
     assert back.varied(smallest_wavelength=0.3e-3).sines.wavelength[-1] == pytest.approx(0.3e-3)
 
 
-def test_what_needs_a_measured_surface_says_so() -> None:
+def test_what_needs_a_measured_surface_says_so():
     by_hand = surface_of(STACK, read_case(EXAMPLE))
     with pytest.raises(InputError, match="cut_off varies waves that were fitted"):
         by_hand.varied(cut_off=1e-3)
@@ -77,7 +73,7 @@ def test_what_needs_a_measured_surface_says_so() -> None:
         by_hand.varied(cut_off=1e-3, smallest_wavelength=1e-3)
 
 
-def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
+def test_surface_by_name_file_or_case(measured, tmp_path):
     file = read_case_file(measured)
     case = read_case(file)
     own = surface_of("case", case)
@@ -94,7 +90,7 @@ def test_surface_by_name_file_or_case(measured: Path, tmp_path: Path) -> None:
         read_surface("synthetic_lawn", file)
 
 
-def test_rubber_by_name_file_or_case(measured: Path) -> None:
+def test_rubber_by_name_file_or_case(measured):
     file = read_case_file(measured)
     own = read_case(file).rubber
     assert own.bulk_modulus == 1.5e9
@@ -107,7 +103,7 @@ def test_rubber_by_name_file_or_case(measured: Path) -> None:
     np.testing.assert_array_equal(again.relaxation_times, tread.relaxation_times)
 
 
-def test_waves_by_hand_are_cut_off() -> None:
+def test_waves_by_hand_are_cut_off():
     road = surface_of(STACK, read_case(EXAMPLE))
     assert len(road.varied(waves=2).sines) == 2
     assert len(road.varied(smallest_wavelength=1e-3).sines) == 3
@@ -115,7 +111,7 @@ def test_waves_by_hand_are_cut_off() -> None:
         road.varied(smallest_wavelength=1.0)
 
 
-def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path) -> None:
+def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured):
     energy = 'strain_energy = { kind = "yeoh", second = -0.1, third = 0.02 }\n[load]'
     measured.write_text(measured.read_text().replace("[load]", energy))
     file = read_case_file(measured)
@@ -126,7 +122,7 @@ def test_varied_rubber_keeps_what_the_case_says_beside_its_curve(measured: Path)
         assert rubber.bulk_modulus == 1.5e9
 
 
-def test_varied_file_is_read_like_that_of_the_case_where_it_does_not_say(measured: Path) -> None:
+def test_varied_file_is_read_like_that_of_the_case_where_it_does_not_say(measured):
     """One curve three times: bare numbers, titles that contradict the case, a loss factor."""
     omega = np.geomspace(1e-2, 1e6, 40)
     modulus = gs.rubber.springpot_modulus(omega)

@@ -1,14 +1,9 @@
 """Temperature and effects as axes: one curve over a_T v with nothing else on."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import gripscale as gs
 from gripscale.chain import Chain
@@ -26,7 +21,7 @@ SPEEDS = "0.1:10:log5"
 """Two in a decade."""
 
 
-def shifted_by(decades: float) -> float:
+def shifted_by(decades):
     """Return the temperature of the case's shift at which a_T is 10^decades [K]."""
     return 293.15 - 120.0 * decades / (8.0 + decades)
 
@@ -50,16 +45,16 @@ CASE = gs.Case(
 )
 
 
-def direct(**conditions: Any) -> DirectContact:
+def direct(**conditions):
     return DirectContact(tolerance=None, periodic=True, conditions=Conditions(**conditions))
 
 
-def over(model: Any, temperatures: Any = COMMON, speeds: str = SPEEDS) -> xr.Dataset:
+def over(model, temperatures=COMMON, speeds=SPEEDS):
     vary = {"speed": speeds, "temperature": temperatures}
     return Study(CASE, vary, model=model).run()
 
 
-def apart(result: xr.Dataset, name: str) -> float:
+def apart(result, name):
     """Return how far temperatures lie apart at the same a_T v [-]; they share points of it."""
     reduced = np.log(result.reduced_speed.values).ravel()
     values = result[name].transpose(*result.reduced_speed.dims).values.ravel()
@@ -69,7 +64,7 @@ def apart(result: xr.Dataset, name: str) -> float:
 
 
 @pytest.mark.parametrize("model", ["chain", direct()], ids=["chain", "direct"])
-def test_temperatures_are_one_curve_over_reduced_speed(model: Any) -> None:
+def test_temperatures_are_one_curve_over_reduced_speed(model):
     """To the residual of the solvers where points are common: nothing is interpolated."""
     result = over(model)
     assert result.reduced_speed.dims == ("speed", "temperature")
@@ -80,7 +75,7 @@ def test_temperatures_are_one_curve_over_reduced_speed(model: Any) -> None:
     assert apart(result, "total_contact_fraction") < 1e-5
 
 
-def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case() -> None:
+def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case():
     """As a comparison does: a theory without conditions gets those of the case."""
     warm = CASE.replace(conditions=Conditions(temperature=313.15, heat="none"))
     result = Study(warm, {"speed": [0.1]}, model=Persson()).run()
@@ -89,7 +84,7 @@ def test_a_theory_takes_the_rubber_at_the_temperature_of_the_case() -> None:
     assert float(result.total_friction[0]) == pytest.approx(friction, rel=1e-12)
 
 
-def test_a_vertical_shift_makes_them_several() -> None:
+def test_a_vertical_shift_makes_them_several():
     """Moduli a tenth higher where it is warmer: another contact at the same a_T v."""
     study = Study(CASE, {"speed": "0.1:10:log5", "temperature": COMMON[1:]})
     table = ShiftTable(
@@ -104,7 +99,7 @@ def test_a_vertical_shift_makes_them_several() -> None:
     assert apart(result, "total_contact_fraction") > 0.02
 
 
-def test_temperature_is_that_of_the_conditions() -> None:
+def test_temperature_is_that_of_the_conditions():
     study = Study(CASE, {"temperature": ["40 C"]}, model="chain")
     result = study.run()
     task = study.points[0].task
@@ -114,7 +109,7 @@ def test_temperature_is_that_of_the_conditions() -> None:
     assert float(result.total_friction[0]) == float(alone.total_friction)
 
 
-def test_friction_by_decade_is_of_the_rubber_as_warm_as_it_is() -> None:
+def test_friction_by_decade_is_of_the_rubber_as_warm_as_it_is():
     """Relaxation times a hundred times shorter, speed a hundred times higher: two decades off."""
     result = over("chain", [shifted_by(4.0), shifted_by(2.0)], "0.01,1")
     cold, warm = (
@@ -127,7 +122,7 @@ def test_friction_by_decade_is_of_the_rubber_as_warm_as_it_is() -> None:
     np.testing.assert_allclose(there.where(where, 0.0), cold.where(where, 0.0), atol=1e-5)
 
 
-def test_temperatures_beyond_the_shift_are_flagged_and_said() -> None:
+def test_temperatures_beyond_the_shift_are_flagged_and_said():
     result = Study(CASE, {"temperature": "10 C, 60 C"}).run()
     assert result.rubber_temperature_extrapolated.values.tolist() == [False, True]
     assert any(
@@ -139,7 +134,7 @@ def test_temperatures_beyond_the_shift_are_flagged_and_said() -> None:
 
 
 @pytest.mark.parametrize("kind", [Chain(HalfPlane(points=256)), direct()], ids=["chain", "direct"])
-def test_effects_are_left_out_by_name(kind: Any) -> None:
+def test_effects_are_left_out_by_name(kind):
     conditions = Conditions(temperature=313.15, heat=HEAT, shear_stress=ConstantStress(2e6))
     model = replace(kind, conditions=conditions)
     study = Study(CASE, {"effects": "all, no_heat, no temperature, none"}, model=model)
@@ -174,15 +169,13 @@ def test_effects_are_left_out_by_name(kind: Any) -> None:
         ({"effects": "no heat"}, "chain", "effects must be one of all, none; got"),
     ],
 )
-def test_what_cannot_be_varied_is_one_sentence(
-    vary: dict[str, Any], model: Any, words: str
-) -> None:
+def test_what_cannot_be_varied_is_one_sentence(vary, model, words):
     with pytest.raises(InputError, match=words) as caught:
         _ = Study(CASE, vary, model=model).points
     assert "\n" not in str(caught.value)
 
 
-def test_rubber_without_shift_is_refused_before_anything_is_solved(tmp_path: Path) -> None:
+def test_rubber_without_shift_is_refused_before_anything_is_solved(tmp_path):
     study = Study(CASE.replace(rubber=styrene_butadiene()), {"temperature": "20 C, 40 C"})
     with pytest.raises(InputError, match="time-temperature shift is missing"):
         study.run(tmp_path)
