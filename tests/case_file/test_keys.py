@@ -1,4 +1,4 @@
-"""The list of keys is the whole of what a case file may say, each with words and a chapter."""
+"""The list of keys and the JSON Schema are the whole of what a case file may say."""
 
 import json
 import tomllib

@@ -1,5 +1,6 @@
-"""Each figure of the pages stands on a page, and CONTRIBUTING has the command that draws it."""
+"""Figures, links, files, citation and numbers of the pages are those that there are."""
 
+import json
 import re
 import tomllib
 from importlib.util import find_spec
@@ -7,6 +8,7 @@ from importlib.util import find_spec
 import pytest
 import yaml
 
+from studies.shipped_numbers import NUMBERS, of_comparison, of_run
 from tests.docs.style import figures
 from tests.samples import DOCS, ROOT
 
@@ -69,3 +71,29 @@ def test_tests_of_the_page_on_verification_exist():
     names = re.findall(r"`(test_\w+\.py)`", text)
     assert len(names) > 10
     assert not [name for name in names if not (ROOT / "tests" / "verification" / name).exists()]
+
+
+STORED = json.loads(NUMBERS.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(
+    ("page", "name"),
+    [
+        (ROOT / "README.md", "compare: large strain"),
+        (ROOT / "README.md", "run: friction"),
+        (ROOT / "README.md", "run: contact area"),
+        (DOCS / "direct-contact.md", "compare: large strain"),
+    ],
+)
+def test_the_answer_is_quoted(page, name):
+    assert STORED[name] in " ".join(page.read_text(encoding="utf-8").split())
+
+
+def test_the_file_has_what_a_run_gives():
+    assert of_run() == {name: STORED[name] for name in STORED if name.startswith("run")}
+
+
+@pytest.mark.verification
+def test_the_file_has_what_a_comparison_gives():
+    """A minute of one core."""
+    assert of_comparison() == {name: STORED[name] for name in ["compare: large strain"]}

@@ -1,4 +1,4 @@
-"""The table a person reads, in the terminal and on a page: its numbers, its units, its width."""
+"""Tables for people and flat tables of a command: numbers, units, widths, doubts."""
 
 import math
 import re

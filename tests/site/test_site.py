@@ -1,10 +1,12 @@
-"""The site builds without a warning, has every page, and loads nothing from elsewhere."""
+"""The site builds without a warning, has every page, loads nothing from elsewhere."""
 
+import importlib.util
 import os
 import re
 import subprocess
 import sys
 from inspect import ismodule
+from xml.etree import ElementTree
 
 import pytest
 
@@ -12,7 +14,7 @@ import gripscale
 from gripscale import chain
 from gripscale.case_file.keys import sections
 from tests.report.reading import Page
-from tests.samples import ROOT
+from tests.samples import DOCS, ROOT
 
 LOADING = {"script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src"}
 """Tags that make a browser fetch, with the attribute that says what; links are looked at apart."""
@@ -81,3 +83,34 @@ def test_every_public_name_has_its_entry(site):
     assert not [name for name in names if name not in ids]
     entries = {identifier.rpartition(".")[2] for identifier in ids}
     assert {*gripscale.wave.__all__, *chain.__all__, "Model", "Load"} <= entries
+
+
+pytest.importorskip("latex2mathml", reason="needs gripscale[docs]")
+
+
+@pytest.fixture(scope="module")
+def hooks():
+    found = importlib.util.spec_from_file_location("hooks", DOCS / "hooks.py")
+    module = importlib.util.module_from_spec(found)
+    found.loader.exec_module(module)
+    return module
+
+
+def test_fraction_and_root_are_elements_of_their_own(hooks):
+    math = ElementTree.fromstring(
+        re.sub(' xmlns="[^"]*"', "", hooks.equation(r"\sqrt{\frac{a}{b}}"))
+    )
+    assert [one.text for one in math.findall(".//msqrt//mfrac//mi")] == ["a", "b"]
+
+
+def test_lines_are_aligned_in_a_table(hooks):
+    given = "\\begin{aligned}\na &= b \\\\\nc &= d\n\\end{aligned}"
+    math = hooks.equation(given)
+    assert math.count("<mtr>") == 2
+    assert "\n" not in math.strip()  # Markdown would take lines for its own
+
+
+@pytest.mark.parametrize("given", [r"\nothing{a}", r"\begin{alignedat} a &= b \end{alignedat}"])
+def test_what_is_not_known_is_refused(hooks, given):
+    with pytest.raises(ValueError, match="cannot be made MathML"):
+        hooks.equation(given)
