@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale import surface
 from gripscale.case_file import read_case
-from gripscale.cli import app
 from gripscale.core import InputError
 from gripscale.io import netcdf
 from gripscale.io.text_table import lines_by_size
@@ -97,11 +95,8 @@ def test_what_was_not_measured_is_refused_or_marked(case):
     assert any("beyond what the measurement carries, 0.4 mm" in str(f) for f in found.findings)
 
 
-def test_a_run_keeps_and_tells_it(case, tmp_path):
-    outcome = CliRunner().invoke(
-        app, ["run", str(case), "--output", str(tmp_path / "again"), "--verbose"]
-    )
-    assert outcome.exit_code == 0, outcome.output
+def test_a_run_keeps_and_tells_it(shell, case, tmp_path):
+    outcome = shell("run", case, "--output", tmp_path / "again", "--verbose")
     inputs = netcdf.load_tree(tmp_path / "again" / "answer.nc")["inputs"]
     assert inputs.attrs["cut_off_m"] == pytest.approx(4e-4)
     assert "the measurement carries" in inputs.attrs["cut_off_rule"]

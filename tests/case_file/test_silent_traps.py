@@ -254,7 +254,6 @@ def test_commands_and_their_pages_say_the_doubts_of_a_run(tmp_path, shell, comma
     name, *options = command
     out = tmp_path / name
     printed = shell(name, file.path, *options, "--output", out, columns=1000)
-    assert printed.exit_code == 0, printed.output
     answer, _, warnings = printed.stdout.partition("Warnings, by what they change:\n")
     assert "Answer: " in answer
     assert (name == "calibrate") == ("none to rely on. The measured speeds, 0.1 to 200" in answer)

@@ -15,7 +15,6 @@ from gripscale.theory import HalfPlane
 
 
 def refused(result, *words):
-    assert result.exit_code == 2, result.output
     (sentence,) = result.stderr.splitlines()
     assert sentence.startswith("error: ")
     for part in words:
@@ -48,7 +47,7 @@ def never_solved(monkeypatch):
 )
 def test_a_refusal_ends_with_the_command_that_lists_the_keys(shell, changed, old, new, table, key):
     words, case = ["keys", *filter(None, [table])], changed(old, new)
-    refused(shell("run", case), f"ee `{' '.join(['gripscale', *words])}`\n")
+    refused(shell("run", case, code=2), f"ee `{' '.join(['gripscale', *words])}`\n")
     assert key in shell(*words).stdout.split()
     assert sorted(p.name for p in case.parent.iterdir()) == ["case.toml", "dma.txt", "road.txt"]
 
@@ -65,7 +64,7 @@ def test_a_refusal_ends_with_the_command_that_lists_the_keys(shell, changed, old
 def test_bad_measurement_is_refused(shell, changed, name, text):
     case = changed()
     (case.parent / name).write_text(text)
-    refused(shell("run", case), name)
+    refused(shell("run", case, code=2), name)
     assert not (case.parent / "results").exists()
 
 
@@ -74,8 +73,8 @@ def test_file_in_place_of_the_output_folder(shell, changed):
     case = changed()
     blocked = case.parent / "results"
     blocked.write_text("in the way")
-    refused(shell("run", case), "results cannot be made", "is not a folder")
-    refused(shell("run", case, "--output", blocked / "deeper"), "deeper cannot be made")
+    refused(shell("run", case, code=2), "results cannot be made", "is not a folder")
+    refused(shell("run", case, "--output", blocked / "deeper", code=2), "deeper cannot be made")
     assert blocked.read_text() == "in the way"
 
 
@@ -160,7 +159,7 @@ MISTAKES = [
 def test_a_mistake_is_one_sentence(shell, changed, command, words):
     folder = changed().parent
     (folder / "mu.csv").write_text("speed [m/s],friction\n" + "0.1,0.7\n1,0.8\n2,0.9\n" * 2)
-    refused(shell(*command(folder)), words)
+    refused(shell(*command(folder), code=2), words)
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -173,7 +172,6 @@ def test_a_mistake_is_one_sentence(shell, changed, command, words):
 )
 def test_what_is_no_mistake_runs(shell, changed, old, new, words):
     result = shell("run", changed(old, new), columns=400)
-    assert result.exit_code == 0, result.output
     assert words in result.stdout
 
 
@@ -186,7 +184,6 @@ def test_what_is_no_mistake_runs(shell, changed, old, new, words):
 )
 def test_options_of_a_file_are_taken(shell, inputs, options):
     result = shell("fit-rubber", inputs / "dma.txt", *options)
-    assert result.exit_code == 0, result.output
     assert "Maxwell elements" in result.stdout
 
 

