@@ -90,7 +90,7 @@ def _commands_built_once() -> Iterator[None]:
         yield
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def shell() -> Shell:
     """Run a command in this process, its output as into a file; fail unless it ends with `code`."""
 

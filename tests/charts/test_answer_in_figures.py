@@ -11,12 +11,9 @@ from gripscale.questions.answer.variables import ANSWER, JUDGE
 from gripscale.questions.cut_off.curve import AREA, FRICTION, SLOPE_IN_CONTACT
 from gripscale.questions.cut_off.question import cut_off_sheet
 from gripscale.questions.uncertainty.charts import distribution_figure
+from tests.charts.test_figures import labels
 
 BEST = {"friction": 0.461, "contact_fraction": 0.0047}
-
-
-def legend(figure):
-    return [text.get_text() for part in figure.legends for text in part.get_texts()]
 
 
 def with_answer(data, half_width=0.26):
@@ -33,7 +30,7 @@ def test_the_answer_stands_beside_the_chain(make_prediction, half_width):
     judge = with_answer(make_prediction().drop_dims("scale"), half_width)
     figure = contact_figure({"dynamic": make_prediction(), JUDGE: judge})
     label = ANSWER if math.isfinite(half_width) else "answer"
-    assert legend(figure).count(label) == 1
+    assert labels(figure).count(label) == 1
     for axes, name in zip(figure.axes, ("contact_fraction", "friction"), strict=True):
         line = next(line for line in axes.lines if line.get_label() == label)
         assert list(line.get_ydata()) == [BEST[name]] * 2
@@ -62,7 +59,7 @@ def samples():
 
 def test_distributions_show_the_answer_and_name_every_mark():
     figure = distribution_figure(samples())
-    assert legend(figure) == [
+    assert labels(figure) == [
         ANSWER, "median of the samples", "5 and 95 %", "model, inputs as stated",
     ]  # fmt: skip
     titles = [axes.get_title() for axes in figure.axes]
@@ -92,7 +89,7 @@ def test_rules_of_cut_off_on_each_other_are_one_line_with_both_names():
         {"cut_off": lengths, "rule": list(rules)},
     )
     figure = cut_off_sheet(data).on_paper()
-    names = [name for name in legend(figure) if name.endswith("mm")]
+    names = [name for name in labels(figure) if name.endswith("mm")]
     assert names == ["shortest wavelength measured, cut-off of the case: 0.2 mm", "slope: 0.3 mm"]
     for axes in figure.axes:
         upright = [line for line in axes.lines if len(set(line.get_xdata())) == 1]

@@ -3,9 +3,9 @@
 import pytest
 
 from gripscale.charts.draw import FigureFolder
+from tests.questions.conftest import _blank as _blank
 from tests.samples import (
     HALF_PLANE,
-    blank_figures,
     case_text,
     three_waves,
     write_maxwell,
@@ -17,12 +17,6 @@ CASE = case_text(
     'file = "dma.txt"\nterms = 6',
     HALF_PLANE.replace("64", "128") + '\n\n[output]\nfolder = "results"',
 )
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _blank():
-    with blank_figures():
-        yield
 
 
 @pytest.fixture(scope="session")

@@ -5,11 +5,9 @@ import shlex
 import shutil
 
 import pytest
-from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.case_file import read_case
-from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.questions.calibration.calibration_law import parse_fixed
@@ -32,11 +30,9 @@ def case(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def calibrated(case):
+def calibrated(shell, case):
     """What the command says of it, and its folder."""
-    asked = ["calibrate", str(case), "--model", "chain", "--hold-out", "temperature"]
-    result = CliRunner().invoke(app, asked, env={"COLUMNS": "100"})
-    assert result.exit_code == 0, result.output
+    result = shell("calibrate", case, "--model", "chain", "--hold-out", "temperature")
     return result.stdout, case.parent / "results" / "calibration"
 
 

@@ -6,12 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.folder import CASE_NOTE
-from gripscale.cli import app
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.io.table import as_text
@@ -36,7 +34,7 @@ MEASURED = "speed [mm/s],friction,spread\n100,0.31,0.02\n1000,0.42,0.02\n"
 
 
 @pytest.fixture(scope="module")
-def comparison(inputs, tmp_path_factory):
+def comparison(shell, inputs, tmp_path_factory):
     """What the command prints of five models with two samples each, and where it writes."""
     folder = tmp_path_factory.mktemp("comparison")
     (folder / "mu.csv").write_text(MEASURED)
@@ -45,10 +43,7 @@ def comparison(inputs, tmp_path_factory):
         "compare", inputs / "case.toml", "--seeds", 2, "--output", target,
         "--measured", folder / "mu.csv", "--models", "waves,measured,theory",
     )  # fmt: skip
-    environment = {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb"}
-    result = CliRunner().invoke(app, [str(word) for word in words], env=environment)
-    assert result.exit_code == 0, result.output
-    return result.stdout, target
+    return shell(*words).stdout, target
 
 
 def test_command_puts_the_models_side_by_side(comparison):

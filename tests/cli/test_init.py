@@ -83,4 +83,4 @@ def test_what_it_says_comes_next_is_what_the_tutorial_does(shell, tmp_path):
 
 def test_version_and_first_step_are_said(shell):
     assert shell("--version").stdout == f"gripscale {gripscale.__version__}\n"
-    assert "gripscale init FOLDER" in " ".join(shell().output.split())
+    assert "gripscale init FOLDER" in " ".join(shell(code=2).output.split())

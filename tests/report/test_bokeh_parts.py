@@ -62,6 +62,7 @@ def test_bokeh_has_every_attribute_of_linked_panels():
     assert [len(each.tools) for each in column.toolbar.tools[:4]] == [2] * 4
 
 
+@pytest.mark.verification
 def test_bokeh_has_every_attribute_of_the_pages(run_folder):
     charts = read_result(run_folder).page_content().charts
     assert charts

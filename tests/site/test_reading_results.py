@@ -3,9 +3,7 @@
 import re
 
 import pytest
-from typer.testing import CliRunner
 
-from gripscale.cli import app
 from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.questions.chain import page as waves
@@ -50,7 +48,7 @@ def written(data):
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
+def folder(shell, tmp_path_factory):
     """A run and a study of a made-up road and rubber."""
     folder = tmp_path_factory.mktemp("case")
     write_short_road(folder)
@@ -66,10 +64,8 @@ def folder(tmp_path_factory):
         ["compare", "--models", "chain_half_plane,direct", "--measured", str(folder / "mu.csv")],
         ["compare", "--models", "chain_half_plane", "--vary", "speed=0.3,0.6"],
     ):
-        command = [arguments[0], str(folder / "case.toml"), *arguments[1:]]
         with blank_figures():
-            outcome = CliRunner().invoke(app, command)
-        assert outcome.exit_code == 0, outcome.output
+            shell(arguments[0], folder / "case.toml", *arguments[1:])
     return folder / "results"
 
 

@@ -5,9 +5,7 @@ import shlex
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
-from gripscale.cli import app
 from tests.samples import DOCS
 
 TUTORIAL = DOCS / "tutorial.md"
@@ -43,18 +41,15 @@ def assert_shown(shown, printed):
     assert gap or not rest, f"not shown: {rest}"
 
 
-def run_console(block):
+def run_console(shell, block):
     """Run the one command of a console block and compare what it prints."""
     command, _, shown = block.partition("\n")
     program, *arguments = shlex.split(command.removeprefix("$ "))
     assert program == "gripscale"
-    environment = {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb"}
-    outcome = CliRunner().invoke(app, arguments, env=environment)
-    assert outcome.exit_code == 0, outcome.output
-    assert_shown(shown, outcome.output)
+    assert_shown(shown, shell(*arguments).output)
 
 
-def test_the_tutorial_does_what_it_says(tmp_path, monkeypatch, capsys):
+def test_the_tutorial_does_what_it_says(shell, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     names = {"__name__": "tutorial"}
     printed, commands = "", 0
@@ -64,7 +59,7 @@ def test_the_tutorial_does_what_it_says(tmp_path, monkeypatch, capsys):
             exec(compile(block, TUTORIAL.name, "exec"), names)
             printed = capsys.readouterr().out
         elif language == "console":
-            run_console(block)
+            run_console(shell, block)
             commands += 1
         elif language == "text" and heads:
             assert heads.pop(0).read_text(encoding="utf-8").startswith(block)
