@@ -91,13 +91,16 @@ def _commands_built_once() -> Iterator[None]:
         yield
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def shell() -> Shell:
-    """Run the command line in this process, as if its output went to a file."""
+    """Run a command in this process, its output as into a file; fail unless it ends with `code`."""
 
-    def run(*arguments: object, columns: int = 100) -> Result:
+    def run(*arguments: object, columns: int = 100, code: int = 0) -> Result:
         environment = {"COLUMNS": str(columns), "NO_COLOR": "1", "TERM": "dumb"}
-        return CliRunner().invoke(app, [str(argument) for argument in arguments], env=environment)
+        words = [str(argument) for argument in arguments]
+        result = CliRunner().invoke(app, words, env=environment)
+        assert result.exit_code == code, result.output
+        return result
 
     return run
 

@@ -1,16 +1,8 @@
 """A small case with its files, and the folder of a visit."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import TYPE_CHECKING
-
 import pytest
 
 from tests.samples import HALF_PLANE, case_text, write_short_road
-
-if TYPE_CHECKING:
-    from gripscale.app.case import CaseState
 
 pytest.importorskip("panel", reason="needs pip install 'gripscale[app]'")
 
@@ -22,13 +14,13 @@ CASE = "# a short road\n" + case_text(
 )
 
 
-def validation_message(state: CaseState) -> str:
+def validation_message(state):
     """Return what is wrong with a case, in a sentence; empty if nothing is."""
     return "" if state.problem is None else state.problem.sentence
 
 
 @pytest.fixture(scope="session")
-def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def small(tmp_path_factory):
     """Return a folder with case.toml, road.txt and dma.txt, side by side as they are dropped."""
     folder = tmp_path_factory.mktemp("small")
     write_short_road(folder)
@@ -37,7 +29,7 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def dropped(small: Path) -> dict[str, bytes]:
+def dropped(small):
     """Return the same by name, as the page gets them."""
     names = ("case.toml", "road.txt", "dma.txt")
     return {name: (small / name).read_bytes() for name in names}

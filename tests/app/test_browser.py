@@ -1,17 +1,12 @@
 """The page in a real headless Chromium: the whole way, a broken file, stopping, two tabs apart."""
 
-from __future__ import annotations
-
 import http.client
 import re
 import subprocess
 import sys
 import time
 import zipfile
-from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -28,49 +23,49 @@ TABS = ("1 Road", "2 Rubber", "3 Load and conditions", "4 Run", "5 Results")
 class AppVisit(Visit):
     """An open page of the app, and what is done on it."""
 
-    def tab(self, name: str) -> None:
+    def tab(self, name):
         self.page.locator(".bk-tab", has_text=name).click()
 
-    def press(self, label: str) -> None:
+    def press(self, label):
         self.page.get_by_role("button", name=label, exact=True).click()
 
-    def case(self) -> str:
+    def case(self):
         return str(self.page.get_by_label("case.toml").input_value())
 
-    def write_case(self, text: str) -> None:
+    def write_case(self, text):
         self.page.get_by_label("case.toml").fill(text)
         self.page.get_by_label("case.toml").blur()
 
-    def says(self, words: str) -> Any:
+    def says(self, words):
         found = self.page.get_by_text(re.compile(words)).first
         found.wait_for(timeout=PATIENCE)
         return found
 
-    def drop(self, number: int, *files: Path) -> None:
+    def drop(self, number, *files):
         """Choose files at a place to drop them, by its number on the page; -1 opens a case."""
         places = self.page.locator("input[type=file]")
         places.nth(number % places.count()).set_input_files([str(path) for path in files])
 
-    def saved(self, label: str, path: Path) -> Path:
+    def saved(self, label, path):
         """Save what a button offers into a file."""
         with self.page.expect_download(timeout=PATIENCE) as found:
             self.page.get_by_text(label).click()
         found.value.save_as(path)
         return path
 
-    def complaints(self, count: int) -> None:
+    def complaints(self, count):
         """Wait until so many complaints are to be seen."""
         shown = self.page.locator(".notice.error:visible")
         self.look(lambda: shown.count() == count, f"{count} complaints")
 
-    def look(self, sees: Callable[[], bool], what: str) -> None:
+    def look(self, sees, what):
         """Wait until `sees` is true, and fail if it does not come to that."""
         until = time.monotonic() + PATIENCE / 1e3
         while not sees():
             assert time.monotonic() < until, f"no {what}"
             self.page.wait_for_timeout(BETWEEN)
 
-    def drawn(self, count: int) -> None:
+    def drawn(self, count):
         """Wait until there are so many figures, each with something on it.
 
         A figure of before is counted no more once `forget_charts` was called.
@@ -79,20 +74,20 @@ class AppVisit(Visit):
         script = f"all => all.length === {count} && all.every({GREY})"
         self.look(lambda: shown.evaluate_all(script), f"{count} figures")
 
-    def preview(self, table: str, figures: int) -> None:
+    def preview(self, table, figures):
         """Wait for the page of a preview with so many figures."""
         frame = self.page.frame_locator(f"iframe[title='Preview of the {table}']")
         frame.locator("html[data-drawn]").wait_for(timeout=PATIENCE, state="attached")
         assert frame.locator("figure").count() == figures
 
-    def forget_charts(self) -> None:
+    def forget_charts(self):
         self.page.locator(".chart").evaluate_all("all => all.forEach(e => e.dataset.before = 1)")
 
-    def laid_out(self, selector: str) -> list[list[float]]:
+    def laid_out(self, selector):
         """Wait until elements keep their places, with a width; return their left and right ends."""
-        seen: list[list[list[float]]] = [[]]
+        seen = [[]]
 
-        def kept() -> bool:
+        def kept():
             seen.append(self.page.locator(selector).evaluate_all(ENDS))
             return seen[-2] == seen[-1] and all(left < right for left, right in seen[-1])
 
@@ -104,18 +99,16 @@ ENDS = """all => all.map(e => e.getBoundingClientRect()).map(box => [box.left, b
 
 
 @pytest.fixture(scope="module")
-def root(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def root(tmp_path_factory):
     return tmp_path_factory.mktemp("visits")
 
 
 @pytest.fixture(scope="module")
-def server(root: Path) -> Iterator[str]:
+def server(root):
     """Start the page as a user does; give its address."""
     command = [sys.executable, "-m", "gripscale", "app", "--no-browser", "--folder", str(root)]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None
     found = re.search(r"http://127\.0\.0\.1:\d+/", process.stdout.readline())
-    assert found is not None
     yield found[0]
     process.terminate()
     process.wait(20)
@@ -123,12 +116,12 @@ def server(root: Path) -> Iterator[str]:
 
 
 @contextmanager
-def visit(browser: Any, server: str) -> Iterator[AppVisit]:
+def visit(browser, server):
     """Open the page; collect warnings, errors and requests to anywhere else."""
     context = browser.new_context(viewport={"width": 1400, "height": 900})
     seen = AppVisit(context.new_page())
 
-    def ask(request: Any) -> None:
+    def ask(request):
         if not request.url.startswith((server, "data:", "blob:", "about:")):
             seen.asked.append(request.url)
 
@@ -140,7 +133,7 @@ def visit(browser: Any, server: str) -> Iterator[AppVisit]:
     context.close()
 
 
-def open_small(seen: AppVisit, small: Path) -> None:
+def open_small(seen, small):
     """Drop the small case with its files; wait until it is shown."""
     seen.drop(-1, *(small / name for name in ("case.toml", "road.txt", "dma.txt")))
     seen.look(lambda: '"inputs/dma.txt"' in seen.case(), "files of the case")
@@ -149,7 +142,7 @@ def open_small(seen: AppVisit, small: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def whole_way(browser: Any, server: str, small: Path) -> Iterator[AppVisit]:
+def whole_way(browser, server, small):
     """Open a case with its files, change the speed, run it, and run it slower."""
     with visit(browser, server) as seen:
         open_small(seen, small)
@@ -164,7 +157,7 @@ def whole_way(browser: Any, server: str, small: Path) -> Iterator[AppVisit]:
         yield seen
 
 
-def test_road_and_rubber_are_drawn(whole_way: AppVisit) -> None:
+def test_road_and_rubber_are_drawn(whole_way):
     whole_way.tab("1 Road")
     whole_way.drawn(1)
     whole_way.press("Read, clean and fit")
@@ -174,7 +167,7 @@ def test_road_and_rubber_are_drawn(whole_way: AppVisit) -> None:
     whole_way.preview("rubber", 2)
 
 
-def test_what_is_saved_is_what_is_shown(whole_way: AppVisit, tmp_path: Path) -> None:
+def test_what_is_saved_is_what_is_shown(whole_way, tmp_path):
     whole_way.tab("5 Results")
     whole_way.page.locator(REPORT).wait_for(timeout=PATIENCE)
     names = zipfile.ZipFile(whole_way.saved("Save everything", tmp_path / "all.zip")).namelist()
@@ -187,7 +180,7 @@ def test_what_is_saved_is_what_is_shown(whole_way: AppVisit, tmp_path: Path) -> 
     assert "0." in cards.inner_text(timeout=PATIENCE)
 
 
-def test_the_report_is_as_wide_as_the_page_and_its_links_work(whole_way: AppVisit) -> None:
+def test_the_report_is_as_wide_as_the_page_and_its_links_work(whole_way):
     whole_way.tab("5 Results")
     frame = whole_way.page.frame_locator(REPORT)
     frame.locator("html[data-drawn]").wait_for(timeout=PATIENCE, state="attached")
@@ -210,7 +203,7 @@ def test_the_report_is_as_wide_as_the_page_and_its_links_work(whole_way: AppVisi
 
 
 @pytest.mark.parametrize("width", [1400, 390])
-def test_nothing_overflows(whole_way: AppVisit, width: int) -> None:
+def test_nothing_overflows(whole_way, width):
     whole_way.page.set_viewport_size({"width": width, "height": 900})
     for name in TABS:
         whole_way.tab(name)
@@ -221,14 +214,12 @@ def test_nothing_overflows(whole_way: AppVisit, width: int) -> None:
     whole_way.page.set_viewport_size({"width": 1400, "height": 900})
 
 
-def test_silence_and_no_network_but_the_page(whole_way: AppVisit) -> None:
+def test_silence_and_no_network_but_the_page(whole_way):
     assert whole_way.said == []
     assert whole_way.asked == []
 
 
-def test_what_is_refused_is_one_sentence_and_the_page_lives_on(
-    browser: Any, server: str, tmp_path: Path, small: Path
-) -> None:
+def test_what_is_refused_is_one_sentence_and_the_page_lives_on(browser, server, tmp_path, small):
     picture = tmp_path / "picture.png"
     picture.write_bytes(b"\x89PNG\r\n\x1a\n\x00\x00 no profile")
     with visit(browser, server) as seen:
@@ -251,9 +242,7 @@ def test_what_is_refused_is_one_sentence_and_the_page_lives_on(
         assert seen.said == []
 
 
-def test_a_drag_along_the_profile_is_the_crop_of_the_case(
-    browser: Any, server: str, small: Path
-) -> None:
+def test_a_drag_along_the_profile_is_the_crop_of_the_case(browser, server, small):
     with visit(browser, server) as seen:
         seen.forget_charts()  # of the shipped road
         open_small(seen, small)
@@ -276,13 +265,13 @@ def test_a_drag_along_the_profile_is_the_crop_of_the_case(
         assert seen.said == []
 
 
-def test_two_tabs_are_apart_and_a_run_is_stopped(browser: Any, server: str, root: Path) -> None:
+def test_two_tabs_are_apart_and_a_run_is_stopped(browser, server, root):
     with visit(browser, server) as slow, visit(browser, server) as other:
         slow.write_case(SLOW)
         own = f"{other.case()}# mine"
         other.write_case(own)
 
-        def kept() -> bool:
+        def kept():
             texts = [path.read_text(encoding="utf-8") for path in root.glob("*/case.toml")]
             return SLOW in texts and own in texts
 
@@ -303,13 +292,12 @@ def test_two_tabs_are_apart_and_a_run_is_stopped(browser: Any, server: str, root
         assert slow.said == []
 
 
-def test_only_the_page_itself_may_connect(server: str) -> None:
+def test_only_the_page_itself_may_connect(server):
     """Another page in the same browser, which knows address and token, is turned away."""
     host = server.removeprefix("http://").rstrip("/")
     with closing(http.client.HTTPConnection(host, timeout=30)) as connection:
         connection.request("GET", "/")
         found = re.search(r'"token":"([^"]+)"', connection.getresponse().read().decode())
-    assert found is not None
     for origin, status in (("http://evil.example", 403), (server.rstrip("/"), 101)):
         headers = {
             "Origin": origin,

@@ -1,20 +1,24 @@
-"""A run is a process: its lines are the progress, stopping it ends it, the same case goes on."""
-
-from __future__ import annotations
+"""A run is a process: its lines are the progress, stopping it ends it; what the page shows."""
 
 import os
+import shutil
+import socket
+import sys
 import time
-from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from typer.testing import CliRunner
 
+from gripscale.app import serve_app
 from gripscale.app.case import CaseState, VisitFolder
-from gripscale.app.run_tabs import run_status
-from gripscale.app.runs import COMMANDS, AppRun, Runs
+from gripscale.app.run_tabs import compared_runs, run_status
+from gripscale.app.runs import COMMANDS, Runs
 from gripscale.cli import app
 from gripscale.core.errors import InputError
-from gripscale.questions.registry import Form
+from gripscale.questions.inputs.charts_of_rubber import rubber_charts
+from gripscale.questions.page_of_folder import read_result
+from tests.run_case import run_case
 from tests.samples import ROOT
 
 from .conftest import CASE
@@ -39,13 +43,13 @@ rows = 60
 
 
 @pytest.fixture
-def runs(tmp_path: Path) -> Runs:
+def runs(tmp_path):
     state = CaseState(VisitFolder.new(tmp_path))
     state.set_text(SLOW)
     return Runs(state)
 
 
-def there(pid: int) -> bool:
+def there(pid):
     try:
         os.kill(pid, 0)
     except ProcessLookupError:
@@ -53,7 +57,7 @@ def there(pid: int) -> bool:
     return True
 
 
-def ended(run: AppRun) -> AppRun:
+def ended(run):
     until = time.monotonic() + 60
     while run.running and time.monotonic() < until:
         time.sleep(0.1)
@@ -61,7 +65,7 @@ def ended(run: AppRun) -> AppRun:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="asks for the process by a signal")
-def test_stopping_ends_the_process_and_the_same_case_goes_on_in_its_folder(runs: Runs) -> None:
+def test_stopping_ends_the_process_and_the_same_case_goes_on_in_its_folder(runs):
     run = runs.start()
     assert run.state == "running"
     assert there(run.pid)
@@ -76,7 +80,7 @@ def test_stopping_ends_the_process_and_the_same_case_goes_on_in_its_folder(runs:
     runs.stop()
 
 
-def test_a_failed_run_says_its_sentence(runs: Runs) -> None:
+def test_a_failed_run_says_its_sentence(runs):
     state = runs._state
     state.set(("surface", "sines"), None)
     state.set(("surface", "files"), ["inputs/no.txt"])
@@ -87,7 +91,7 @@ def test_a_failed_run_says_its_sentence(runs: Runs) -> None:
     assert said.startswith("inputs/no.txt: cannot be read (no such file)")
 
 
-def by_name(name: str) -> Form:
+def by_name(name):
     return next(command for command in COMMANDS if command.command == name)
 
 
@@ -108,8 +112,8 @@ def by_name(name: str) -> Form:
     ],
 )  # fmt: skip
 def test_other_commands_than_run_are_run_once_and_shown(
-    tmp_path: Path, small: Path, command: str, case: str, others: int, words: list[str]
-) -> None:
+    tmp_path, small, command, case, others, words
+):
     state = CaseState(VisitFolder.new(tmp_path))
     (small / "alone.toml").write_text(CASE.replace("../elsewhere/", ""))
     state.set_text(state.text_of(ROOT / case if case else small / "alone.toml"))
@@ -124,7 +128,7 @@ def test_other_commands_than_run_are_run_once_and_shown(
     assert runs.start(by_name(command), {}, files) is run, "what is finished is not repeated"
 
 
-def test_each_command_is_one_that_gripscale_has_with_its_options() -> None:
+def test_each_command_is_one_that_gripscale_has_with_its_options():
     """Words of the command lines, from what the commands print of themselves."""
     for command in COMMANDS:
         words = [command.command, "--help"]
@@ -140,7 +144,7 @@ def test_each_command_is_one_that_gripscale_has_with_its_options() -> None:
 
 
 @pytest.mark.parametrize("name", ["../x.csv", "/etc/passwd", "--output", "~/x.csv"])
-def test_files_beside_the_case_are_those_of_the_visit(runs: Runs, name: str) -> None:
+def test_files_beside_the_case_are_those_of_the_visit(runs, name):
     with pytest.raises(InputError, match="lies outside the folder of this page"):
         runs.start(by_name("compare-rubbers"), others=[name])
     with pytest.raises(InputError, match="expected other compounds; got none"):
@@ -148,7 +152,65 @@ def test_files_beside_the_case_are_those_of_the_visit(runs: Runs, name: str) -> 
     assert runs.all == []
 
 
-def test_a_design_that_cannot_be_made_says_why(runs: Runs) -> None:
-    run = ended(runs.start(by_name("design")))
-    assert run.state == "failed"
-    assert "measured" in run.failure() or "shift" in run.failure(), run.log()
+@pytest.fixture(scope="module")
+def ran(small, tmp_path_factory):
+    """Return the folder of a run."""
+    place = tmp_path_factory.mktemp("ran")
+    for name in ("road.txt", "dma.txt"):
+        shutil.copy(small / name, place)
+    (place / "case.toml").write_text(CASE.replace("../elsewhere/", ""))
+    run_case(place / "case.toml", place / "out")
+    return place / "out"
+
+
+def test_runs_are_compared_by_their_answers(ran):
+    text = (ran / "case.toml").read_text()
+    faster = text.replace('speed = "', 'speed = "1')
+    runs = [
+        SimpleNamespace(name=f"run-{number}", text=case, folder=ran, running=False)
+        for number, case in enumerate((text, faster), start=1)
+    ]
+    table = compared_runs(SimpleNamespace(all=runs))
+    columns = {column.name: list(column.values) for column in table.columns}
+    assert columns["answer"] == [read_result(ran).lines[0]] * 2
+    assert columns["changes"][0] == ""
+    assert columns["changes"][1].startswith("load.speed = 1")
+
+
+def test_a_fit_before_any_run_has_no_diamonds(ran):
+    result = read_result(ran)
+    for excited, drawn in ((None, False), (result.chain, True)):
+        moduli, factor, *_ = rubber_charts(result.inputs, excited)
+        assert ["Diamonds" in chart.caption for chart in (moduli, factor)] == [drawn, drawn]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["--port", "70000"], "from 0 to 65535; got 70000"),
+        (["--port", "TAKEN"], "port TAKEN of 127.0.0.1 cannot be used"),
+        (["no.toml"], "does not exist"),
+        (["--folder", "file"], "is not a folder"),
+    ],
+)
+def test_what_cannot_be_served(tmp_path, monkeypatch, arguments, sentence):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("")
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        taken = str(other.getsockname()[1])
+        words = ["app", "--no-browser", "--folder", "visits", *arguments]
+        result = CliRunner().invoke(app, [word.replace("TAKEN", taken) for word in words])
+    assert result.exit_code == 2
+    assert result.stderr.startswith("error: ")
+    assert result.stderr.count("\n") == 1
+    assert sentence.replace("TAKEN", taken) in result.stderr
+    assert not list(tmp_path.glob("visits/*"))
+
+
+def test_what_to_install_is_said(tmp_path, monkeypatch):
+    monkeypatch.delitem(sys.modules, "gripscale.app.server", raising=False)
+    monkeypatch.setitem(sys.modules, "panel", None)
+    with pytest.raises(InputError, match=r"needs panel.*pip install 'gripscale\[app\]'"):
+        serve_app(tmp_path)

@@ -1,7 +1,5 @@
 """Nothing outside the folder of a visit can be reached; what is dropped gets a harmless name."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -28,12 +26,12 @@ ROLES = {
 
 
 @pytest.fixture
-def state(tmp_path: Path) -> CaseState:
+def state(tmp_path):
     (tmp_path / "secret.txt").write_text("x [mm]\tz [mm]\n0 0\n")
     return CaseState(VisitFolder.new(tmp_path / "visits"))
 
 
-def inside(text: str) -> str:
+def inside(text):
     return text.replace("../elsewhere/", "")
 
 
@@ -42,9 +40,7 @@ def inside(text: str) -> str:
     "name",
     ["../../secret.txt", "/etc/passwd", "~/secret.txt", "inputs/../../../secret.txt", "link.txt"],
 )
-def test_a_case_that_names_a_file_outside_is_refused(
-    state: CaseState, role: str, name: str, tmp_path: Path
-) -> None:
+def test_a_case_that_names_a_file_outside_is_refused(state, role, name, tmp_path):
     (state.visit.path / "link.txt").symlink_to(tmp_path / "secret.txt")
     old, new = ROLES[role]
     state.set_text(inside(CASE.replace(old, new.replace("NAME", name))))
@@ -58,13 +54,13 @@ def test_a_case_that_names_a_file_outside_is_refused(
 
 
 @pytest.mark.parametrize("role", ROLES)
-def test_a_case_that_names_a_file_inside_is_taken(state: CaseState, role: str) -> None:
+def test_a_case_that_names_a_file_inside_is_taken(state, role):
     old, new = ROLES[role]
     state.set_text(inside(CASE.replace(old, new.replace("NAME", "inputs/other.txt"))))
     assert validation_message(state) == ""
 
 
-def test_the_folder_of_another_visit_is_outside(state: CaseState) -> None:
+def test_the_folder_of_another_visit_is_outside(state):
     """Its name begins like that of this one: a comparison of texts would let it pass."""
     other = Path(f"{state.visit.path}0")
     other.mkdir()
@@ -85,7 +81,7 @@ def test_the_folder_of_another_visit_is_outside(state: CaseState) -> None:
         (f"{'x' * 300}.csv", f"{'x' * 96}.csv"),
     ],
 )
-def test_names_of_dropped_files_are_harmless(given: str, kept: str, tmp_path: Path) -> None:
+def test_names_of_dropped_files_are_harmless(given, kept, tmp_path):
     assert safe_name(given) == kept
     place = VisitFolder.new(tmp_path)
     stored = place.path / place.store(given, b"1")
@@ -94,26 +90,26 @@ def test_names_of_dropped_files_are_harmless(given: str, kept: str, tmp_path: Pa
 
 
 @pytest.mark.parametrize("name", ["", "..", "/", "...", "///"])
-def test_a_name_without_letters_is_refused(name: str) -> None:
+def test_a_name_without_letters_is_refused(name):
     with pytest.raises(InputError, match="expected letters or digits"):
         safe_name(name)
 
 
-def test_a_file_too_large_is_refused_with_its_size(tmp_path: Path) -> None:
+def test_a_file_too_large_is_refused_with_its_size(tmp_path):
     place = VisitFolder.new(tmp_path)
     with pytest.raises(InputError, match=r"big.dat has 50 MB; expected at most 50 MB"):
         place.store("big.dat", bytes(MAX_UPLOAD + 1))
     assert list((place.path / "inputs").iterdir()) == []
 
 
-def test_another_file_of_the_same_name_does_not_replace_the_first(tmp_path: Path) -> None:
+def test_another_file_of_the_same_name_does_not_replace_the_first(tmp_path):
     place = VisitFolder.new(tmp_path)
     names = [place.store("road.txt", content) for content in (b"1", b"2", b"1")]
     assert names == ["inputs/road.txt", "inputs/road_2.txt", "inputs/road.txt"]
     assert (place.path / names[0]).read_bytes() == b"1"
 
 
-def test_visits_are_apart_and_leave_nothing_if_nothing_was_run(tmp_path: Path) -> None:
+def test_visits_are_apart_and_leave_nothing_if_nothing_was_run(tmp_path):
     one, other = VisitFolder.new(tmp_path), VisitFolder.new(tmp_path)
     assert one.path != other.path
     (other.path / "runs").mkdir()

@@ -3,15 +3,10 @@
 import pytest
 
 from tests.cli.conftest import inputs as inputs
-from tests.samples import TWO_WAVES, blank_figures, case_text
+from tests.questions.conftest import _blank as _blank
+from tests.samples import TWO_WAVES, case_text
 
 CASE = case_text(TWO_WAVES)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _blank():
-    with blank_figures():
-        yield
 
 
 @pytest.fixture

@@ -28,7 +28,7 @@ from gripscale.core.errors import FileError, InputError
 from gripscale.rubber import NeoHookean, Yeoh
 from gripscale.surface import fit_sines, height_difference, self_affine_profile
 from tests.case_file.cases import refusal, written
-from tests.samples import DOCS, EXAMPLES
+from tests.samples import DOCS
 
 GOOD = """
 [surface]
@@ -105,8 +105,6 @@ WRONG = [
     ('"3 bar"', '"3 mm"', "unknown unit 'mm'; expected one of Pa, kPa, psi, bar"),
     ('"3 bar"', '"3"', "[load] pressure = '3': the unit is missing"),
     ('"3 bar"', '"bar"', "[load] pressure = 'bar': expected a pressure such as \"3 bar\""),
-    ('"3 bar"', "true", "[load] pressure = True: expected a pressure"),
-    ('"3 bar"', "-3", "[load] pressure = -3: expected a value greater than zero"),
     ('"3 bar"', '"inf bar"', "expected a finite pressure"),
     ('"300 mm/s"', '"-1 m/s"', "[load] speed = '-1 m/s': expected zero or a positive value"),
     ("footprint = 0.1", "", '[load] footprint is missing; expected a length such as "1'),
@@ -120,7 +118,6 @@ WRONG = [
     ("scales = 8", "scales = 8\ncrop = [2, 1]",
      "crop runs from 2000 mm to 1000 mm; expected its start"),
     ("scales = 8", 'scales = 8\ncrop = [0, "1 ell"]', "[surface] crop[1] = '1 ell': unknown unit"),
-    ("scales = 8", 'scales = 8\nz_unit = "furlong"', "z_unit = 'furlong': expected one of m, cm,"),
     ("scales = 8", "scales = 8\nspike_slope = inf", "spike_slope = inf: expected a finite number"),
     ("scales = 8", 'scales = 8\nphases = "random"',
      "phases belongs to a surface from spectrum"),
@@ -288,17 +285,3 @@ def test_a_case_that_is_not_there_or_a_folder_is_named(tmp_path):
         read_case_file(tmp_path / "nowhere.toml")
     with pytest.raises(FileError, match=r"case file .* cannot be read: Is a directory"):
         read_case_file(tmp_path)
-
-
-def test_shipped_case_is_valid_and_its_files_are_there():
-    shipped = EXAMPLES / "road_and_tread" / "case.toml"
-    file = read_case_file(shipped)
-    surface, rubber = file.case.surface, file.case.rubber
-    assert len(surface.files or []) == 2
-    assert rubber.filled
-    roles = [role for role, _ in file.case.named_files()]
-    assert roles == ["surface", "surface", "rubber", "rubber", "conditions"]
-    assert all(file.resolve(name).is_file() for _, name in file.case.named_files())
-    assert file.case.load.pressure == 3e5
-    assert file.case.load.speed == 0.3
-    assert (surface.scales or 0) >= 8

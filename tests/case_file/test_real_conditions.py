@@ -12,7 +12,7 @@ from tests.samples import SOFTENING, case_text, write_maxwell, write_short_road
 
 ROAD = 'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "2 mm"'
 RUBBER = (
-    'file = "maxwell.txt"\nreference_temperature = "20 C"\n'
+    'file = "maxwell.txt"\nterms = 4\nreference_temperature = "20 C"\n'
     'shift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }\n'
 )
 CASE = case_text(ROAD, RUBBER).replace("filled = false\n", "")
@@ -35,20 +35,14 @@ def effects(case):
     return case.conditions or Conditions()
 
 
-@pytest.mark.parametrize(
-    ("stated", "filled", "law"),
-    [("filled = true", True, TYPICAL_TREAD), ("filled = false", False, None), ("", None, None)],
-)
-def test_the_filler_decides_the_softening(folder, stated, filled, law):
-    case = read(folder, stated)
-    assert case.filled is filled
-    assert effects(case).softening == law
-    assert bool(case.softening_doubts) == (filled is None)
-
-
 def test_effects_are_on_by_default_and_off_by_a_word(folder):
     case = read(folder, "filled = true")
-    assert (effects(case).heat, effects(case).counterface) == (ThermalProperties(), STONE)
+    default = effects(case)
+    assert (case.filled, default.softening) == (True, TYPICAL_TREAD)
+    assert (default.heat, default.counterface) == (ThermalProperties(), STONE)
+    unfilled = read(folder, "filled = false")
+    assert (unfilled.filled, effects(unfilled).softening) == (False, None)
+    assert read(folder).softening_doubts
     off = read(folder, "filled = true", 'softening = "none"\nheat = "none"\n')
     assert (effects(off).softening, effects(off).heat) == (None, None)
     assert set(effects(off).off) == {"softening", "heat"}
@@ -65,7 +59,6 @@ def test_a_rubber_known_by_name_is_unfilled(folder):
 
 
 WRONG = [
-    (RUBBER, f"{RUBBER}filled = false\n", "filled must be true with softening"),
     (RUBBER, f'{RUBBER}filled = "yes"\n', "[rubber] filled = 'yes': expected true or false"),
     (SOFTENING, '[conditions]\nsoftening = "off"\n', "softening = 'off': "),
     (SOFTENING, '[conditions]\ninterface = "wet"\n', "interface = 'wet': "),

@@ -166,15 +166,6 @@ def test_the_case_without_a_trap_has_no_doubt(tmp_path):
     assert said(tmp_path, {}) == ""
 
 
-def test_an_answer_on_plates_is_none_to_rely_on():
-    names = ("answer_friction", "answer_contact_fraction")
-    values = dict.fromkeys(names, 0.5) | {f"{name}_half_width": 0.1 for name in names}
-    data = xr.Dataset({**values, "nominal_speed": 1.0})
-    assert no_answer(data) == ""
-    doubted = data.assign_attrs({INPUT_DOUBTS: to_json([doubt("Plates lie in the profile.")])})
-    assert no_answer(doubted) == "none to rely on. Plates lie in the profile."
-
-
 def test_an_answer_of_no_rubber_is_none_to_rely_on(tmp_path):
     direct = answer(read_case(write(tmp_path, dma=dma_text(60.0, "0.2")))).data
     assert no_answer(direct).startswith("none to rely on. E' and E'' do not belong to one rubber:")
@@ -198,14 +189,16 @@ def test_questions_on_a_misread_rubber_say_so(tmp_path):
         assert str(input_doubts_of(data)[0]).startswith("E' and E'' do not belong to one rubber:")
 
 
-def test_a_contact_without_result_says_the_doubt_of_its_inputs():
-    data = xr.Dataset(
-        {"status": "contact too narrow"},
-        attrs={INPUT_DOUBTS: to_json([doubt("Is the unit right?")])},
-    )
-    assert no_answer(data) == (
+def test_doubts_of_the_inputs_come_first():
+    doubted = {INPUT_DOUBTS: to_json([doubt("Is the unit right?")])}
+    assert no_answer(xr.Dataset({"status": "contact too narrow"}, attrs=doubted)) == (
         "none. Is the unit right? The chain of waves has no result: contact too narrow."
     )
+    names = ("answer_friction", "answer_contact_fraction")
+    values = dict.fromkeys(names, 0.5) | {f"{name}_half_width": 0.1 for name in names}
+    data = xr.Dataset({**values, "nominal_speed": 1.0})
+    assert no_answer(data) == ""
+    assert no_answer(data.assign_attrs(doubted)) == "none to rely on. Is the unit right?"
 
 
 @pytest.mark.parametrize(
@@ -261,7 +254,6 @@ def test_commands_and_their_pages_say_the_doubts_of_a_run(tmp_path, shell, comma
     name, *options = command
     out = tmp_path / name
     printed = shell(name, file.path, *options, "--output", out, columns=1000)
-    assert printed.exit_code == 0, printed.output
     answer, _, warnings = printed.stdout.partition("Warnings, by what they change:\n")
     assert "Answer: " in answer
     assert (name == "calibrate") == ("none to rely on. The measured speeds, 0.1 to 200" in answer)
@@ -277,7 +269,6 @@ def test_a_foreign_road_has_not_the_crop_of_the_case(tmp_path):
     (tmp_path / "other.txt").write_text(road_text(ROUGH.z[::-1]), encoding="utf-8")
     for name, length in (("road.txt", 0.1), ("other.txt", 0.2)):
         measured = read_surface(name, file).measured
-        assert measured is not None
         assert measured.cleaned[0].length == pytest.approx(length, abs=1e-9)
     assert read_surface("road.txt", file).note == ""
     assert read_surface("other.txt", file).note == (

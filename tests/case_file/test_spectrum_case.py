@@ -4,12 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.case_file.kinds import FileKeys, take
 from gripscale.case_file.look import parts_of
-from gripscale.cli import app
 from gripscale.core import InputError
 from gripscale.rubber import styrene_butadiene
 from gripscale.surface.random_phases import REAL_PHASES
@@ -99,13 +97,11 @@ def test_questions_on_a_spectrum():
     assert shorter.surface.measured.cleaned[0].step == pytest.approx(2e-3 / 8)
 
 
-def test_a_spectrum_is_recognised(folder):
+def test_a_spectrum_is_recognised(shell, folder):
     file = take(folder / "psd.csv", FileKeys())
     assert (file.kind, file.columns[2].name) == ("spectrum", "C(q)")
     assert "21 points, rms height" in file.why
     assert any("wavenumber" in str(part) for part in parts_of(file, FileKeys()))
     out = folder / "new.toml"
-    command = ["new", str(folder / "psd.csv"), str(MEASURED_DMA), "--temperature", "20 C"]
-    result = CliRunner().invoke(app, [*command, "--output", str(out)])
-    assert result.exit_code == 0, result.output
+    shell("new", folder / "psd.csv", MEASURED_DMA, "--temperature", "20 C", "--output", out)
     assert gs.read_case(out).surface.spectrum == replace(spectrum(), source=str(folder / "psd.csv"))

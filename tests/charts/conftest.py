@@ -1,9 +1,5 @@
 """Made-up but well-formed results, so that figures are tested without a solver."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -19,9 +15,7 @@ from gripscale.wave.result import waves_to_dataset
 RUBBER = Rubber(5e6, [4e6, 8e6], [1e-2, 1e-4], valid_band=(1e-2, 1e6))
 
 
-def wave(
-    wavelength: float, status: str = "converged", *, mesh: bool = True, lifted: float = 0.0
-) -> ScaleResult:
+def wave(wavelength, status="converged", *, mesh=True, lifted=0.0):
     """Return a wave of 0.1 wavelengths amplitude with half of it in contact."""
     amplitude, columns = 0.1 * wavelength, 32
     edge = np.linspace(-0.5, 0.5, columns + 1) * wavelength
@@ -51,14 +45,14 @@ def wave(
 
 
 @pytest.fixture
-def make_wave() -> Callable[..., xr.Dataset]:
+def make_wave():
     """One wave as a Dataset, without a prediction around it."""
     return lambda *values, **options: waves_to_dataset([wave(*values, **options)])
 
 
 @pytest.fixture
-def make_prediction() -> Callable[..., xr.Dataset]:
-    def make(speed: float = 0.3, status: str = "converged", count: int = 3) -> xr.Dataset:
+def make_prediction():
+    def make(speed=0.3, status="converged", count=3):
         lengths = [20e-3 / 4.0**i for i in range(count)]
         sines = SineStack(wavelength=lengths, amplitude=[0.1 * length for length in lengths])
         statuses = ["converged"] * (count - 1) + [status]
@@ -70,7 +64,7 @@ def make_prediction() -> Callable[..., xr.Dataset]:
 
 
 @pytest.fixture
-def without_waves() -> xr.Dataset:
+def without_waves():
     """The answer of a model without waves."""
     totals = dict(zip(TOTALS, (0.05, 0.6, 0.58), strict=True))
     return predicted_answer(xr.Dataset(), totals, "converged", "toy", Load(3e5, 0.3, 0.1))

@@ -1,29 +1,22 @@
 """The answer with its interval in figures of models and samples, and marks on each other."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.figure import Figure
 
 from gripscale.questions import contact_figure
 from gripscale.questions.answer.variables import ANSWER, JUDGE
 from gripscale.questions.cut_off.curve import AREA, FRICTION, SLOPE_IN_CONTACT
 from gripscale.questions.cut_off.question import cut_off_sheet
 from gripscale.questions.uncertainty.charts import distribution_figure
+from tests.charts.test_figures import labels
 
 BEST = {"friction": 0.461, "contact_fraction": 0.0047}
 
 
-def legend(figure: Figure) -> list[str]:
-    return [text.get_text() for part in figure.legends for text in part.get_texts()]
-
-
-def with_answer(data: xr.Dataset, half_width: float = 0.26) -> xr.Dataset:
+def with_answer(data, half_width=0.26):
     numbers = {f"answer_{name}": ((), value) for name, value in BEST.items()}
     for name, value in BEST.items():
         factor = math.exp(math.asinh(half_width))
@@ -33,13 +26,11 @@ def with_answer(data: xr.Dataset, half_width: float = 0.26) -> xr.Dataset:
 
 
 @pytest.mark.parametrize("half_width", [0.26, math.nan])
-def test_the_answer_stands_beside_the_chain(
-    make_prediction: Callable[..., xr.Dataset], half_width: float
-) -> None:
+def test_the_answer_stands_beside_the_chain(make_prediction, half_width):
     judge = with_answer(make_prediction().drop_dims("scale"), half_width)
     figure = contact_figure({"dynamic": make_prediction(), JUDGE: judge})
     label = ANSWER if math.isfinite(half_width) else "answer"
-    assert legend(figure).count(label) == 1
+    assert labels(figure).count(label) == 1
     for axes, name in zip(figure.axes, ("contact_fraction", "friction"), strict=True):
         line = next(line for line in axes.lines if line.get_label() == label)
         assert list(line.get_ydata()) == [BEST[name]] * 2
@@ -53,7 +44,7 @@ def test_the_answer_stands_beside_the_chain(
         assert axes.get_ylim()[0] < ends[0]
 
 
-def samples() -> xr.Dataset:
+def samples():
     """Return samples of two models, with an answer beside them."""
     rng = np.random.default_rng(1)
     data = xr.Dataset({"failed": ("model", [0, 0])}, {"model": ["chain", "direct"]})
@@ -66,9 +57,9 @@ def samples() -> xr.Dataset:
     return with_answer(data)
 
 
-def test_distributions_show_the_answer_and_name_every_mark() -> None:
+def test_distributions_show_the_answer_and_name_every_mark():
     figure = distribution_figure(samples())
-    assert legend(figure) == [
+    assert labels(figure) == [
         ANSWER, "median of the samples", "5 and 95 %", "model, inputs as stated",
     ]  # fmt: skip
     titles = [axes.get_title() for axes in figure.axes]
@@ -83,7 +74,7 @@ def test_distributions_show_the_answer_and_name_every_mark() -> None:
         assert right > best * width
 
 
-def test_rules_of_cut_off_on_each_other_are_one_line_with_both_names() -> None:
+def test_rules_of_cut_off_on_each_other_are_one_line_with_both_names():
     lengths = np.geomspace(1e-2, 1e-5, 7)
     numbers = {name: ("cut_off", np.linspace(0.1, 1.0, 7)) for name in (
         FRICTION, AREA, SLOPE_IN_CONTACT, *(f"{name}_{end}" for name in (FRICTION, AREA)
@@ -98,7 +89,7 @@ def test_rules_of_cut_off_on_each_other_are_one_line_with_both_names() -> None:
         {"cut_off": lengths, "rule": list(rules)},
     )
     figure = cut_off_sheet(data).on_paper()
-    names = [name for name in legend(figure) if name.endswith("mm")]
+    names = [name for name in labels(figure) if name.endswith("mm")]
     assert names == ["shortest wavelength measured, cut-off of the case: 0.2 mm", "slope: 0.3 mm"]
     for axes in figure.axes:
         upright = [line for line in axes.lines if len(set(line.get_xdata())) == 1]

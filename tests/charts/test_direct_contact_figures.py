@@ -1,7 +1,5 @@
 """The stretch of a direct contact that is drawn to scale, and what figures call its profile."""
 
-from __future__ import annotations
-
 import io
 
 import numpy as np
@@ -9,7 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib.image import imread
 
-from gripscale.charts.chart import CrossLine, Panel
+from gripscale.charts.chart import CrossLine
 from gripscale.charts.paper import figure_file
 from gripscale.half_space.location import with_traces
 from gripscale.questions.answer.charts import height_figure, named_traces, trace_sheet
@@ -18,7 +16,7 @@ SUMMIT, HALF = 60e-3, 50e-6
 """Middle of the contact and half its length [m]."""
 
 
-def made_up_trace(thinned: bool = False) -> xr.Dataset:
+def made_up_trace(thinned=False):
     """Return a line of 100 mm with a contact at the right end of its stretch of 4 mm.
 
     Thinned, a second contact follows, of pieces of many points.
@@ -42,13 +40,11 @@ def made_up_trace(thinned: bool = False) -> xr.Dataset:
     return xr.Dataset({"x": ("piece", x), "by_height": ("piece", by_height), **data, **numbers})
 
 
-def ends_of(panel: Panel) -> tuple[float, float]:
-    assert panel.x.low is not None
-    assert panel.x.high is not None
+def ends_of(panel):
     return panel.x.low, panel.x.high
 
 
-def test_the_stretch_has_its_contact_in_the_middle() -> None:
+def test_the_stretch_has_its_contact_in_the_middle():
     sheet = trace_sheet(made_up_trace())
     close = sheet.panels[-1]
     low, high = ends_of(close)
@@ -67,13 +63,13 @@ def test_the_stretch_has_its_contact_in_the_middle() -> None:
     assert text == "pressure, 100 MPa is 0.05 mm high"
 
 
-def test_a_stretch_of_a_length_that_was_asked_for_keeps_it() -> None:
+def test_a_stretch_of_a_length_that_was_asked_for_keeps_it():
     low, high = ends_of(trace_sheet(made_up_trace(), length=3e-3).panels[-1])
     assert high - low == pytest.approx(3.0, abs=0.03)
     assert 0.5 * (low + high) == pytest.approx(60.0, abs=0.02)
 
 
-def test_a_stretch_ends_before_a_contact_of_thinned_points() -> None:
+def test_a_stretch_ends_before_a_contact_of_thinned_points():
     close = trace_sheet(made_up_trace(thinned=True)).panels[-1]
     low, high = ends_of(close)
     assert high == pytest.approx((SUMMIT + 3 * HALF) / 1e-3, abs=0.02)
@@ -83,7 +79,7 @@ def test_a_stretch_ends_before_a_contact_of_thinned_points() -> None:
     assert high > touching.max() + 0.02
 
 
-def test_panels_to_scale_are_as_wide_as_the_others() -> None:
+def test_panels_to_scale_are_as_wide_as_the_others():
     trace = made_up_trace()
     for figure in (height_figure(trace, "road"), trace_sheet(trace).on_paper()):
         figure_file(figure)
@@ -92,7 +88,7 @@ def test_panels_to_scale_are_as_wide_as_the_others() -> None:
             assert end == pytest.approx(ends[0], abs=1e-4)
 
 
-def test_what_heights_are_worth_is_named_and_no_label_is_cut() -> None:
+def test_what_heights_are_worth_is_named_and_no_label_is_cut():
     figure = height_figure(made_up_trace(), "road")
     content = figure_file(figure)
     legend = figure.legends[0]
@@ -113,7 +109,7 @@ def test_what_heights_are_worth_is_named_and_no_label_is_cut() -> None:
         (None, ["profile 1", "profile 2"]),
     ],
 )
-def test_traces_are_called_as_their_profiles(profiles: list[str] | None, names: list[str]) -> None:
+def test_traces_are_called_as_their_profiles(profiles, names):
     data = with_traces(xr.Dataset(), [made_up_trace().drop_vars("by_height")] * 2)
     inputs = profiles and xr.Dataset({"profile_name": ("profile", np.array(profiles))})
     called = [name for name, _ in named_traces(data, inputs)]

@@ -1,17 +1,9 @@
 """Each figure shows the numbers it was given, in the units its labels state."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import matplotlib as mpl
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 
 from gripscale.charts import save_figure
@@ -37,7 +29,7 @@ from gripscale.surface import Profile, SelfAffineFit, SineStack, clean, height_d
 STACK = SineStack(wavelength=[20e-3, 5e-3], amplitude=[2e-3, 0.5e-3])
 
 
-def spiky() -> Profile:
+def spiky():
     x = np.arange(2000) * 1e-4
     z = 2e-3 * np.cos(2 * np.pi * x / 20e-3) + 0.5e-3 * np.cos(2 * np.pi * x / 5e-3 + 1.0)
     z[100:110] = np.nan
@@ -45,12 +37,12 @@ def spiky() -> Profile:
     return Profile(x, z, name="two waves")
 
 
-def curve(axes: Axes, label: str) -> tuple[np.ndarray, np.ndarray]:
+def curve(axes, label):
     line = next(line for line in axes.lines if line.get_label() == label)
     return np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
 
 
-def complete(figure: Figure) -> None:
+def complete(figure):
     """Every axes has data and, on the outside, labels with units."""
     assert figure.axes
     for axes in figure.axes:
@@ -61,18 +53,16 @@ def complete(figure: Figure) -> None:
     figure.draw_without_rendering()
 
 
-def dashed(axes: Axes) -> list[Line2D]:
+def dashed(axes):
     """Return the curves that are drawn dashed, the entry of the legend left out."""
     return [line for line in axes.lines if line.get_gid() and line.get_xdata().size]
 
 
-def labels(figure: Figure) -> list[str]:
+def labels(figure):
     return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
 
 
-def test_what_is_beyond_the_band_is_dashed_and_the_legend_says_so(
-    make_prediction: Callable[..., xr.Dataset],
-) -> None:
+def test_what_is_beyond_the_band_is_dashed_and_the_legend_says_so(make_prediction):
     data = make_prediction()
     inside = contact_figure({"dynamic": data})
     assert not any(dashed(axes) for axes in inside.axes)
@@ -98,13 +88,11 @@ def test_what_is_beyond_the_band_is_dashed_and_the_legend_says_so(
         ([1], [(0, 1, True)]),
     ],
 )
-def test_a_curve_is_cut_where_the_band_ends(flags: list[int], expected: list[object]) -> None:
+def test_a_curve_is_cut_where_the_band_ends(flags, expected):
     assert [(part.start, part.stop, beyond) for part, beyond in stretches(flags)] == expected
 
 
-def test_contact_is_drawn_against_falling_wavelength_in_mm(
-    make_prediction: Callable[..., xr.Dataset],
-) -> None:
+def test_contact_is_drawn_against_falling_wavelength_in_mm(make_prediction):
     figure = contact_figure({"dynamic": make_prediction(), "static": make_prediction(speed=0.0)})
     complete(figure)
     area, friction = figure.axes
@@ -122,15 +110,13 @@ def test_contact_is_drawn_against_falling_wavelength_in_mm(
     assert right < 1.25
 
 
-def test_failed_wave_is_not_drawn_as_a_result(make_prediction: Callable[..., xr.Dataset]) -> None:
+def test_failed_wave_is_not_drawn_as_a_result(make_prediction):
     figure = contact_figure({"dynamic": make_prediction(status="iteration limit")})
     for label in ("dynamic, running total", "dynamic, each wave"):
         assert np.isnan(curve(figure.axes[0], label)[1]).tolist() == [False, False, True]
 
 
-def test_model_without_waves_is_a_level_line(
-    make_prediction: Callable[..., xr.Dataset], without_waves: xr.Dataset
-) -> None:
+def test_model_without_waves_is_a_level_line(make_prediction, without_waves):
     figure = contact_figure({"chain": make_prediction(), "toy": without_waves})
     complete(figure)
     assert set(curve(figure.axes[0], "toy, total")[1]) == {0.05}
@@ -142,9 +128,7 @@ def test_model_without_waves_is_a_level_line(
 
 
 @pytest.mark.parametrize("lifted", [0.0, 1.0])
-def test_block_touches_its_wave_under_its_pressure(
-    make_wave: Callable[..., xr.Dataset], lifted: float
-) -> None:
+def test_block_touches_its_wave_under_its_pressure(make_wave, lifted):
     """Set down on it, if the mesh is lifted; the pressure is that of one closed period."""
     figure = block_figure(make_wave(4e-3, lifted=lifted))
     complete(figure)
@@ -172,7 +156,7 @@ def test_block_touches_its_wave_under_its_pressure(
 
 
 @pytest.mark.parametrize("count", [1, 5])
-def test_every_wave_has_its_block(make_prediction: Callable[..., xr.Dataset], count: int) -> None:
+def test_every_wave_has_its_block(make_prediction, count):
     figure = blocks_figure(make_prediction(count=count))
     complete(figure)
     assert len(figure.axes) == 2 * count
@@ -184,7 +168,7 @@ def test_every_wave_has_its_block(make_prediction: Callable[..., xr.Dataset], co
     ]
 
 
-def test_correlation_shows_measured_band_and_fits() -> None:
+def test_correlation_shows_measured_band_and_fits():
     profile, _ = clean(spiky())
     measured = height_difference(profile)
     fit = SelfAffineFit(0.8, 5e-3, 2e-3, 1e-4, 1e-3, 0.01)
@@ -203,7 +187,7 @@ def test_correlation_shows_measured_band_and_fits() -> None:
     assert curve(axes, "their wavelengths")[0].tolist() == [20.0, 5.0]
 
 
-def test_master_curve_shows_points_series_and_excitation() -> None:
+def test_master_curve_shows_points_series_and_excitation():
     omega = np.geomspace(1e-1, 1e5, 40)
     modulus = Rubber(5e6, [4e6, 8e6], [1e-2, 1e-4]).complex_modulus(omega)
     storage, loss = modulus.real.copy(), modulus.imag.copy()
@@ -220,14 +204,13 @@ def test_master_curve_shows_points_series_and_excitation() -> None:
     np.testing.assert_allclose(y, rubber.complex_modulus(x).real / 1e6)
     x, _ = curve(moduli, "$E'$, Prony series")
     band = rubber.valid_band
-    assert band is not None
     assert (x.min(), x.max()) == pytest.approx(band, rel=0.05)  # beyond it, dashed
     assert len(dashed(moduli)) == 4
     assert labels(figure).count("beyond the measured band") == 1
     assert len(moduli.collections) >= 2  # what the data leave open, shaded
 
 
-def test_envelope_keeps_extremes_and_gaps() -> None:
+def test_envelope_keeps_extremes_and_gaps():
     z = np.array([1.0, 3.0, np.nan, 2.0, np.nan, np.nan, 5.0, 4.0])
     middle, lowest, highest = envelope(np.arange(8.0), z, 4)
     assert middle.tolist() == [0.5, 2.5, 4.5, 6.5]
@@ -243,7 +226,7 @@ def test_envelope_keeps_extremes_and_gaps() -> None:
     np.testing.assert_array_equal(few, [[0.0, 1.0, np.nan], [7.0, 8.0, np.nan], [7.0, 8.0, np.nan]])
 
 
-def test_first_wave_counts_by_its_mean_beyond_a_quarter_of_its_length() -> None:
+def test_first_wave_counts_by_its_mean_beyond_a_quarter_of_its_length():
     fitted, pure = sine_curves(STACK, [2e-3, 10e-3, 21e-3])
     np.testing.assert_allclose(pure[:2], STACK.height_difference([2e-3, 10e-3]), rtol=1e-14)
     assert fitted[0] == pytest.approx(pure[0], rel=1e-14)
@@ -252,7 +235,7 @@ def test_first_wave_counts_by_its_mean_beyond_a_quarter_of_its_length() -> None:
     assert np.isnan([fitted[2], pure[2]]).all()
 
 
-def test_profile_shows_what_cleaning_removed() -> None:
+def test_profile_shows_what_cleaning_removed():
     raw = spiky()
     cleaned, _ = clean(raw, crop=(10e-3, 190e-3))
     figure = profile_figure([(raw, cleaned), (raw, cleaned)])
@@ -263,9 +246,7 @@ def test_profile_shows_what_cleaning_removed() -> None:
     assert labels(figure) == ["as read", "cleaned", "cleaned, every point"]
 
 
-def test_a_figure_is_saved_as_each_kind_and_leaves_matplotlib_alone(
-    tmp_path: Path, make_wave: Callable[..., xr.Dataset]
-) -> None:
+def test_a_figure_is_saved_as_each_kind_and_leaves_matplotlib_alone(tmp_path, make_wave):
     before = dict(mpl.rcParams)
     paths = save_figure(block_figure(make_wave(4e-3)), tmp_path, "block")
     assert [path.suffix for path in paths] == [".png", ".pdf"]
@@ -283,9 +264,7 @@ def test_a_figure_is_saved_as_each_kind_and_leaves_matplotlib_alone(
         FigureFolder(tmp_path / "nowhere").save(sheet, "sheet")
 
 
-def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(
-    tmp_path: Path, make_prediction: Callable[..., xr.Dataset]
-) -> None:
+def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(tmp_path, make_prediction):
     figure = contact_figure({"dynamic": make_prediction()})
     for _ in range(2):
         save_figure(figure, tmp_path, "contact")
@@ -299,7 +278,7 @@ def test_logarithmic_axes_are_marked_between_the_powers_of_ten_once(
 
 @pytest.mark.parametrize("low", np.geomspace(0.1, 1.0, 7))
 @pytest.mark.parametrize("ratio", [1.8, 3.2, 5.0, 7.9])
-def test_a_short_logarithmic_axis_has_three_numbers(low: float, ratio: float) -> None:
+def test_a_short_logarithmic_axis_has_three_numbers(low, ratio):
     panel = Panel(
         PlotAxis("x"), PlotAxis("y", True, low, ratio * low), [Series([0, 1], [low, ratio * low])]
     )
@@ -312,11 +291,11 @@ def test_a_short_logarithmic_axis_has_three_numbers(low: float, ratio: float) ->
     ("value", "text"),
     [(0.001, "0.001"), (2.5, "2.5"), (1e4, "10000"), (1e-5, "10⁻⁵"), (2e12, "2·10¹²"), (0.0, "0")],
 )
-def test_numbers_of_axes_stay_short(value: float, text: str) -> None:
+def test_numbers_of_axes_stay_short(value, text):
     assert short_number(value) == text
 
 
-def inside(figure: Figure) -> None:
+def inside(figure):
     """Nothing that is drawn reaches beyond the figure, where it would be cut."""
     figure.draw_without_rendering()
     box = figure.get_tightbbox()
@@ -328,9 +307,7 @@ def inside(figure: Figure) -> None:
 
 
 @pytest.mark.parametrize("band", [(1e-2, 1e6), (1e-9, 1e15), None])
-def test_ends_of_the_band_are_marked_and_named_and_nothing_is_cut(
-    band: tuple[float, float] | None,
-) -> None:
+def test_ends_of_the_band_are_marked_and_named_and_nothing_is_cut(band):
     rubber = Rubber(5e6, [4e6, 8e6], [1e-2, 1e-4], valid_band=band)
     figure = master_curve_figure(rubber, excitation=[10.0])
     named = labels(figure).count("ends of the measured band")
@@ -342,9 +319,7 @@ def test_ends_of_the_band_are_marked_and_named_and_nothing_is_cut(
     inside(figure)
 
 
-def test_run_without_a_solution_says_so_and_shows_no_numbers(
-    make_prediction: Callable[..., xr.Dataset],
-) -> None:
+def test_run_without_a_solution_says_so_and_shows_no_numbers(make_prediction):
     """One wave, failed: an ordinary panel without contact, and a legend that says why."""
     failed = make_prediction(0.0, "element inverted", count=1)
     figure = blocks_figure(failed)
@@ -363,7 +338,7 @@ def test_run_without_a_solution_says_so_and_shows_no_numbers(
     assert [one for one in named if one.startswith("static")] == ["static: element inverted"]
 
 
-def test_a_legend_of_long_names_stays_inside_the_figure() -> None:
+def test_a_legend_of_long_names_stays_inside_the_figure():
     names = [
         "chain of the upper half, pressure in classes",
         "direct contact, random phases",
@@ -380,7 +355,7 @@ def test_a_legend_of_long_names_stays_inside_the_figure() -> None:
     assert box.x1 <= whole.x1
 
 
-def test_numbers_of_a_comparison_end_before_its_factors(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_numbers_of_a_comparison_end_before_its_factors(monkeypatch):
     rows = [
         Row("chain of the upper half, pressure in classes", 0.0066),
         Row("sines", 0.0091, 0.0, 0.0066, 1.37, samples=(0.0043, 0.0118)),

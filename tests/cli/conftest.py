@@ -1,16 +1,11 @@
 """A small case that runs in seconds: a made-up road, a made-up rubber, the half-plane solver."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator
-from pathlib import Path
-
 import pytest
 
 from gripscale.charts.draw import FigureFolder
+from tests.questions.conftest import _blank as _blank
 from tests.samples import (
     HALF_PLANE,
-    blank_figures,
     case_text,
     three_waves,
     write_maxwell,
@@ -24,14 +19,8 @@ CASE = case_text(
 )
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _blank() -> Iterator[None]:
-    with blank_figures():
-        yield
-
-
 @pytest.fixture(scope="session")
-def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def inputs(tmp_path_factory):
     """A folder with a road of three waves, a Maxwell rubber and a case."""
     folder = tmp_path_factory.mktemp("inputs")
     write_road(folder / "road.txt", three_waves())
@@ -41,10 +30,10 @@ def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def changed(inputs: Path, tmp_path: Path) -> Callable[..., Path]:
+def changed(inputs, tmp_path):
     """Write the case with `old` replaced by `new`, next to copies of its inputs."""
 
-    def write(old: str = "", new: str = "") -> Path:
+    def write(old="", new=""):
         assert old in CASE
         for name in ("road.txt", "dma.txt"):
             (tmp_path / name).write_bytes((inputs / name).read_bytes())
@@ -56,6 +45,6 @@ def changed(inputs: Path, tmp_path: Path) -> Callable[..., Path]:
 
 
 @pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+def undrawn(monkeypatch):
     """Commands that write no pictures."""
     monkeypatch.setattr(FigureFolder, "save", lambda *_: None)

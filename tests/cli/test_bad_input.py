@@ -3,25 +3,18 @@
 What is wrong with files and with keys of a case is tested with their readers.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
-from collections.abc import Callable
-from pathlib import Path
 
 import openpyxl
 import pytest
-from typer.testing import Result
 
 from gripscale.questions.compare.comparison import COMPARED_OVER
 from gripscale.theory import HalfPlane
-from tests.samples import Shell
 
 
-def refused(result: Result, *words: str) -> None:
-    assert result.exit_code == 2, result.output
+def refused(result, *words):
     (sentence,) = result.stderr.splitlines()
     assert sentence.startswith("error: ")
     for part in words:
@@ -30,10 +23,10 @@ def refused(result: Result, *words: str) -> None:
 
 
 @pytest.fixture
-def never_solved(monkeypatch: pytest.MonkeyPatch) -> None:
+def never_solved(monkeypatch):
     """Let nothing get as far as a solver."""
 
-    def solve(*_: object) -> None:
+    def solve(*_):
         raise AssertionError("solved with bad input")
 
     monkeypatch.setattr(HalfPlane, "solve", solve)
@@ -52,11 +45,9 @@ def never_solved(monkeypatch: pytest.MonkeyPatch) -> None:
         ("[load]", '[measured]\nfriction = "no.csv"\n[load]', "measured", "friction"),
     ],
 )
-def test_a_refusal_ends_with_the_command_that_lists_the_keys(
-    shell: Shell, changed: Callable[..., Path], old: str, new: str, table: str, key: str
-) -> None:
+def test_a_refusal_ends_with_the_command_that_lists_the_keys(shell, changed, old, new, table, key):
     words, case = ["keys", *filter(None, [table])], changed(old, new)
-    refused(shell("run", case), f"ee `{' '.join(['gripscale', *words])}`\n")
+    refused(shell("run", case, code=2), f"ee `{' '.join(['gripscale', *words])}`\n")
     assert key in shell(*words).stdout.split()
     assert sorted(p.name for p in case.parent.iterdir()) == ["case.toml", "dma.txt", "road.txt"]
 
@@ -70,26 +61,24 @@ def test_a_refusal_ends_with_the_command_that_lists_the_keys(
         ("dma.txt", "# Frequency (Hz) E' (MPa) E'' (MPa)\n1 2 x\n2 3 4\n"),
     ],
 )
-def test_bad_measurement_is_refused(
-    shell: Shell, changed: Callable[..., Path], name: str, text: str
-) -> None:
+def test_bad_measurement_is_refused(shell, changed, name, text):
     case = changed()
     (case.parent / name).write_text(text)
-    refused(shell("run", case), name)
+    refused(shell("run", case, code=2), name)
     assert not (case.parent / "results").exists()
 
 
 @pytest.mark.usefixtures("never_solved")
-def test_file_in_place_of_the_output_folder(shell: Shell, changed: Callable[..., Path]) -> None:
+def test_file_in_place_of_the_output_folder(shell, changed):
     case = changed()
     blocked = case.parent / "results"
     blocked.write_text("in the way")
-    refused(shell("run", case), "results cannot be made", "is not a folder")
-    refused(shell("run", case, "--output", blocked / "deeper"), "deeper cannot be made")
+    refused(shell("run", case, code=2), "results cannot be made", "is not a folder")
+    refused(shell("run", case, "--output", blocked / "deeper", code=2), "deeper cannot be made")
     assert blocked.read_text() == "in the way"
 
 
-def two_sheets(folder: Path) -> list[object]:
+def two_sheets(folder):
     book = openpyxl.Workbook()
     for name in ("20 C", "40 C"):
         sheet = book.create_sheet(name)
@@ -99,15 +88,34 @@ def two_sheets(folder: Path) -> list[object]:
     return ["fit-rubber", folder / "dma.xlsx"]
 
 
-NOT_COMPARED = [
-    (["--vary", "rubber=case"], f"vary must be one of {', '.join(COMPARED_OVER)};"),
-    (["--vary", "speed=0.3"], "speed must have at least two values; got 0.3"),
-    (["--models", "persion"], "unknown model persion; did you mean persson?"),
-    (["--seeds", "0"], "seeds must be a whole number from 1 to 1000; got 0"),
-    (["--measured", "none.csv"], "none.csv: cannot be read (no such file)"),
-    (["--models", "klueppel_heinrich"], "no model of klueppel_heinrich applies to this case"),
+OF_A_CASE = [
+    (["compare", "--vary", "rubber=case"], f"vary must be one of {', '.join(COMPARED_OVER)};"),
+    (["compare", "--vary", "speed=0.3"], "speed must have at least two values; got 0.3"),
+    (["compare", "--models", "persion"], "unknown model persion; did you mean persson?"),
+    (["compare", "--seeds", "0"], "seeds must be a whole number from 1 to 1000; got 0"),
+    (["compare", "--measured", "none.csv"], "none.csv: cannot be read (no such file)"),
+    (["compare", "--models", "klueppel_heinrich"],
+     "no model of klueppel_heinrich applies to this case"),
+    (["study", "--vary", "speed=1", "--vary", "speed=2"], "vary must name different inputs"),
+    (["study", "--vary", "speed=1", "--workers", "0"], "workers must be a whole number from 1"),
+    (["study", "--vary", "surface=none.txt"], "surface none.txt is neither a file"),
+    (["study", "--vary", "speed=1", "--cluster", "here"], 'cluster must be "local" or the address'),
+    (["uncertainty", "--range", "cut_off"], "range must be such as"),
+    (["uncertainty", "--model", "all"], "model must be one of"),
+    (["uncertainty", "--without", "weather"], "unknown source weather"),
+    (["cut-off", "--down-to", "soon"], "--down-to = 'soon'"),
+    (["calibrate"], "[measured] friction must name a table of measured friction; got none"),
+]  # fmt: skip
+OF_THE_FIT = [
+    (["--law", "bell"], "law must be one of constant, gaussian, le_gal_klueppel; got 'bell'"),
+    (["--model", "wave"], "model must be one of direct, chain; got 'wave'"),
+    (["--hold-out", "p"], "hold_out must be one of temperature, speed; got 'p'"),
+    (["--fixed", "widt=1"], "unknown parameter widt; did you mean width?"),
+    (["--fixed", "width"], 'fixed must be such as "width=0.1"; got'),
+    (["--fixed", "width=a"], "fixed width = 'a': expected a number"),
+    (["--fixed", "stress_0=3"], "fixed stress_0 = '3': the unit is missing; expected one of"),
 ]
-MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
+MISTAKES = [
     (lambda at: ["run", at / "case"], "case does not exist"),
     (lambda at: ["run", at / "dma.txt"], "dma.txt is no case file (TOML); `gripscale"),
     (lambda at: ["report", at / "case.toml"], "case.toml is a case, not a result: `gripscale run`"),
@@ -133,10 +141,12 @@ MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
      "must have a unit, such as"),
     (lambda at: ["study", at / "case.toml", "--vary", "rubber=case,dmo.txt"],
      "rubber dmo.txt is neit"),
-    (lambda at: ["calibrate", at / "case.toml"],
-     "[measured] friction must name a table of measured friction; got none"),
-    *((lambda at, words=words: ["compare", at / "case.toml", *words], sentence)
-      for words, sentence in NOT_COMPARED),
+    (lambda at: ["docs", "limit"], "unknown page limit; did you mean limits?"),
+    *((lambda at, words=words: [words[0], at / "case.toml", *words[1:]], sentence)
+      for words, sentence in OF_A_CASE),
+    *((lambda at, options=options:
+       ["calibrate", at / "case.toml", "--measured", at / "mu.csv", *options], sentence)
+      for options, sentence in OF_THE_FIT),
 ]  # fmt: skip
 
 
@@ -146,10 +156,10 @@ MISTAKES: list[tuple[Callable[[Path], list[object]], str]] = [
     MISTAKES,
     ids=[f"{i}: {words[:30]}" for i, (_, words) in enumerate(MISTAKES)],
 )
-def test_a_mistake_is_one_sentence(
-    shell: Shell, changed: Callable[..., Path], command: Callable[[Path], list[object]], words: str
-) -> None:
-    refused(shell(*command(changed().parent)), words)
+def test_a_mistake_is_one_sentence(shell, changed, command, words):
+    folder = changed().parent
+    (folder / "mu.csv").write_text("speed [m/s],friction\n" + "0.1,0.7\n1,0.8\n2,0.9\n" * 2)
+    refused(shell(*command(folder), code=2), words)
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -160,11 +170,8 @@ def test_a_mistake_is_one_sentence(
         ('"100 mm"', '"1 mm"', "  The footprint, 1 mm, is shorter than the"),
     ],
 )
-def test_what_is_no_mistake_runs(
-    shell: Shell, changed: Callable[..., Path], old: str, new: str, words: str
-) -> None:
+def test_what_is_no_mistake_runs(shell, changed, old, new, words):
     result = shell("run", changed(old, new), columns=400)
-    assert result.exit_code == 0, result.output
     assert words in result.stdout
 
 
@@ -175,13 +182,12 @@ def test_what_is_no_mistake_runs(
         ("--header", "1", "--terms", "6"),
     ],
 )
-def test_options_of_a_file_are_taken(shell: Shell, inputs: Path, options: tuple[str, ...]) -> None:
+def test_options_of_a_file_are_taken(shell, inputs, options):
     result = shell("fit-rubber", inputs / "dma.txt", *options)
-    assert result.exit_code == 0, result.output
     assert "Maxwell elements" in result.stdout
 
 
-def test_a_shell_sees_the_sentence_and_the_code(changed: Callable[..., Path]) -> None:
+def test_a_shell_sees_the_sentence_and_the_code(changed):
     case = changed("scales = 3", "scale = 3")
     program = "from gripscale.cli import main; main()"
     done = subprocess.run(

@@ -1,22 +1,15 @@
 """`gripscale compare` and what a run says of its chain: models side by side over one case."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.folder import CASE_NOTE
-from gripscale.cli import app
 from gripscale.core.errors import FileError
 from gripscale.io import netcdf
 from gripscale.io.table import as_text
@@ -30,18 +23,18 @@ from gripscale.questions.compare.charts import (
 )
 from gripscale.questions.compare.question import Comparison, comparison_table
 from gripscale.questions.terminal import PROGRESS_LINES
-from tests.samples import HALF_PLANE, TWO_WAVES, Shell, case_text
+from tests.samples import HALF_PLANE, TWO_WAVES, case_text
 
 RUNGS = ["chain_half_plane", "chain_upper", "sines", "direct", "persson"]
 
 
-LOAD: dict[str, Any] = {"pressure": 3e5, "speed": 0.3}
-OF_CHAIN: dict[str, Any] = {"footprint": 0.1, "solver": "half_plane"}
+LOAD = {"pressure": 3e5, "speed": 0.3}
+OF_CHAIN = {"footprint": 0.1, "solver": "half_plane"}
 MEASURED = "speed [mm/s],friction,spread\n100,0.31,0.02\n1000,0.42,0.02\n"
 
 
 @pytest.fixture(scope="module")
-def comparison(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+def comparison(shell, inputs, tmp_path_factory):
     """What the command prints of five models with two samples each, and where it writes."""
     folder = tmp_path_factory.mktemp("comparison")
     (folder / "mu.csv").write_text(MEASURED)
@@ -50,13 +43,10 @@ def comparison(inputs: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[
         "compare", inputs / "case.toml", "--seeds", 2, "--output", target,
         "--measured", folder / "mu.csv", "--models", "waves,measured,theory",
     )  # fmt: skip
-    environment = {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb"}
-    result = CliRunner().invoke(app, [str(word) for word in words], env=environment)
-    assert result.exit_code == 0, result.output
-    return result.stdout, target
+    return shell(*words).stdout, target
 
 
-def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> None:
+def test_command_puts_the_models_side_by_side(comparison):
     printed, target = comparison
     figures = {f"{name}.png" for name in ("comparison", "by_wavelength", "at_measured")}
     files = {"comparison.nc", "at_measured.nc", "predictions", CASE_NOTE, "report.html"}
@@ -75,7 +65,7 @@ def test_command_puts_the_models_side_by_side(comparison: tuple[str, Path]) -> N
 
 
 @pytest.mark.parametrize("group", ["waves", "windows"])
-def test_rungs_of_any_group_alone_are_drawn(comparison: tuple[str, Path], group: str) -> None:
+def test_rungs_of_any_group_alone_are_drawn(comparison, group):
     data = netcdf.load_dataset(comparison[1] / "comparison.nc").isel(model=[3])
     data = data.assign_coords(group=("model", [group]))
     for octaves in (data, data.isel(wavelength=slice(0))):  # maps and blocks have no octaves
@@ -85,9 +75,7 @@ def test_rungs_of_any_group_alone_are_drawn(comparison: tuple[str, Path], group:
         assert Comparison(octaves).page_content().sections[0].figures
 
 
-def test_factors_lead_from_the_chain_to_the_profile_as_measured(
-    comparison: tuple[str, Path],
-) -> None:
+def test_factors_lead_from_the_chain_to_the_profile_as_measured(comparison):
     data = netcdf.load_dataset(comparison[1] / "comparison.nc")
     aside = (data.group == "theory") | (data.model == "chain_upper")
     path = data.isel(model=~aside.values)
@@ -103,12 +91,11 @@ def test_factors_lead_from_the_chain_to_the_profile_as_measured(
         assert last == pytest.approx(totals, rel=1e-9)
 
 
-def test_rungs_are_the_models_themselves(inputs: Path) -> None:
+def test_rungs_are_the_models_themselves(inputs):
     results = read_case(inputs / "case.toml")
     asked = ["chain_half_plane", "direct"]
     made = gs.compare(results, seeds=1, tolerance=0.02, models=asked).ladder
     sines, measured = results.surface.sines, results.surface.measured
-    assert measured is not None
     alone = gs.solve_rough_contact(
         results.rubber,
         measured.profiles[0][1],
@@ -127,9 +114,7 @@ def test_rungs_are_the_models_themselves(inputs: Path) -> None:
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
-    changed: Callable[..., Path],
-) -> None:
+def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(changed):
     case = changed(
         "scales = 3\ns_wavelength = 3", 'scales = 4\ntop_height_fraction = 0.5\ncut_off = "4 mm"'
     )
@@ -150,16 +135,15 @@ def test_chain_of_the_upper_half_is_left_out_where_the_case_is_one(
 
 
 def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
-    shell: Shell, inputs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    shell, inputs, tmp_path, monkeypatch
+):
     monkeypatch.setenv(PROGRESS_LINES, "1")
     (tmp_path / "mu.csv").write_text(MEASURED)
     command = [
         "compare", inputs / "case.toml", "--models", "chain_half_plane,direct,persson",
         "--vary", "speed=0.03,0.3", "--output", tmp_path / "out", "--measured", tmp_path / "mu.csv",
     ]  # fmt: skip
-    first = shell(*command)
-    assert first.exit_code == 0, first.output
+    shell(*command)
     written = {path.name for path in (tmp_path / "out").iterdir()}
     assert written == {"over_speed.nc", "over_speed.png", "predictions", "report.html", CASE_NOTE}
     data = netcdf.load_dataset(tmp_path / "out" / "over_speed.nc")
@@ -179,7 +163,7 @@ def test_over_speed_is_each_speed_alone_and_is_not_solved_twice(
     assert second.drop_vars("seconds").equals(data.drop_vars("seconds"))
 
 
-def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[..., Path]) -> None:
+def test_case_names_its_measurement_and_the_fits_of_a_theory(changed):
     case = changed(
         "[output]",
         '[measured]\nfriction = "mu.csv"\n'
@@ -188,11 +172,9 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
     case.write_text(case.read_text().replace("scales = 3", "scales = 6"))  # below the cut-off
     (case.parent / "mu.csv").write_text(MEASURED)
     made = gs.compare(read_case(case), models=["theory"]).ladder
-    assert made.measured is not None
     assert [member.name for member in made.models] == ["persson", "klueppel_heinrich"]
     theory = made.data.sel(model="klueppel_heinrich")
     results = read_case(case)
-    assert results.surface.measured is not None
     alone = gs.theory.klueppel_heinrich(
         results.rubber,
         results.surface.measured.cleaned,
@@ -206,7 +188,7 @@ def test_case_names_its_measurement_and_the_fits_of_a_theory(changed: Callable[.
     assert np.isnan(theory.total_contact_fraction)
 
 
-def test_waves_by_hand_have_no_profile_and_nothing_rubs_at_rest(tmp_path: Path) -> None:
+def test_waves_by_hand_have_no_profile_and_nothing_rubs_at_rest(tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(case_text(TWO_WAVES, solver=HALF_PLANE).replace('"0.3 m/s"', "0.0"))
     assert solve_direct_contact(read_case(case)) is None
@@ -219,18 +201,14 @@ def test_waves_by_hand_have_no_profile_and_nothing_rubs_at_rest(tmp_path: Path) 
     assert len(comparison_figure(data).axes) == 2
 
 
-@pytest.mark.parametrize("vary", [None, {"speed": [0.1, 0.3]}])
-def test_what_was_measured_is_refused_before_anything_is_solved(
-    changed: Callable[..., Path], vary: dict[str, list[float]] | None
-) -> None:
+def test_what_was_measured_is_refused_before_anything_is_solved(changed):
     case = changed("[output]", '[measured]\nfriction = "mu.csv"\n[output]')
     case.with_name("mu.csv").write_text("speed [m/s],friction\n0.1,none\n")
-    options: dict[str, Any] = {"models": ["chain_half_plane"], "on_task": pytest.fail}
     with pytest.raises(FileError, match=r"mu\.csv"):
-        gs.compare(read_case(case), vary=vary, **options)
+        gs.compare(read_case(case), models=["chain_half_plane"], on_task=pytest.fail)
 
 
-def test_model_that_failed_is_open_and_says_why(inputs: Path) -> None:
+def test_model_that_failed_is_open_and_says_why(inputs):
     made = gs.compare(
         read_case(inputs / "case.toml"), seeds=1, models=["chain_half_plane", "direct"]
     ).ladder
@@ -254,16 +232,13 @@ def test_model_that_failed_is_open_and_says_why(inputs: Path) -> None:
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_measured_speeds_without_a_unit_are_the_first_doubt_of_each_command(
-    shell: Shell, changed: Callable[..., Path]
-) -> None:
+def test_measured_speeds_without_a_unit_are_the_first_doubt_of_each_command(shell, changed):
     case = changed("[output]", '[measured]\nfriction = "mu.csv"\n[output]')
     (case.parent / "mu.csv").write_text(MEASURED.replace("speed [mm/s]", "speed"))
     compare = ["compare", case, "--models", "chain_half_plane"]
     calibrate = ["calibrate", case, "--law", "constant"]
     for command in (["run", case], compare, calibrate):
         result = shell(*command)
-        assert result.exit_code == 0, result.output
         first = " ".join(result.stdout.split()).partition("Warnings, by what they change: ")[2]
         assert first.startswith("The unit of speed in mu.csv is not stated and m/s is assumed")
     for folder in ("", "comparison", "calibration"):

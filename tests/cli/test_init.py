@@ -1,31 +1,25 @@
 """`gripscale init` writes examples that run; nothing is overwritten."""
 
-from __future__ import annotations
-
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
 
 import gripscale
 from gripscale.case_file import EXAMPLES, read_case, read_case_file, write_example
 from gripscale.case_file.keys import SCHEMA_FILE, SCHEMA_LINE
 from gripscale.core.errors import FileError, InputError
-from tests.samples import ROOT, Shell
+from tests.samples import ROOT
 
 
-def tree(folder: Path) -> dict[str, bytes]:
+def tree(folder):
     files = (path for path in folder.rglob("*") if path.is_file())
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
 
 
-def test_the_command_offers_every_example(shell: Shell) -> None:
+def test_the_command_offers_every_example(shell):
     words = shell("init", "--help").output
     assert all(f"{name}:" in words for name in EXAMPLES)
 
 
-def test_the_road_is_the_shipped_case_with_its_data(tmp_path: Path) -> None:
+def test_the_road_is_the_shipped_case_with_its_data(tmp_path):
     written = write_example(tmp_path / "new" / "road")
     assert written[0].name == "case.toml"
     names = {path.relative_to(tmp_path / "new" / "road").as_posix() for path in written}
@@ -40,9 +34,7 @@ def test_the_road_is_the_shipped_case_with_its_data(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_every_example_is_commented_has_its_sources_and_can_be_prepared(
-    name: str, tmp_path: Path
-) -> None:
+def test_every_example_is_commented_has_its_sources_and_can_be_prepared(name, tmp_path):
     if EXAMPLES[name].needs:
         pytest.importorskip("SurfaceTopography", reason="needs gripscale[formats]")
     written = write_example(tmp_path, name)
@@ -58,7 +50,7 @@ def test_every_example_is_commented_has_its_sources_and_can_be_prepared(
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_nothing_is_overwritten(name: str, tmp_path: Path) -> None:
+def test_nothing_is_overwritten(name, tmp_path):
     last = write_example(tmp_path / "first", name)[-1]
     target = tmp_path / "second"
     mine = target / last.relative_to(tmp_path / "first")
@@ -69,19 +61,17 @@ def test_nothing_is_overwritten(name: str, tmp_path: Path) -> None:
     assert list(tree(target).values()) == [b"mine"]
 
 
-def test_other_words_are_refused_in_one_sentence(shell: Shell, tmp_path: Path) -> None:
+def test_other_words_are_refused_in_one_sentence(shell, tmp_path):
     with pytest.raises(InputError, match="example must be one of road, synthetic, sweeps, map"):
         write_example(tmp_path, "tyre")
     (tmp_path / "file").write_text("")
-    result = shell("init", tmp_path / "file" / "new")
-    assert result.exit_code == 2
+    result = shell("init", tmp_path / "file" / "new", code=2)
     assert result.stderr.endswith("file is not a folder\n")
 
 
-def test_what_it_says_comes_next_is_what_the_tutorial_does(shell: Shell, tmp_path: Path) -> None:
+def test_what_it_says_comes_next_is_what_the_tutorial_does(shell, tmp_path):
     folder = tmp_path / "start here"
     said = shell("init", folder, "--example", "synthetic", columns=400)
-    assert said.exit_code == 0, said.output
     lines = [line.strip() for line in said.output.splitlines()]
     named = f"'{folder}/"
     assert [line for line in lines if line.startswith("gripscale")] == [
@@ -91,12 +81,6 @@ def test_what_it_says_comes_next_is_what_the_tutorial_does(shell: Shell, tmp_pat
     ]
 
 
-def test_the_package_runs_as_a_module() -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "gripscale", "--version"], capture_output=True, text=True, check=True
-    )
-    assert done.stdout == f"gripscale {gripscale.__version__}\n"
-    told = subprocess.run(
-        [sys.executable, "-m", "gripscale"], capture_output=True, text=True, check=False
-    )
-    assert "gripscale init FOLDER" in " ".join((told.stdout + told.stderr).split())
+def test_version_and_first_step_are_said(shell):
+    assert shell("--version").stdout == f"gripscale {gripscale.__version__}\n"
+    assert "gripscale init FOLDER" in " ".join(shell(code=2).output.split())

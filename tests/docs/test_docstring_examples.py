@@ -1,11 +1,7 @@
 """The example in the docstring of each public name gives what it shows."""
 
-from __future__ import annotations
-
 import doctest
 import inspect
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -23,7 +19,7 @@ MADE_BY_FUNCTIONS = {
 """Classes whose objects functions return, which have the example."""
 
 
-def with_examples() -> list[str]:
+def with_examples():
     """Return the public functions, and the classes that a user makes objects of."""
     names = []
     for name in sorted(gs.__all__):
@@ -38,7 +34,7 @@ def with_examples() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def objects(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Path]:
+def objects(tmp_path_factory):
     """Return what examples name, and the folder of their files."""
     names, folder = public_objects(), tmp_path_factory.mktemp("files")
     write_files(folder, names)
@@ -53,16 +49,14 @@ def objects(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], P
         for name in with_examples()
     ],
 )
-def test_an_example_gives_what_it_shows(
-    name: str, objects: tuple[dict[str, Any], Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_example_gives_what_it_shows(name, objects, monkeypatch):
     names, folder = objects
     monkeypatch.chdir(folder)
     item = getattr(gs, name)
     tests = list(doctest.DocTestFinder(recurse=False).find(item, name, globs=dict(names)))
     assert any(test.examples for test in tests), f"{name} has no example"
     runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
-    texts: list[str] = []
+    texts = []
     for test in tests:
         runner.run(test, out=texts.append)
     assert runner.summarize(verbose=False).failed == 0, "".join(texts)

@@ -1,7 +1,5 @@
 """The notebooks run as they stand, are pages of the site, and are stored without outputs."""
 
-from __future__ import annotations
-
 import json
 
 import pytest
@@ -28,14 +26,14 @@ QUICK = {"wave_in_time"}
         for name in notebooks.TITLES
     ],
 )
-def test_a_notebook_runs(name: str) -> None:
+def test_a_notebook_runs(name):
     shown = [output for kind, _, output in notebooks.outputs(name) if kind == "code"]
     assert any(SHOWN[name] in output for output in shown)
     assert any("data:image/png;base64," in output for output in shown)
 
 
 @pytest.mark.parametrize("name", notebooks.TITLES)
-def test_a_notebook_is_stored_without_outputs(name: str) -> None:
+def test_a_notebook_is_stored_without_outputs(name):
     notebook = json.loads((notebooks.NOTEBOOKS / f"{name}.ipynb").read_text(encoding="utf-8"))
     assert notebook["nbformat"] == 4
     code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
@@ -44,7 +42,7 @@ def test_a_notebook_is_stored_without_outputs(name: str) -> None:
     assert len({cell["id"] for cell in notebook["cells"]}) == len(notebook["cells"])
 
 
-def test_all_notebooks_are_in_the_gallery() -> None:
+def test_all_notebooks_are_in_the_gallery():
     stored = {path.stem for path in notebooks.NOTEBOOKS.glob("*.ipynb")}
     assert stored == set(notebooks.TITLES)
     nav = yaml.safe_load((ROOT / "mkdocs.yml").read_text(encoding="utf-8"))["nav"]
@@ -53,9 +51,7 @@ def test_all_notebooks_are_in_the_gallery() -> None:
     assert listed == [f"notebooks/{name}.md" for name in notebooks.TITLES]
 
 
-def test_a_page_has_code_without_outputs_unless_it_is_asked_for(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_page_has_code_without_outputs_unless_it_is_asked_for(monkeypatch):
     monkeypatch.delenv(notebooks.RUN, raising=False)
     text = notebooks.page("wave_in_time")
     assert text.startswith("# One wave in time")

@@ -1,7 +1,5 @@
 """Pages can be read: few numbers, short sentences, a figure, each fact in one place."""
 
-from __future__ import annotations
-
 import pytest
 
 from tests.docs.style import (
@@ -26,19 +24,19 @@ MOST_RUNS = 5
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_sentences_are_short_and_few_words_are_numbers(page: str) -> None:
+def test_sentences_are_short_and_few_words_are_numbers(page):
     text = page_text(page)
     assert words_a_sentence(text) < MOST_WORDS
     assert page in PARTS["Evidence"] or number_share(text) < MOST_NUMBERS
 
 
-def test_pages_that_explain_have_a_figure() -> None:
+def test_pages_that_explain_have_a_figure():
     assert list(PARTS) == ["Start", "Understand", "Do", "Reference", "Evidence"]
     pages = [*PARTS["Start"], *PARTS["Understand"]]
     assert not [page for page in pages if not figures(page_text(page))]
 
 
-def test_each_fact_stands_in_one_place() -> None:
+def test_each_fact_stands_in_one_place():
     assert not {pair for pair, count in shared_runs(PAGES).items() if count > MOST_RUNS}
 
 
@@ -59,7 +57,7 @@ Two stones weigh 3 kg. They cost `5` each, see [page 7](x.md).
 """
 
 
-def test_prose_is_measured_without_tables_code_and_headings() -> None:
+def test_prose_is_measured_without_tables_code_and_headings():
     assert sentences(SAMPLE) == [
         "Two stones weigh 3 kg.",
         "They cost code each, see page 7.",

@@ -1,15 +1,10 @@
 """Every example runs from anywhere, without a warning, and finds what it should."""
 
-from __future__ import annotations
-
 import importlib.util
 import re
 import runpy
 import subprocess
 import sys
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,12 +18,10 @@ TESTED_ELSEWHERE = {"finite_strain_rubber"}
 
 
 @pytest.fixture
-def start(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> Callable[..., str]:
+def start(tmp_path, monkeypatch, capfd):
     """Run an example in `tmp_path`, its warnings as errors; return what it prints."""
 
-    def run(name: str, *arguments: str) -> str:
+    def run(name, *arguments):
         path = str(EXAMPLES / f"{name}.py")
         monkeypatch.chdir(tmp_path)
         monkeypatch.setattr(sys, "argv", [path, *arguments])
@@ -41,7 +34,7 @@ def start(
 
 
 @pytest.fixture(scope="module")
-def small_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def small_case(tmp_path_factory):
     """A road of 0.1 m and a rubber of two relaxations."""
     folder = tmp_path_factory.mktemp("small")
     write_short_road(folder)
@@ -51,17 +44,15 @@ def small_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "case.toml"
 
 
-def module_of(name: str) -> Any:
+def module_of(name):
     """Import an example."""
     spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
-def start_alone(name: str, folder: Path, *arguments: str) -> str:
+def start_alone(name, folder, *arguments):
     """Run an example in `folder` in a process of its own; return what it prints."""
     command = [sys.executable, "-W", "error", str(EXAMPLES / f"{name}.py"), *arguments]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
@@ -74,7 +65,7 @@ def start_alone(name: str, folder: Path, *arguments: str) -> str:
 def run(start, tmp_path):
     """Run an example in a folder of its own; return what it prints and the figures it saves."""
 
-    def run(name: str, *arguments: str) -> str:
+    def run(name, *arguments):
         figures = tmp_path / "figures"
         printed = start(name, str(figures), *arguments)
         assert [path.name for path in tmp_path.iterdir()] == ["figures"]
@@ -86,7 +77,7 @@ def run(start, tmp_path):
     return run
 
 
-def numbers(pattern: str, text: str) -> list[float]:
+def numbers(pattern, text):
     """Return the numbers a pattern catches in its first match."""
     found = re.search(pattern, text)
     assert found, text

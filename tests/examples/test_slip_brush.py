@@ -1,7 +1,5 @@
 """The brush against its closed form, a marching integration, and the heat of a parabola."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -29,7 +27,7 @@ def by_speed(speed, pressure, warming):
     )
 
 
-def test_constant_friction_is_the_closed_form() -> None:
+def test_constant_friction_is_the_closed_form():
     """1 - (1 - sigma/sigma*)^3, exact but for the halvings: 1e-8."""
     with np.errstate(divide="ignore"):
         over = SLIP / (1.0 - SLIP) / (0.8 * BRUSH.compliance)
@@ -38,7 +36,7 @@ def test_constant_friction_is_the_closed_form() -> None:
     assert solved.force == pytest.approx(exact, rel=1e-6)
 
 
-def marched(slip: float, points: int = 2000) -> float:
+def marched(slip, points=2000):
     """Return the force of bristles point by point, which slide behind the last one that sticks."""
     sigma = slip / (1.0 - slip)
     stuck, sliding = np.empty(points), np.empty(points)
@@ -46,7 +44,7 @@ def marched(slip: float, points: int = 2000) -> float:
         pressure = 6.0 * PRESSURE * y * (1.0 - y)
         gained = (1.0 - slip) * ROAD * 6.0 * PRESSURE / (STIFFNESS * LENGTH) * (1.0 - 2.0 * y)
 
-        def excess(speed: float, gained: float = gained, pressure: float = pressure) -> float:
+        def excess(speed, gained=gained, pressure=pressure):
             return speed - slip * ROAD + gained * float(by_speed(np.array(speed), pressure, 0.0))
 
         speed = brentq(excess, 1e-6, 1e3) if excess(1e-6) < 0.0 else 1e-6
@@ -58,12 +56,12 @@ def marched(slip: float, points: int = 2000) -> float:
 
 
 @pytest.mark.parametrize("slip", [0.01, 0.04, 0.08, 0.2, 0.7])
-def test_friction_over_speed_is_that_of_marching(slip: float) -> None:
+def test_friction_over_speed_is_that_of_marching(slip):
     """The midpoint rule misses the point where sliding begins by up to 1/4000 of the patch."""
     assert brush_force(BRUSH, by_speed, slip, ROAD).force == pytest.approx(marched(slip), rel=1e-3)
 
 
-def test_heat_of_a_locked_wheel() -> None:
+def test_heat_of_a_locked_wheel():
     """q = mu v 6 p_0 y (1 - y): the half integral is 4/3 z^(3/2) - 16/15 z^(5/2), largest at 3/4.
 
     16 points of quadrature miss the top by less than 1/16 of the patch: 0.5 %.
@@ -77,7 +75,7 @@ def test_heat_of_a_locked_wheel() -> None:
 
 
 @pytest.mark.parametrize(("power", "most"), [(0.1, 0.022), (0.2, 0.08)])
-def test_bristles_that_creep_have_less_force(power: float, most: float) -> None:
+def test_bristles_that_creep_have_less_force(power, most):
     """d tau/dx (1 - s) v/k = s v - v_s with mu(v_s) = tau/p from the entry on, without sticking."""
 
     def friction(speed, pressure, warming):

@@ -1,10 +1,5 @@
 """Braking force over slip of a short piece of road: table, intervals, distances, formulas."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from pathlib import Path
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -25,7 +20,7 @@ SLIPS = np.geomspace(0.003, 1.0, 30)
 
 
 @pytest.fixture(scope="module", autouse=True)
-def _few_speeds() -> Iterator[None]:
+def _few_speeds():
     """Half the speeds of a table, and half the contacts."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(friction_table, "_SPEEDS", 3)
@@ -33,7 +28,7 @@ def _few_speeds() -> Iterator[None]:
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     """Return a folder with a case and the results of its command."""
     folder = tmp_path_factory.mktemp("slip")
     (folder / "case.toml").write_text(CASE + INTERFACE, encoding="utf-8")
@@ -42,22 +37,20 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def case(folder: Path) -> gs.Case:
+def case(folder):
     """The case, read once: its road is cleaned and its master curve fitted in seconds."""
     return gs.read_case(folder / "case.toml")
 
 
 @pytest.fixture
-def curve(folder: Path) -> question.SlipCurve:
+def curve(folder):
     return gs.load(folder / "slip" / "slip.nc")
 
 
-def test_python_has_the_curves_of_the_command_from_its_table(
-    case: gs.Case, folder: Path, curve: question.SlipCurve, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_python_has_the_curves_of_the_command_from_its_table(case, folder, curve, monkeypatch):
     """From the stored table nothing is solved again."""
 
-    def refuse(*_: object, **__: object) -> None:
+    def refuse(*_, **__):
         raise AssertionError("solved again")
 
     monkeypatch.setattr(DirectContact, "predict", refuse)
@@ -68,7 +61,7 @@ def test_python_has_the_curves_of_the_command_from_its_table(
     assert {"slip.nc", "slip.png", "report.html"} <= {p.name for p in (folder / "slip").iterdir()}
 
 
-def test_curves_lie_within_their_bands(curve: question.SlipCurve) -> None:
+def test_curves_lie_within_their_bands(curve):
     """The area term adds friction; a higher friction brakes in a shorter distance."""
     low, value, high = (curve.data.force.sel(bound=bound) for bound in ("low", "value", "high"))
     assert (low <= value).all()
@@ -85,7 +78,7 @@ def test_curves_lie_within_their_bands(curve: question.SlipCurve) -> None:
     assert 0.7 * stuck < force < stuck
 
 
-def test_locked_wheel_has_the_friction_of_the_road_speed(curve: question.SlipCurve) -> None:
+def test_locked_wheel_has_the_friction_of_the_road_speed(curve):
     """Weighed by the parabola of the pressure, with mu linear in ln p within the table's ends.
 
     These ends are kinks along the patch: 12 points of quadrature are within 3e-4.
@@ -104,7 +97,7 @@ def test_locked_wheel_has_the_friction_of_the_road_speed(curve: question.SlipCur
     assert locked == pytest.approx(float((weight * friction).mean()), rel=3e-4)
 
 
-def test_braking_distance_of_constant_friction() -> None:
+def test_braking_distance_of_constant_friction():
     """(v_1^2 - v_2^2)/(2 g mu); the peak of a constant friction is its plateau.
 
     The cubics overshoot by some 1 % where the plateau begins.
@@ -124,7 +117,7 @@ def test_braking_distance_of_constant_friction() -> None:
     assert found.sel(bound="value", brake="peak") == pytest.approx(expected, rel=2e-2)
 
 
-def test_table_is_read_between_its_points_and_kept_beyond() -> None:
+def test_table_is_read_between_its_points_and_kept_beyond():
     speed, kelvin, pressure = [0.01, 1.0], [280.0, 320.0], [1e5, 4e5]
     grid = np.meshgrid(np.log(speed), kelvin, np.log(pressure), indexing="ij")
     values = 0.5 + 0.02 * grid[0] - 0.003 * (grid[1] - 300.0) + 0.01 * (grid[2] - np.log(1e5))
@@ -139,7 +132,7 @@ def test_table_is_read_between_its_points_and_kept_beyond() -> None:
     assert friction(*beyond).ravel() == pytest.approx([corner, corner])
 
 
-def test_a_table_without_an_interval_has_its_value() -> None:
+def test_a_table_without_an_interval_has_its_value():
     """The ends are unknown; the value between them is not touched by it."""
     coords = dict(zip(AXES, ([0.1, 10.0], [293.0], [1e5, 4e5]), strict=True))
     values = np.full((1, 3, 2, 1, 2), 0.5)
@@ -152,7 +145,7 @@ def test_a_table_without_an_interval_has_its_value() -> None:
 
 
 @pytest.mark.parametrize("parameters", [DRY, WET])
-def test_formulas_are_found_again(parameters: tuple[float, ...]) -> None:
+def test_formulas_are_found_again(parameters):
     """The Magic Formula follows Burckhardt's curves within 3 % of the peak, rms."""
     burckhardt, magic = FORMULAS["burckhardt"], FORMULAS["magic_formula"]
     force = burckhardt.function(SLIPS, *parameters)
@@ -175,6 +168,6 @@ def test_formulas_are_found_again(parameters: tuple[float, ...]) -> None:
         ({"temperature": "40 C"}, "time-temperature shift is missing"),
     ],
 )
-def test_options_that_cannot_be_used_are_refused(case: gs.Case, options, words: str) -> None:
+def test_options_that_cannot_be_used_are_refused(case, options, words):
     with pytest.raises(InputError, match=words):
         question.slip_curve(case, **options)

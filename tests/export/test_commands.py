@@ -1,19 +1,14 @@
 """`gripscale export rubber`, `tables` and `mesh`."""
 
-from __future__ import annotations
-
 import csv
 import json
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
-from typer.testing import CliRunner
 
 import gripscale as gs
-from gripscale.cli import app
 from gripscale.io import netcdf
 from gripscale.rubber import WLF, Rubber, fit_prony, read_master_curve
 from gripscale.surface import SineStack
@@ -21,12 +16,8 @@ from tests.export.readers import READERS, read_abaqus
 from tests.samples import MAXWELL, case_text, write_maxwell
 
 
-def run(*arguments: object):
-    return CliRunner().invoke(app, ["export", *map(str, arguments)])
-
-
 @pytest.fixture(scope="module")
-def inputs(tmp_path_factory) -> Path:
+def inputs(tmp_path_factory):
     """A folder with a measured rubber, a case of it, and the file of a rubber."""
     folder = tmp_path_factory.mktemp("inputs")
     write_maxwell(folder / "dma.txt")
@@ -43,10 +34,9 @@ def inputs(tmp_path_factory) -> Path:
 
 @pytest.mark.parametrize("program", READERS)
 @pytest.mark.parametrize("source", ["case.toml", "dma.txt", "rubber.json"])
-def test_a_rubber_of_any_file(inputs, tmp_path, program, source):
+def test_a_rubber_of_any_file(shell, inputs, tmp_path, program, source):
     target = tmp_path / "rubber"
-    done = run("rubber", inputs / source, "--to", program, "--output", target)
-    assert done.exit_code == 0, done.output
+    done = shell("export", "rubber", inputs / source, "--to", program, "--output", target)
     assert "The material is" in done.stdout
     found = READERS[program](target.read_text())
     own = MAXWELL
@@ -57,13 +47,12 @@ def test_a_rubber_of_any_file(inputs, tmp_path, program, source):
     np.testing.assert_allclose(found.complex_modulus(omega), own.complex_modulus(omega), rtol=1e-10)
 
 
-def test_a_rubber_at_another_temperature_and_in_other_units(inputs, tmp_path):
+def test_a_rubber_at_another_temperature_and_in_other_units(shell, inputs, tmp_path):
     names = ("cold.inp", "warm.inp")
     options = ["--to", "abaqus", "--modulus-unit", "MPa", "--temperature-unit", "C"]
     for name, more in zip(names, ([], ["--temperature", "60 C", "--name", "warm"]), strict=True):
         target = tmp_path / name
-        done = run("rubber", inputs / "case.toml", *options, "--output", target, *more)
-        assert done.exit_code == 0, done.output
+        shell("export", "rubber", inputs / "case.toml", *options, "--output", target, *more)
     cold, warm = (read_abaqus((tmp_path / name).read_text()) for name in names)
     law = WLF(8.0, 120.0, 293.15)
     np.testing.assert_allclose(warm.times / cold.times, law.a(333.15, 293.15), rtol=1e-12)
@@ -75,26 +64,23 @@ def test_a_rubber_at_another_temperature_and_in_other_units(inputs, tmp_path):
 @pytest.mark.parametrize(
     ("source", "options", "said"),
     [
-        ("dma.txt", ["--to", "nastran"], "to must be one of abaqus, ansys, febio"),
         ("dma.txt", ["--to", "febio", "--temperature", "40 C"], "shift is missing"),
         ("dma.txt", ["--to", "abaqus", "--band", "1 Hz"], "band must be two frequencies such as"),
         ("case.toml", ["--to", "febio", "--temperature", "warm"], "expected a temperature such as"),
-        ("dma.txt", ["--to", "ansys", "--name", "a"], "unknown option of ansys name"),
         ("none.json", ["--to", "ansys"], "none.json: cannot be read (no such file)"),
         ("bad.json", ["--to", "ansys"], "bad.json cannot be read as a rubber"),
         ("none.toml", ["--to", "ansys"], "does not exist"),
         ("none.txt", ["--to", "ansys"], "none.txt"),
     ],
 )
-def test_what_cannot_be_a_rubber_is_one_sentence(inputs, tmp_path, source, options, said):
-    done = run("rubber", inputs / source, *options, "--output", tmp_path / "a")
-    assert done.exit_code == 2
+def test_what_cannot_be_a_rubber_is_one_sentence(shell, inputs, tmp_path, source, options, said):
+    done = shell("export", "rubber", inputs / source, *options, "--output", tmp_path / "a", code=2)
     assert said in " ".join(done.stderr.split())
     assert not list(tmp_path.iterdir())
 
 
 @pytest.fixture(scope="module")
-def result(tmp_path_factory) -> Path:
+def result(tmp_path_factory):
     """The file of a prediction of two waves by the block."""
     prediction = gs.solve_chain(
         Rubber(6e6, [3e6, 5e6], [1e-2, 1e-4]),
@@ -108,38 +94,32 @@ def result(tmp_path_factory) -> Path:
     return netcdf.save(prediction.to_dataset(), tmp_path_factory.mktemp("run") / "dynamic.nc")
 
 
-def test_tables_of_a_result(result, tmp_path):
-    done = run("tables", result, "--output", tmp_path / "out")
-    assert done.exit_code == 0, done.output
+def test_tables_of_a_result(shell, result, tmp_path):
+    done = shell("export", "tables", result, "--output", tmp_path / "out")
     assert "scale.csv" in done.stdout
     with (tmp_path / "out" / "scale.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     data = netcdf.load_dataset(result)
     assert [float(row["friction [-]"]) for row in rows] == data.friction.values.tolist()
-    done = run("tables", tmp_path / "none.nc", "--output", tmp_path / "other")
-    assert done.exit_code == 2
+    done = shell("export", "tables", tmp_path / "none.nc", "--output", tmp_path / "other", code=2)
     assert "does not exist" in done.stderr
 
 
-def test_the_mesh_of_a_wave(result, tmp_path):
-    done = run("mesh", result, "--wave", 2, "--output", tmp_path / "wave2.vtu")
-    assert done.exit_code == 0, done.output
+def test_the_mesh_of_a_wave(shell, result, tmp_path):
+    done = shell("export", "mesh", result, "--wave", 2, "--output", tmp_path / "wave2.vtu")
     assert "Wave 2, 0.002 m long, converged" in done.stdout
     assert (tmp_path / "wave2.vtu").read_text().startswith("<?xml")
-    done = run("mesh", result, "--wave", 3, "--output", tmp_path / "wave3.vtu")
-    assert done.exit_code == 2
+    done = shell("export", "mesh", result, "--wave", 3, "--output", tmp_path / "wave3.vtu", code=2)
     assert "wave must be a whole number from 1 to 2; got 3" in done.stderr
 
 
-def test_a_folder_or_a_result_without_meshes_names_the_file_that_serves(result, tmp_path):
+def test_a_folder_or_a_result_without_meshes_names_the_file_that_serves(shell, result, tmp_path):
     direct = xr.Dataset({"total_friction": 0.3}).assign_attrs(model="direct")
     other = netcdf.save(direct, tmp_path / "direct.nc")
     shutil.copy(result, tmp_path)
-    done = run("tables", tmp_path, "--output", tmp_path / "out")
-    assert done.exit_code == 2
+    done = shell("export", "tables", tmp_path, "--output", tmp_path / "out", code=2)
     said = " ".join(done.stderr.split())
     assert "is a folder; expected one of its result files: direct.nc, dynamic.nc" in said
-    done = run("mesh", other, "--wave", 1, "--output", tmp_path / "wave.vtu")
-    assert done.exit_code == 2
+    done = shell("export", "mesh", other, "--wave", 1, "--output", tmp_path / "wave.vtu", code=2)
     assert "direct.nc has no meshes" in done.stderr
     assert "; dynamic.nc beside it has" in " ".join(done.stderr.split())

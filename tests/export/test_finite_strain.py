@@ -12,18 +12,16 @@ and both the pressure that leaves the sides free. The integrals are exact for st
 between samples, as FEBio takes them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from gripscale.rubber import Rubber, fit_prony, read_master_curve, uniaxial_stress
+from gripscale.rubber import fit_prony, read_master_curve, uniaxial_stress
 from tests.samples import MEASURED_DMA as DMA
 
 OMEGA, SAMPLES, CYCLES = 10.0, 400, 4
 
 
-def relaxed(rubber: Rubber, time, stress):
+def relaxed(rubber, time, stress):
     """Return stress + sum g_i int exp(-(t - u)/tau_i) dstress/du du."""
     step = (time[1] - time[0]) / rubber.relaxation_times
     decay, arriving = np.exp(-step), -np.expm1(-step) / step
@@ -34,11 +32,11 @@ def relaxed(rubber: Rubber, time, stress):
     return out
 
 
-def abaqus(rubber: Rubber, time, s):
+def abaqus(rubber, time, s):
     return relaxed(rubber, time, rubber.equilibrium_shear_modulus * (s**2 - 1.0 / s)) / s
 
 
-def febio(rubber: Rubber, time, s):
+def febio(rubber, time, s):
     third = rubber.equilibrium_shear_modulus * (s**2 - 1.0 / s) / 3.0
     along = relaxed(rubber, time, 2.0 * third / s**2)
     across = relaxed(rubber, time, -third * s)
@@ -46,7 +44,7 @@ def febio(rubber: Rubber, time, s):
 
 
 @pytest.fixture(scope="module")
-def tread() -> Rubber:
+def tread():
     return fit_prony(read_master_curve(DMA))
 
 

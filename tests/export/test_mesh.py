@@ -1,7 +1,5 @@
 """The mesh of a wave: other programs open it, and its stress is in equilibrium with the contact."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -11,6 +11,7 @@ import pytest
 
 from gripscale.core.errors import FileError, InputError
 from gripscale.export import rubber_file, write_rubber
+from gripscale.export.rubber import reduced
 from gripscale.rubber import (
     WLF,
     Arrhenius,
@@ -24,20 +25,22 @@ from gripscale.rubber import (
     Yeoh,
     fit_prony,
     read_master_curve,
+    styrene_butadiene,
 )
 from tests.export.readers import READERS, read_abaqus, read_ansys
 from tests.samples import MEASURED_DMA as DMA
+from tests.samples import write_maxwell
 
 ENERGIES = (NeoHookean(), MooneyRivlin(0.3), Yeoh(-0.05, 0.004), Isihara(0.2, -0.02))
 
 
 @pytest.fixture(scope="module")
-def measured() -> Rubber:
+def measured():
     """The measured tread: 23 elements, a thousand times stiffer at once than relaxed."""
     return fit_prony(read_master_curve(DMA))
 
 
-def band(rubber: Rubber) -> np.ndarray:
+def band(rubber):
     return np.geomspace(0.01 / rubber.relaxation_times.max(), 100 / rubber.relaxation_times.min())
 
 
@@ -206,3 +209,57 @@ def test_the_file_is_the_text(tmp_path):
     assert "*MATERIAL, NAME=tread" in made.text
     with pytest.raises(FileError, match="cannot be written"):
         write_rubber(rubber, tmp_path / "none" / "a", to="febio")
+
+
+SBR = styrene_butadiene()
+BAND = (1.0, 1e5)
+
+
+def errors(rubber):
+    """Return the largest relative errors of E', E'' and E''/E' over the band, at 1000 points."""
+    omega = 2.0 * np.pi * np.geomspace(*BAND, 1000)
+    here, exact = rubber.complex_modulus(omega), SBR.complex_modulus(omega)
+    parts = here.real / exact.real, here.imag / exact.imag
+    return [float(np.abs(part - 1.0).max()) for part in (*parts, parts[1] / parts[0])]
+
+
+def test_the_misfit_is_that_within_the_band():
+    reduction = reduced(SBR, band=BAND, terms=10)
+    stated = [reduction.storage, reduction.loss, reduction.loss_factor]
+    # 20 points per decade miss the largest by less than a tenth of it
+    assert stated == pytest.approx(errors(reduction.rubber), rel=0.1)
+    # ten elements for five decades: two a decade, as the rubber itself has
+    assert max(stated) < 0.08
+    assert reduction.rubber.valid_band == pytest.approx([2.0 * np.pi * end for end in BAND])
+    assert f"Reduced to {len(reduction.rubber.moduli)} Maxwell elements" in reduction.rubber.source
+    assert f"E' {reduction.storage:.2%}" in str(reduction)
+    for kept in ("bulk_modulus", "reference_temperature", "strain_energy"):
+        assert getattr(reduction.rubber, kept) == getattr(SBR, kept)
+
+
+def test_fewer_terms_miss_more_and_all_of_them_nothing():
+    worst = [max(errors(reduced(SBR, band=BAND, terms=terms).rubber)) for terms in (2, 4, 8, 16)]
+    assert worst == sorted(worst, reverse=True)
+    single = Rubber(2e6, [5e6], [1e-3])
+    again = reduced(single, band=(1.0, 1e5), terms=41)
+    assert max(again.storage, again.loss) < 0.01
+
+
+def test_what_cannot_be_reduced_is_refused():
+    with pytest.raises(InputError, match="got an elastic one"):
+        reduced(Rubber(2e6, [], []))
+    with pytest.raises(InputError, match="terms must be a whole number from 1 to 200; got 0"):
+        reduced(SBR, terms=0)
+    with pytest.raises(InputError, match=r"band .* must be a lower and a higher value"):
+        reduced(SBR, band=(1e3, 1.0))
+
+
+def test_the_command_states_the_misfit(shell, tmp_path):
+    write_maxwell(tmp_path / "dma.txt")
+    target = tmp_path / "rubber.inp"
+    arguments = ("export", "rubber", tmp_path / "dma.txt", "--to", "abaqus", "--output", target)
+    options = ["--band", "1..1e3 Hz", "--terms", "3"]
+    outcome = shell(*arguments, *options)
+    words = "Reduced to 3 Maxwell elements for 1 to 1000 Hz; largest errors there"
+    assert words in " ".join(outcome.output.split())
+    assert words in " ".join(target.read_text().replace("**", "").split())

@@ -1,9 +1,6 @@
 """Tables hold every number of a result, with its unit and its place."""
 
-from __future__ import annotations
-
 import csv
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +16,7 @@ from gripscale.wave.result import waves_to_dataset
 
 
 @pytest.fixture(scope="module")
-def prediction() -> xr.Dataset:
+def prediction():
     """Two waves of the block on meshes of different size, so that something is padded."""
     rubber = gs.Rubber(6e6, [3e6, 5e6], [1e-2, 1e-4], name="=tread")
     waves = [
@@ -37,12 +34,12 @@ def prediction() -> xr.Dataset:
     return waves_to_dataset(waves).assign_attrs(title="=SUM(A1:A2)", numbers=np.array([1.0, 2.5]))
 
 
-def read_csv(path: Path) -> list[list[str]]:
+def read_csv(path):
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.reader(file))
 
 
-def numbers(rows, title: str) -> np.ndarray:
+def numbers(rows, title):
     place = rows[0].index(title)
     cells = [row[place] for row in rows[1:]]
     return np.array([np.nan if cell in ("", None) else float(cell) for cell in cells])

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
-import xarray as xr
 from typer.testing import CliRunner
 
 import gripscale as gs
@@ -23,53 +19,42 @@ from gripscale.questions.answer.variables import HEADINGS, SYMBOLS, answer_numbe
 from gripscale.questions.page_of_folder import read_result
 from gripscale.surface import self_affine_profile
 from gripscale.theory import HalfPlane
+from tests.half_space.rough_cases import isotropic_map
 from tests.samples import GENTLE_SINES, SHIFTED_RUBBER
 
-LOAD: dict[str, Any] = {"pressure": 3e5, "speed": 0.3, "footprint": 0.05}
+LOAD = {"pressure": 3e5, "speed": 0.3, "footprint": 0.05}
 COLD = Conditions(heat="none")
 SHEARED = replace(COLD, shear_stress=ConstantStress(5e5))
 """0.5 MPa on a few per cent of the area: an area term of about the friction of the hysteresis."""
 
 
-def road(seed: int) -> gs.Profile:
+def road(seed):
     length = {1: 0.12, 2: 0.09}[seed]
     line = self_affine_profile(0.8, 3e-3, 4e-4, length=length, step=2e-4, seed=seed)
     return replace(line, name=f"lane {seed}")
 
 
-def height_map() -> gs.HeightMap:
-    """Return 32 by 64 heights: waves of falling amplitude in all directions."""
-    random = np.random.default_rng(0)
-    x, y = np.meshgrid(0.2e-3 * np.arange(64), 0.4e-3 * np.arange(32), indexing="ij")
-    heights = np.zeros_like(x)
-    for wavelength in np.geomspace(12e-3, 0.8e-3, 40):
-        angle, phase = random.uniform(0.0, 2.0 * np.pi, 2)
-        along = np.cos(angle) * x + np.sin(angle) * y
-        heights += 0.01 * wavelength * np.cos(2.0 * np.pi * along / wavelength + phase)
-    return gs.HeightMap(x[:, 0], y[0], heights)
-
-
-def case_of(surface: Any, **options: Any) -> gs.Case:
+def case_of(surface, **options):
     """Return a case of rubber without filler, which does not warm, but for its options."""
     return gs.Case(
         surface, SHIFTED_RUBBER, **LOAD | {"filled": False, "conditions": COLD} | options
     )
 
 
-def calibrated() -> Conditions:
+def calibrated():
     """Return the conditions with a shear stress fitted to measured friction."""
     measured = gs.experiment.MeasuredFriction([0.1, 0.3, 1.0], [0.5, 0.6, 0.65])
     case = case_of(road(1), waves=3, smallest_wavelength=2e-3)
     return replace(COLD, shear_stress=gs.calibrate(case, measured, law="constant").law)
 
 
-CASES: Mapping[str, Any] = {
+CASES = {
     "plain": lambda: (road(1), {}),
     "area_term": lambda: (road(1), {"conditions": SHEARED}),
     "calibrated": lambda: (road(1), {"conditions": calibrated()}),
     "several_profiles": lambda: ([road(1), road(2)], {}),
     "several_sheared": lambda: ([road(1), road(2)], {"conditions": SHEARED}),
-    "map": lambda: (height_map(), {}),
+    "map": lambda: (isotropic_map(64, shortest=1.6e-3), {}),
     "waves": lambda: (GENTLE_SINES, {}),
     "static": lambda: (road(1), {"speed": 0.0}),
     "thickness": lambda: (road(1), {"thickness": 8e-3}),
@@ -94,32 +79,32 @@ class Asked:
     printed: str
 
     @property
-    def names(self) -> list[str]:
+    def names(self):
         """What it answers with."""
         return ["friction", "contact_fraction"] if self.case.load.speed else ["contact_fraction"]
 
     @property
-    def expected(self) -> list[float]:
+    def expected(self):
         """The numbers of `gs.answer`, by its documented attributes."""
         return [getattr(self.answer, name) for name in self.names]
 
     @property
-    def shown(self) -> dict[str, str]:
+    def shown(self):
         """The expected numbers as texts print them."""
         return dict(zip(self.names, map(significant, self.expected), strict=True))
 
     @property
-    def judge(self) -> str:
+    def judge(self):
         """Model of a comparison that the answer is of."""
         return "direct" if self.case.surface.measured else "chain_half_plane"
 
-    def of(self, data: xr.Dataset) -> list[float]:
+    def of(self, data):
         """Return the numbers of another result."""
         return [answer_number(data, name).value for name in self.names]
 
 
 @pytest.fixture(scope="module", params=PARAMETERS)
-def asked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Asked:
+def asked(request, tmp_path_factory):
     """A case, answered in Python and by `gripscale run`."""
     surface, options = CASES[request.param]()
     arguments = {"waves": 3, "chain": gs.chain.Chain(HalfPlane(points=64))} | options
@@ -132,7 +117,7 @@ def asked(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
     return Asked(case, gs.answer(case), folder / "results", printed)
 
 
-def shell(*words: object) -> str:
+def shell(*words):
     """Return what a command prints, as one line; its figures are not drawn."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(FigureFolder, "save", lambda *_: None)
@@ -141,7 +126,7 @@ def shell(*words: object) -> str:
     return " ".join(result.output.split())
 
 
-def ways(asked: Asked) -> Iterator[tuple[str, list[float]]]:
+def ways(asked):
     """Yield the numbers that each way to ask gives, but the slow ones."""
     yield "file of the run", asked.of(gs.load(asked.folder / "answer.nc").data)
     yield "saved", asked.of(gs.load(asked.answer.save(asked.folder / "saved.nc")).data)
@@ -155,20 +140,20 @@ def ways(asked: Asked) -> Iterator[tuple[str, list[float]]]:
     yield "compare", asked.of(gs.compare(asked.case, models=[asked.judge]).data)
 
 
-def test_one_number_through_every_door(asked: Asked) -> None:
+def test_one_number_through_every_door(asked):
     for way, numbers in ways(asked):
         # a study weighs profiles by the length of their grids, an answer as they were measured
         assert numbers == pytest.approx(asked.expected, rel=1e-4), way
 
 
-def test_run_prints_the_answer_once(asked: Asked) -> None:
+def test_run_prints_the_answer_once(asked):
     line = asked.answer.lines[0]
     assert all(f"{SYMBOLS[name]} = {value}" in line for name, value in asked.shown.items())
     assert asked.printed.count(line) == 1
     assert asked.printed.index(line) == asked.printed.index("Answer: ")
 
 
-def test_pages_show_it(asked: Asked) -> None:
+def test_pages_show_it(asked):
     for result in (asked.answer, read_result(asked.folder)):
         values = {card.label: card.value for card in result.page_content().cards}
         for name, value in asked.shown.items():
@@ -176,7 +161,7 @@ def test_pages_show_it(asked: Asked) -> None:
 
 
 @pytest.mark.parametrize("asked", ["several_profiles", "waves"], indirect=True)
-def test_commands_lead_with_it(asked: Asked) -> None:
+def test_commands_lead_with_it(asked):
     path, folder = asked.folder.parent / "case.toml", asked.folder.parent
     pressure = f"pressure={asked.case.load.pressure / 1e5:g} bar"
     commands = {
@@ -199,7 +184,7 @@ def test_commands_lead_with_it(asked: Asked) -> None:
     assert all(value in printed["study"] for value in asked.shown.values())
 
 
-def test_large_strain_is_no_second_answer() -> None:
+def test_large_strain_is_no_second_answer():
     surface, options = CASES["plain"]()
     case = case_of(surface, **options, waves=3, smallest_wavelength=4e-3)
     answer = gs.answer(case)
@@ -217,12 +202,12 @@ def test_large_strain_is_no_second_answer() -> None:
 
 
 @pytest.mark.verification
-def test_uncertainty_has_it(asked: Asked) -> None:
+def test_uncertainty_has_it(asked):
     sampled = gs.uncertainty(asked.case, samples=10, without=["profile"])  # too short to cut up
     assert asked.of(sampled.data) == pytest.approx(asked.expected, rel=1e-12)
 
 
-def test_a_number_and_its_per_cent_stay_on_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_number_and_its_per_cent_stay_on_one_line(capsys):
     for length in range(80, 100):
         terminal.print_wrapped(terminal.screen(), f"{'x' * length} large strain 5.0 %")
         assert "5.0 %" in capsys.readouterr().out

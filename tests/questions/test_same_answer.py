@@ -1,20 +1,12 @@
 """A question asked of a case made in Python, of its file and as a command has one answer."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
-
 import pytest
-import xarray as xr
 
 import gripscale as gs
 from tests.questions.answer.test_answer_object import CASE, made
-from tests.samples import Shell
 
 FRICTION = "friction.csv"
-QUESTIONS: dict[str, tuple[Callable[..., gs.Result], list[str], str]] = {
+QUESTIONS = {
     "comparison": (
         lambda case, **options: gs.compare(case, models=["direct"], seeds=1, **options),
         ["compare", "--models", "direct", "--seeds", "1"],
@@ -51,7 +43,7 @@ CLOCKS = ("seconds", "prediction_key")
 """Ends of names of what differs between runs, or between Python and a command."""
 
 
-def numbers(data: xr.Dataset) -> dict[str, Any]:
+def numbers(data):
     """Return the variables of a result by name, without times and keys."""
     names = sorted(str(name) for name in data.variables if not str(name).endswith(CLOCKS))
     return {name: data[name].values.tolist() for name in names}
@@ -64,9 +56,7 @@ def numbers(data: xr.Dataset) -> dict[str, Any]:
         for kind in QUESTIONS
     ],
 )
-def test_python_file_and_command_have_one_answer(
-    kind: str, tmp_path: Path, shell: Shell, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_python_file_and_command_have_one_answer(kind, tmp_path, shell, monkeypatch):
     ask, words, name = QUESTIONS[kind]
     path = tmp_path / "case.toml"
     path.write_text(CASE, encoding="utf-8")

@@ -1,27 +1,16 @@
 """Results to report on: a coarse run; the same with a failed wave; a small study."""
 
-from __future__ import annotations
-
 import json
 import shutil
-from collections.abc import Iterator
-from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
-import gripscale as gs
-from gripscale.case_file import read_case
 from gripscale.chain.chain import Chain
 from gripscale.core.provenance import CASE_TITLE
-from gripscale.experiment import MeasuredFriction
 from gripscale.io import netcdf
 from gripscale.model import METHOD, TOTALS
-from gripscale.questions import Factor, LogNormalValue
-from gripscale.questions.vary.axis import axes_of
 from tests.run_case import run_case
 from tests.samples import COARSE_BLOCK, case_text, three_waves, write_maxwell, write_road
 
@@ -33,7 +22,7 @@ CASE = '# A small case <b>with</b> "marks" & signs\n' + case_text(
 WAVES = 3
 
 
-def write_inputs(folder: Path) -> None:
+def write_inputs(folder):
     """Write two roads of three waves, a Maxwell rubber and the case."""
     for name, phase in (("road", 0.0), ("lane", 0.7)):
         write_road(folder / f"{name}.txt", three_waves(phase))
@@ -42,7 +31,7 @@ def write_inputs(folder: Path) -> None:
 
 
 @pytest.fixture(scope="session")
-def run_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+def run_folder(tmp_path_factory):
     """The results folder of a real run, without its printed figures."""
     folder = tmp_path_factory.mktemp("somewhere-private")
     write_inputs(folder)
@@ -51,14 +40,14 @@ def run_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     shutil.rmtree(folder)
 
 
-def read(path: Path) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
+def read(path):
     """Return a prediction and the groups beside it."""
     tree = netcdf.load_tree(path)
     groups = {name: part.to_dataset(inherit=False) for name, part in tree.children.items()}
     return tree.to_dataset(), groups
 
 
-def fail_second_wave(data: xr.Dataset) -> xr.Dataset:
+def fail_second_wave(data):
     """Return a prediction that ended at its second wave."""
     cut = data.isel(scale=slice(0, 2)).copy(deep=True)
     cut["status"] = ("scale", np.array(["converged", "iteration limit"], dtype=object))
@@ -74,7 +63,7 @@ def fail_second_wave(data: xr.Dataset) -> xr.Dataset:
 
 
 @pytest.fixture
-def failed_folder(run_folder: Path, tmp_path: Path) -> Path:
+def failed_folder(run_folder, tmp_path):
     """The run with a chain that failed at its second wave."""
     target = tmp_path / "failed"
     shutil.copytree(run_folder, target)
@@ -84,7 +73,7 @@ def failed_folder(run_folder: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def study_file(tmp_path_factory):
     """A study over two speeds and two rubbers, one prediction of which failed."""
     axes, waves = ("speed", "rubber"), ("speed", "rubber", "scale")
     area = np.linspace(0.2, 0.9, 12).reshape(2, 2, 3)
@@ -123,37 +112,3 @@ def study_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
         },
     )
     return netcdf.save(data, tmp_path_factory.mktemp("study") / "study.nc")
-
-
-@pytest.fixture(scope="session")
-def compared(run_folder: Path) -> list[xr.Dataset]:
-    """A comparison of the run's case, alone and over two speeds; a sample of it failed."""
-    results = read_case(run_folder.parent / "case.toml")
-    measured = MeasuredFriction([0.1, 1.0], [0.3, 0.4], [0.02, 0.03], source="mu.csv")
-    options: dict[str, Any] = {"models": ["chain_half_plane", "direct", "persson"]}
-    made = gs.compare(results, measured=measured, tolerance=0.2, **options).ladder
-    factors = [
-        Factor(
-            "finite_strain", "finite strain", LogNormalValue(1.02, 0.01), LogNormalValue(0.98, 0.1)
-        )
-    ]
-    alone = replace(made, factors=factors)
-    (axis,) = axes_of({"speed": [0.3, 3.0]})
-    setups = [
-        replace(made.setups[0], load=replace(made.setups[0].load, speed=speed))
-        for speed in axis.values
-    ]
-    failed = made.samples.copy(deep=True)
-    for name in ("prediction_status", "prediction_status_word"):
-        failed[name].values[1, 1] = "tolerance not met"
-    both = xr.concat([made.samples, failed], "speed")
-    over = replace(alone, axis=axis, setups=setups, samples=both)
-    return [data.assign_attrs(kind="comparison") for data in (alone.data, over.data)]
-
-
-@pytest.fixture
-def compared_folder(compared: list[xr.Dataset], tmp_path: Path) -> Path:
-    """The folder of that comparison."""
-    for name, data in zip(("comparison", "over_speed"), compared, strict=True):
-        netcdf.save(data, tmp_path / f"{name}.nc")
-    return tmp_path

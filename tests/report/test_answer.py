@@ -1,7 +1,5 @@
 """The first lines of a result: the answer or why there is none, what it rests on, warnings."""
 
-from __future__ import annotations
-
 import json
 import math
 
@@ -19,7 +17,7 @@ from gripscale.questions.result import warning_lines
 from gripscale.report.elements import Page
 
 
-def answered(**changed: float) -> xr.Dataset:
+def answered(**changed):
     """Return the variables of an answer: friction 0.2, contact fraction 0.03."""
     numbers = {
         "nominal_pressure": 3e5,
@@ -54,14 +52,14 @@ def answered(**changed: float) -> xr.Dataset:
     )
 
 
-def test_at_rest_there_is_an_area_only() -> None:
+def test_at_rest_there_is_an_area_only():
     first, *below = answer_lines(answered(nominal_speed=0.0, answer_friction=0.0))
     assert first.startswith("Answer: no friction at rest; A_r/A_0 = 0.0300 (")
     assert not any("ysteresis" in line for line in below)
     assert [card.value for card in answer_cards(answered(nominal_speed=0.0))] == ["0.0300"]
 
 
-def test_with_an_area_term_the_friction_is_the_sum_with_its_parts() -> None:
+def test_with_an_area_term_the_friction_is_the_sum_with_its_parts():
     total = {"": 0.9, "_low": 0.7, "_high": 1.2}
     data = answered(
         answer_hysteresis_friction=0.2,
@@ -80,7 +78,7 @@ def test_with_an_area_term_the_friction_is_the_sum_with_its_parts() -> None:
     assert friction.interval == "0.700 to 1.20 (90 %)"
 
 
-def test_no_answer_says_why() -> None:
+def test_no_answer_says_why():
     failed = answered(answer_contact_fraction=math.nan).assign(
         prediction_status="tolerance not met"
     )
@@ -107,7 +105,7 @@ def test_no_answer_says_why() -> None:
         ),
     ],
 )
-def test_a_guess_is_called_one_before_its_numbers(changed: dict[str, float], why: str) -> None:
+def test_a_guess_is_called_one_before_its_numbers(changed, why):
     data = answered(**changed)
     first = next(answer_lines(data))
     assert first.startswith(f"Answer: none to rely on. {why}")
@@ -118,7 +116,7 @@ def test_a_guess_is_called_one_before_its_numbers(changed: dict[str, float], why
     assert not any(why in other.sentence for other in answer_notices(data)), "it is said once"
 
 
-def test_warnings_stand_by_what_they_change() -> None:
+def test_warnings_stand_by_what_they_change():
     """Half the cut-off: 0.2 becomes 2^0.5 times as much, the area 2^-0.25 times."""
     data = answered(
         total_friction_cut_off_exponent=-0.5, total_contact_fraction_cut_off_exponent=0.25
@@ -129,14 +127,14 @@ def test_warnings_stand_by_what_they_change() -> None:
     assert all(w in warning.sentence for w, warning in zip(words, warnings, strict=True))
 
 
-def test_two_frictions_that_disagree_are_warned_of() -> None:
+def test_two_frictions_that_disagree_are_warned_of():
     numbers = {"total_friction": 0.24, "total_friction_from_dissipation": 0.2}
     worst = ranked(answer_notices(answered(**numbers, answer_steep_share=0.0)))[1]
     assert worst.friction == pytest.approx(0.2)
     assert "differ by 20 %" in worst.sentence
 
 
-def test_those_without_a_number_stand_below_in_an_order() -> None:
+def test_those_without_a_number_stand_below_in_an_order():
     """An error, what may be another answer, numbers, then what was solved, rubber, surface."""
     several = [
         Finding(Severity.WARNING, "from where", topic=Topic.SOURCE),
@@ -165,7 +163,7 @@ def test_those_without_a_number_stand_below_in_an_order() -> None:
     assert not list(warning_lines([], "report.html"))
 
 
-def test_those_within_the_half_width_are_counted_only() -> None:
+def test_those_within_the_half_width_are_counted_only():
     """Half widths of 20 % of friction and 1 % of area: 30 % and -2 % stand open, 10 % does not."""
     several = [
         Finding(Severity.WARNING, "a third", friction=0.3),
@@ -185,7 +183,7 @@ def test_those_within_the_half_width_are_counted_only() -> None:
     ]
 
 
-def test_inputs_know_what_they_change() -> None:
+def test_inputs_know_what_they_change():
     """Without roughness below 0.2 mm friction is 2^-0.5 times as much, at an exponent of -0.5."""
     attrs = {
         "sines_residual_decades": 0.2,

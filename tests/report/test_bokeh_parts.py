@@ -1,19 +1,16 @@
 """Figures as data for BokehJS: Bokeh knows every type and attribute, and reads the same numbers."""
 
-from __future__ import annotations
-
 import logging
-from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
+from bokeh import models
 from bokeh.core.serialization import DeserializationError
 
 from gripscale.charts import draw
 from gripscale.charts.bokeh_parts import Part, document, model
 from gripscale.charts.chart import CrossLine, Outline, Panel, PlotAxis, Series, ShadedBand, ValueMap
-from gripscale.charts.page import draw_linked
+from gripscale.charts.page import draw_linked, draw_panel
 from gripscale.questions.page_of_folder import read_result
 
 X = np.array([1.0, 2.0, 4.0])
@@ -29,7 +26,7 @@ MARKS = [
 
 
 @pytest.fixture(autouse=True)
-def silence(caplog: pytest.LogCaptureFixture) -> Iterator[None]:
+def silence(caplog):
     """Bokeh logs an attribute that it has not."""
     logger = logging.getLogger("bokeh.core.has_props")
     logger.addHandler(caplog.handler)
@@ -40,7 +37,7 @@ def silence(caplog: pytest.LogCaptureFixture) -> Iterator[None]:
 
 
 @pytest.mark.parametrize("log", [False, True])
-def test_bokeh_has_every_attribute_of_every_mark(log: bool) -> None:
+def test_bokeh_has_every_attribute_of_every_mark(log):
     axis = PlotAxis("$x$ [mm]", log=log)
     panels = [
         Panel(axis, PlotAxis("y", log=log), MARKS),
@@ -57,7 +54,7 @@ def test_bokeh_has_every_attribute_of_every_mark(log: bool) -> None:
     assert (empty.x_range.start, empty.x_range.end) == pytest.approx((0.94, 4.06))
 
 
-def test_bokeh_has_every_attribute_of_linked_panels() -> None:
+def test_bokeh_has_every_attribute_of_linked_panels():
     panels = [Panel(PlotAxis("x"), PlotAxis("y"), MARKS[:2])] * 2
     column = model(draw_linked(panels, "linked", "", "").figure)
     first, second = (figure for figure, *_ in column.children)
@@ -65,14 +62,15 @@ def test_bokeh_has_every_attribute_of_linked_panels() -> None:
     assert [len(each.tools) for each in column.toolbar.tools[:4]] == [2] * 4
 
 
-def test_bokeh_has_every_attribute_of_the_pages(run_folder: Path) -> None:
+@pytest.mark.verification
+def test_bokeh_has_every_attribute_of_the_pages(run_folder):
     charts = read_result(run_folder).page_content().charts
     assert charts
     for chart in charts:
         assert model(chart.figure).id == chart.figure.id
 
 
-def test_bokeh_refuses_what_it_has_not(caplog: pytest.LogCaptureFixture) -> None:
+def test_bokeh_refuses_what_it_has_not(caplog):
     model(Part("Span", colour="red"))
     assert "colour" in caplog.text
     caplog.clear()
@@ -82,10 +80,32 @@ def test_bokeh_refuses_what_it_has_not(caplog: pytest.LogCaptureFixture) -> None
         model(Part("Span", line_width="red"))
 
 
-def test_a_part_stands_once_in_a_document() -> None:
+def test_a_part_stands_once_in_a_document():
     shared = Part("Range1d", start=0.0, end=1.0)
     plots = [Part("Plot", x_range=shared), Part("Plot", x_range=shared)]
     (root,) = document(Part("Column", children=plots))["roots"]
     first, second = root["attributes"]["children"]
     assert first["attributes"]["x_range"]["attributes"] == {"start": 0.0, "end": 1.0}
     assert second["attributes"]["x_range"] == {"id": shared.id}
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "marks"),
+    [
+        (0.4, 0.7, [0.4, 0.5, 0.6, 0.7]),
+        (0.3, 0.9, [0.3, 0.4, 0.5, 0.7]),  # 0.6, 0.8 and 0.9 would touch on a telephone
+        (0.02, 0.6, [0.02, 0.05, 0.1, 0.2, 0.5]),
+        (0.00996, 0.692, [0.01, 0.03, 0.1, 0.3]),
+        (1e-9, 1e-7, []),  # as powers of ten, which Bokeh writes for the decades alone
+        (0.01, 1e3, []),
+    ],
+)
+def test_a_short_log_axis_has_numbers_along(low, high, marks):
+    values = np.array([low, high])
+    panel = Panel(PlotAxis("x [-]"), PlotAxis("y [-]", log=True), [Series(values, values)])
+    axis = model(draw_panel(panel).figure).yaxis[0]
+    if not marks:
+        assert isinstance(axis.formatter, models.LogTickFormatter)
+        return
+    inside = [tick for tick in axis.ticker.ticks if 0.99 * low <= tick <= 1.01 * high]
+    assert inside == pytest.approx(marks)

@@ -1,16 +1,10 @@
 """The pages in a real headless Chromium: figures drawn, tables complete, silence, no network."""
 
-from __future__ import annotations
-
 import io
-from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from PIL import Image
 
 from gripscale.charts.chart import Panel, PlotAxis, Series
@@ -26,13 +20,13 @@ from .conftest import CASE
 
 
 @contextmanager
-def visit(browser: Any, path: Path, width: int = 1280, **options: Any) -> Iterator[Visit]:
+def visit(browser, path, width=1280, **options):
     """Open `path` without a network; collect warnings, errors and requests."""
     size = {"width": width, "height": 900}
     context = browser.new_context(viewport=size, offline=True, **options)
     seen = Visit(context.new_page())
 
-    def route(route: Any) -> None:
+    def route(route):
         url = route.request.url
         if url.startswith("file:"):
             route.continue_()
@@ -55,25 +49,25 @@ DRAWN = """() => {
 """Whether the page says that the figures of its open chapters are made, and each is at rest."""
 
 
-def drawn(seen: Visit) -> Visit:
+def drawn(seen):
     """Wait until the figures of all open chapters are drawn."""
     seen.until(DRAWN)
     return seen
 
 
-def opened(seen: Visit) -> Visit:
+def opened(seen):
     """Open all chapters, and wait for their figures."""
     seen.page.get_by_role("button", name="Open all").click()
     return drawn(seen)
 
 
 @pytest.fixture(scope="module")
-def run_page(run_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def run_page(run_folder, tmp_path_factory):
     return write_report(run_folder, tmp_path_factory.mktemp("page") / "run.html")
 
 
 @pytest.fixture(scope="module")
-def visited(browser: Any, run_page: Path) -> Iterator[Visit]:
+def visited(browser, run_page):
     with visit(browser, run_page) as seen:
         yield opened(seen)
 
@@ -87,7 +81,7 @@ FRAMES = """plot => {
 }"""
 
 
-def check_figures(seen: Visit) -> int:
+def check_figures(seen):
     """Assert that every figure fills its place with curves; return how many there are."""
     plots = seen.page.locator(".plot").all()
     for plot in plots:
@@ -111,13 +105,13 @@ def check_figures(seen: Visit) -> int:
 
 
 @pytest.fixture(scope="module")
-def folded(browser: Any, run_page: Path) -> Iterator[Visit]:
+def folded(browser, run_page):
     """The page of a run as it opens, in a dark browser."""
     with visit(browser, run_page, color_scheme="dark") as seen:
         yield drawn(seen)
 
 
-def test_the_page_opens_with_two_figures_and_a_chapter_by_its_link(folded: Visit) -> None:
+def test_the_page_opens_with_two_figures_and_a_chapter_by_its_link(folded):
     """What else there is stands in chapters to be opened: the page is a few windows high."""
     assert folded.page.locator(".plot:visible").count() == 2
     assert folded.page.locator("html").get_attribute("data-drawn") == "2"
@@ -133,14 +127,14 @@ BACK = "() => getComputedStyle(document.documentElement).backgroundColor"
 DARK, LIGHT = "rgb(25, 25, 25)", "rgb(255, 255, 255)"
 
 
-def paper(picture: bytes) -> NDArray[np.int64]:
+def paper(picture):
     """Return the commonest colour of a picture."""
     pixels = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB")).reshape(-1, 3)
     colours, counts = np.unique(pixels, axis=0, return_counts=True)
     return np.asarray(colours[counts.argmax()], dtype=np.int64)
 
 
-def test_page_and_figures_are_dark_as_the_system_or_as_chosen(folded: Visit) -> None:
+def test_page_and_figures_are_dark_as_the_system_or_as_chosen(folded):
     plot = folded.page.locator(".plot:visible").first
     switch = folded.page.get_by_role("button", name="Light or dark")
     assert folded.page.evaluate(BACK) == DARK
@@ -156,7 +150,7 @@ def test_page_and_figures_are_dark_as_the_system_or_as_chosen(folded: Visit) -> 
     assert plot.evaluate("e => getComputedStyle(e).filter") == "none"
 
 
-def test_every_figure_picture_and_table_is_drawn(visited: Visit) -> None:
+def test_every_figure_picture_and_table_is_drawn(visited):
     """In silence, and without a network."""
     count = check_figures(visited)
     assert count >= 11
@@ -185,7 +179,7 @@ def test_every_figure_picture_and_table_is_drawn(visited: Visit) -> None:
     assert visited.asked == []
 
 
-def test_the_watch_would_notice(browser: Any, tmp_path: Path) -> None:
+def test_the_watch_would_notice(browser, tmp_path):
     """A page that warns, fails and asks for a picture is caught at all three."""
     path = tmp_path / "bad.html"
     path.write_text(
@@ -198,7 +192,7 @@ def test_the_watch_would_notice(browser: Any, tmp_path: Path) -> None:
         assert "e" in seen.said
 
 
-def test_injected_script_does_not_run(browser: Any, study_file: Path, tmp_path: Path) -> None:
+def test_injected_script_does_not_run(browser, study_file, tmp_path):
     """Even markup that slipped through the escaping is stopped by the page's policy."""
     path = write_report(study_file, tmp_path / "injected.html")
     text = path.read_text(encoding="utf-8")
@@ -210,7 +204,7 @@ def test_injected_script_does_not_run(browser: Any, study_file: Path, tmp_path: 
         assert any("Content Security Policy" in text for text in seen.said)
 
 
-def test_case_can_be_copied(visited: Visit) -> None:
+def test_case_can_be_copied(visited):
     button = visited.page.locator("button[data-copies=code-case]")
     assert button.is_visible()
     button.click()
@@ -220,24 +214,17 @@ def test_case_can_be_copied(visited: Visit) -> None:
     assert button.inner_text() in ("Copied", "Selected: press Ctrl+C")
 
 
-def check_widths(seen: Visit, *widths: int) -> None:
-    """Assert that nothing of the page goes beyond windows of `widths`."""
-    for width in widths:
-        seen.page.set_viewport_size({"width": width, "height": 900})
-        # figures are fitted a moment after the window has changed
-        drawn(seen).until("limit => document.documentElement.scrollWidth <= limit", width)
-    assert seen.said == []
-
-
-def test_a_telephone_has_all_legends_and_nothing_overflows(browser: Any, run_page: Path) -> None:
+def test_a_telephone_has_all_legends_and_nothing_overflows(browser, run_page):
     with visit(browser, run_page, 390) as seen:
         assert check_figures(opened(seen)) >= 11
-        check_widths(seen, 390, 800)
+        for width in (390, 800):
+            seen.page.set_viewport_size({"width": width, "height": 900})
+            # figures are fitted a moment after the window has changed
+            drawn(seen).until("limit => document.documentElement.scrollWidth <= limit", width)
+        assert seen.said == []
 
 
-def test_a_picture_fits_a_telephone_and_a_touch_makes_it_readable(
-    browser: Any, tmp_path: Path
-) -> None:
+def test_a_picture_fits_a_telephone_and_a_touch_makes_it_readable(browser, tmp_path):
     sheet = Sheet([Panel(PlotAxis("x"), PlotAxis("y"), [Series([0, 1], [0, 1])])])
     drawn = image(Picture("line", sheet.on_paper(), "A line.", "A line that rises."))
     page = Page.of("Line", "", [], [], [Section("line", "Line", [drawn])])
@@ -251,7 +238,7 @@ def test_a_picture_fits_a_telephone_and_a_touch_makes_it_readable(
         assert picture.bounding_box()["width"] <= 390 - 2 * 16
 
 
-def test_print_keeps_figures_whole(visited: Visit) -> None:
+def test_print_keeps_figures_whole(visited):
     page = visited.page
     before = [plot.bounding_box()["width"] for plot in page.locator(".plot").all()]
     page.emulate_media(media="print")
@@ -262,7 +249,7 @@ def test_print_keeps_figures_whole(visited: Visit) -> None:
     page.emulate_media(media="screen")
 
 
-def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path) -> None:
+def test_smallest_case_has_no_empty_figure(browser, tmp_path):
     """One wave by hand, a rubber by name, the half-plane: no meshes, no stretches, no files."""
     wave = '[[surface.sines]]\nwavelength = "10 mm"\namplitude = "1 mm"'
     (tmp_path / "case.toml").write_text(case_text(wave, solver=HALF_PLANE))
@@ -271,13 +258,3 @@ def test_smallest_case_has_no_empty_figure(browser: Any, tmp_path: Path) -> None
         assert check_figures(opened(seen)) >= 2
         assert seen.said == []
         assert seen.asked == []
-
-
-def test_comparison_is_drawn_and_fits_a_narrow_window(browser: Any, compared_folder: Path) -> None:
-    with visit(browser, write_report(compared_folder)) as seen:
-        opened(seen)
-        pictures = seen.page.locator("figure img").all()
-        assert len(pictures) == 3
-        assert all(one.evaluate("e => e.complete && e.naturalWidth > 300") for one in pictures)
-        assert seen.asked == []
-        check_widths(seen, 420)

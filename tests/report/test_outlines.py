@@ -1,22 +1,15 @@
 """Outlines of a direct contact in a real browser: drawn anew with every extreme as one zooms."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Iterator
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import gripscale as gs
 from gripscale.half_space import contact_trace
 from gripscale.questions.answer.charts import trace_charts
 from gripscale.report.build import render
 from gripscale.report.elements import Page, Section
-from tests.browsing import Visit
 from tests.samples import ZENER
 
 from .test_browser import drawn, visit
@@ -25,7 +18,7 @@ PIECES = 2**14
 
 
 @pytest.fixture(scope="module")
-def trace() -> xr.Dataset:
+def trace():
     profile = gs.surface.self_affine_profile(0.8, 5e-3, 5e-4, 0.5, 1e-5, seed=1)
     contact = gs.solve_rough_contact(
         ZENER, profile, pressure=3e5, speed=0.3, smallest_wavelength=4e-5, tolerance=None
@@ -35,7 +28,7 @@ def trace() -> xr.Dataset:
 
 
 @pytest.fixture(scope="module")
-def page(trace: xr.Dataset, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def page(trace, tmp_path_factory):
     path = tmp_path_factory.mktemp("outlines") / "page.html"
     section = Section("contact", "Contact", trace_charts(trace, "profile 1"))
     path.write_text(render(Page("Contact", "", [], [], [section])), encoding="utf-8")
@@ -43,7 +36,7 @@ def page(trace: xr.Dataset, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def visited(browser: Any, page: Path) -> Iterator[Visit]:
+def visited(browser, page):
     with visit(browser, page) as seen:
         yield drawn(seen)
 
@@ -60,7 +53,7 @@ SHOWN = """([start, end]) => {
 
 
 @pytest.mark.parametrize("share", [1.0, 0.1, 0.003])
-def test_what_is_drawn_keeps_every_extreme(visited: Visit, trace: xr.Dataset, share: float) -> None:
+def test_what_is_drawn_keeps_every_extreme(visited, trace, share):
     x = trace.x.values / 1e-3
     middle = 0.5 * float(trace.stretch_start + trace.stretch_end) / 1e-3
     half = 0.5 * share * float(np.ptp(x))
@@ -85,6 +78,6 @@ def test_what_is_drawn_keeps_every_extreme(visited: Visit, trace: xr.Dataset, sh
     assert visited.said == []
 
 
-def test_the_page_keeps_within_its_size(page: Path) -> None:
+def test_the_page_keeps_within_its_size(page):
     # the script of Bokeh is 1.3 MB; a piece has 40 bytes, in base64 four letters for three of them
     assert page.stat().st_size < 1.5e6 + 1.4 * 40 * PIECES

@@ -1,13 +1,11 @@
 """The page of a run, read without a browser, and what the run records for it."""
 
-from __future__ import annotations
-
 import builtins
 import hashlib
 import re
 import shutil
-from pathlib import Path
-from typing import Any
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -26,17 +24,17 @@ HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>\"'&{{ 
 
 
 @pytest.fixture(scope="module")
-def page(run_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Page:
+def page(run_folder, tmp_path_factory):
     return Page(write_report(run_folder, tmp_path_factory.mktemp("page") / "report.html"))
 
 
-def test_a_good_run_raises_no_alarm_and_marks_the_ends_of_the_band(page: Page) -> None:
+def test_a_good_run_raises_no_alarm_and_marks_the_ends_of_the_band(page):
     assert not [a for _, a in page.tags if a.get("role") == "alert"]
     assert sum(attrs.get("class") == "plot" for _, attrs in page.tags) >= 13
     assert page.source.count('"ends of the measured band"') == 2  # moduli and loss factor
 
 
-def test_inputs_are_named_with_their_checksums(page: Page, run_folder: Path) -> None:
+def test_inputs_are_named_with_their_checksums(page, run_folder):
     rows = page.body("files")
     assert [row[:2] for row in rows] == [
         ["road.txt", "surface"],
@@ -49,9 +47,7 @@ def test_inputs_are_named_with_their_checksums(page: Page, run_folder: Path) -> 
         assert int(re.sub(r"\D", "", row[2])) == len(content)
 
 
-def test_the_answer_stands_without_the_chain_of_another_case(
-    run_folder: Path, tmp_path: Path
-) -> None:
+def test_the_answer_stands_without_the_chain_of_another_case(run_folder, tmp_path):
     data, _ = read(run_folder / "chain.nc")
     netcdf.save(data.assign_attrs(case="# another"), tmp_path / "chain.nc")
     shutil.copy(run_folder / "answer.nc", tmp_path)
@@ -60,7 +56,7 @@ def test_the_answer_stands_without_the_chain_of_another_case(
     assert "A_r/A_0" in page.text
 
 
-def test_failed_wave_is_marked_and_has_no_totals(failed_folder: Path) -> None:
+def test_failed_wave_is_marked_and_has_no_totals(failed_folder):
     page = Page(write_report(failed_folder))
     assert "No totals: wave 2 did not converge (iteration limit at 40 %" in page.text
     marked = [tag for tag, a in page.tags if "bad" in (a.get("class") or "").split()]
@@ -72,7 +68,7 @@ def test_failed_wave_is_marked_and_has_no_totals(failed_folder: Path) -> None:
 
 
 @pytest.mark.parametrize("plateau", [0, 1])
-def test_a_modulus_is_relaxed_only_where_that_was_measured(run_folder: Path, plateau: int) -> None:
+def test_a_modulus_is_relaxed_only_where_that_was_measured(run_folder, plateau):
     record = InputRecord(read(run_folder / "answer.nc")[1]["inputs"])
     record.data.attrs |= {"slow_end_plateau": plateau, "slow_end_modulus_Pa": 2.5e6}
     pairs = dict(rubber_facts(record).pairs)
@@ -80,7 +76,7 @@ def test_a_modulus_is_relaxed_only_where_that_was_measured(run_folder: Path, pla
     assert (("Relaxed modulus", "Slow end of the data, E′")[plateau]) not in pairs
 
 
-def test_hostile_texts_stay_texts(run_folder: Path, tmp_path: Path) -> None:
+def test_hostile_texts_stay_texts(run_folder, tmp_path):
     data, groups = read(run_folder / "answer.nc")
     chain, _ = read(run_folder / "chain.nc")
     for part in (data, chain):
@@ -101,7 +97,7 @@ def test_hostile_texts_stay_texts(run_folder: Path, tmp_path: Path) -> None:
     assert "<script>alert" not in page.source
 
 
-def test_a_file_without_an_answer_is_refused(run_folder: Path, tmp_path: Path) -> None:
+def test_a_file_without_an_answer_is_refused(run_folder, tmp_path):
     with pytest.raises(FileError, match="holds no result of a question"):
         write_report(run_folder / "chain.nc")
     netcdf.save(xr.Dataset({"a": ("scale", [1.0])}), tmp_path / "chain.nc")
@@ -114,7 +110,7 @@ def test_a_file_without_an_answer_is_refused(run_folder: Path, tmp_path: Path) -
     ("content", "words"),
     [(None, "does not exist"), (b"text", "cannot be read"), ("empty", "holds no result")],
 )
-def test_what_is_no_result_is_refused(tmp_path: Path, content: Any, words: str) -> None:
+def test_what_is_no_result_is_refused(tmp_path, content, words):
     path = tmp_path / "result.nc"
     if content == "empty":
         path.mkdir()
@@ -124,10 +120,10 @@ def test_what_is_no_result_is_refused(tmp_path: Path, content: Any, words: str) 
         write_report(path)
 
 
-def test_missing_library_is_named(run_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_library_is_named(run_folder, monkeypatch):
     real = builtins.__import__
 
-    def without(name: str, *arguments: Any, **options: Any) -> Any:
+    def without(name, *arguments, **options):
         if name == "gripscale.report.build":
             raise ModuleNotFoundError("No module named 'bokeh'", name="bokeh.embed")
         return real(name, *arguments, **options)
@@ -137,7 +133,7 @@ def test_missing_library_is_named(run_folder: Path, monkeypatch: pytest.MonkeyPa
         write_report(run_folder)
 
 
-def test_run_records_its_inputs_beside_the_prediction(run_folder: Path) -> None:
+def test_run_records_its_inputs_beside_the_prediction(run_folder):
     data, _ = read(run_folder / "chain.nc")
     inputs = read(run_folder / "answer.nc")[1]["inputs"]
     assert data.sizes["wave"] == 3
@@ -152,3 +148,25 @@ def test_run_records_its_inputs_beside_the_prediction(run_folder: Path) -> None:
     np.testing.assert_allclose(np.nanmin(lowest[0]), heights.min(), rtol=1e-12)
     assert data["mesh_x"].shape == (3, 9, 33)
     assert (data["columns"] == 32).all()
+
+
+def test_command_writes_the_page_and_says_where(study_file, tmp_path, shell):
+    done = shell("report", study_file, "--output", tmp_path / "page.html")
+    assert "page.html" in done.stdout
+    assert (tmp_path / "page.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    done = shell("report", study_file, "--output", tmp_path / "nowhere" / "page.html", code=2)
+    assert done.stderr.count("\n") == 1
+    assert "cannot be written" in done.stderr
+
+
+def test_page_imports_only_what_it_is_made_with(run_folder, tmp_path):
+    code = (
+        "import sys, gc, gripscale\n"
+        "gripscale.questions.write_report(sys.argv[1], sys.argv[2])\n"
+        "assert gc.isenabled()\n"
+        "print(*sys.modules)"
+    )
+    command = [sys.executable, "-c", code, str(run_folder), str(tmp_path / "page.html")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    unneeded = {"bokeh.models", "fontTools.subset", "scipy.optimize", "rich", "typer"}
+    assert unneeded & set(done.stdout.split()) == set()

@@ -1,12 +1,8 @@
 """Every command of README and documentation is one that the program knows, and runs."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import shutil
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 import typer
@@ -24,7 +20,7 @@ TESTED_ELSEWHERE = ("gripscale app", "gripscale reproduce")
 """One opens a server; the other takes an hour."""
 
 
-def commands(page: Path) -> Iterator[str]:
+def commands(page):
     """Yield the commands of the shell blocks of a page, as they stand."""
     for language, block in BLOCK.findall(page.read_text(encoding="utf-8")):
         for line in block.splitlines() if language in ("", "sh", "console") else ():
@@ -33,12 +29,12 @@ def commands(page: Path) -> Iterator[str]:
                 yield words
 
 
-def test_readme_has_commands() -> None:
+def test_readme_has_commands():
     assert len(list(commands(ROOT / "README.md"))) > 10
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_every_command_is_known(page: Path) -> None:
+def test_every_command_is_known(page):
     for words in commands(page):
         arguments = shlex.split(words)[1:]
         context = typer.Context(typer.main.get_command(app))
@@ -49,9 +45,7 @@ def test_every_command_is_known(page: Path) -> None:
 
 
 @pytest.mark.verification
-def test_the_commands_of_the_readme_run_in_an_empty_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_commands_of_the_readme_run_in_an_empty_folder(tmp_path, monkeypatch):
     """One after the other, as they stand: ten minutes of one core."""
     monkeypatch.chdir(tmp_path)
     write_example("own")
@@ -63,9 +57,7 @@ def test_the_commands_of_the_readme_run_in_an_empty_folder(
 
 @pytest.mark.verification
 @pytest.mark.parametrize("page", PAGES[1:], ids=lambda page: page.name)
-def test_the_commands_of_a_page_run(
-    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_commands_of_a_page_run(page, tmp_path, monkeypatch):
     """In a folder with a case and what the pages call their files; most with a coarser case."""
     wanted = [words for words in commands(page) if not PLACEHOLDER.search(words)]
     if page.name in ("tutorial.md", "app.md") or not wanted:
@@ -83,7 +75,7 @@ def test_the_commands_of_a_page_run(
         ran(words)
 
 
-def ran(words: str) -> None:
+def ran(words):
     if words.startswith(TESTED_ELSEWHERE):
         return
     outcome = CliRunner().invoke(app, shlex.split(words)[1:], env={"COLUMNS": "100"})

@@ -1,13 +1,9 @@
 """The variables, units, columns, statuses and figures the docs list are those the code writes."""
 
-from __future__ import annotations
-
 import re
 
 import pytest
-from typer.testing import CliRunner
 
-from gripscale.cli import app
 from gripscale.core.status import Status
 from gripscale.io import netcdf
 from gripscale.questions.chain import page as waves
@@ -26,33 +22,33 @@ OF_OTHER_CASES = {"cut_off", "superposition", "superposition_tests", "shift"}
 """Figures of a rubber in sweeps, and of a case that goes on below the measurement."""
 
 
-def section(title: str) -> str:
+def section(title):
     """Return the text below a heading, up to the next one."""
     found = re.search(rf"^#+ {re.escape(title)}\n(.*?)(?=^#|\Z)", PAGE, re.DOTALL | re.MULTILINE)
     assert found, title
     return found[1]
 
 
-def first_cells(title: str) -> list[str]:
+def first_cells(title):
     """Return the names in the first column of the tables of a section."""
     text = re.sub(r"</?code>", "`", section(title)).replace("&#124;", "\0")
     cells = re.findall(r"^\| (`.*?) \|", text, re.MULTILINE)
     return [name.replace("\0", "|") for cell in cells for name in re.findall(r"`(.*?)`", cell)]
 
 
-def units(title: str) -> dict[str, str]:
+def units(title):
     """Return name and unit of the variables a section lists."""
     rows = re.findall(r"^\| `(\w+)` \| (.*?) ?\|", section(title), re.MULTILINE)
     assert len(rows) == len(dict(rows)), f"listed twice: {title}"
     return dict(rows)
 
 
-def written(data) -> dict[str, str]:
+def written(data):
     return {str(name): variable.attrs.get("units", "") for name, variable in data.variables.items()}
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
+def folder(shell, tmp_path_factory):
     """A run and a study of a made-up road and rubber."""
     folder = tmp_path_factory.mktemp("case")
     write_short_road(folder)
@@ -68,10 +64,8 @@ def folder(tmp_path_factory):
         ["compare", "--models", "chain_half_plane,direct", "--measured", str(folder / "mu.csv")],
         ["compare", "--models", "chain_half_plane", "--vary", "speed=0.3,0.6"],
     ):
-        command = [arguments[0], str(folder / "case.toml"), *arguments[1:]]
         with blank_figures():
-            outcome = CliRunner().invoke(app, command)
-        assert outcome.exit_code == 0, outcome.output
+            shell(arguments[0], folder / "case.toml", *arguments[1:])
     return folder / "results"
 
 

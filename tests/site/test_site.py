@@ -1,42 +1,23 @@
-"""The site builds without a warning, has every page, and loads nothing from elsewhere."""
+"""The site builds without a warning, has every page, loads nothing from elsewhere."""
 
-from __future__ import annotations
-
+import importlib.util
 import os
 import re
 import subprocess
 import sys
-from html.parser import HTMLParser
 from inspect import ismodule
-from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
 import gripscale
 from gripscale import chain
 from gripscale.case_file.keys import sections
-from tests.samples import ROOT
+from tests.report.reading import Page
+from tests.samples import DOCS, ROOT
 
 LOADING = {"script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src"}
 """Tags that make a browser fetch, with the attribute that says what; links are looked at apart."""
-
-
-class Loads(HTMLParser):
-    """Collects what a page makes a browser fetch, and its ids."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.targets: list[str] = []
-        self.ids: set[str] = set()
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        values = {name: value or "" for name, value in attrs}
-        self.ids |= {values["id"]} if "id" in values else set()
-        fetched = values.get(LOADING.get(tag, ""))
-        if tag == "link" and values.get("rel") not in ("canonical", "prev", "next"):
-            fetched = values.get("href")
-        if fetched:
-            self.targets.append(fetched)
 
 
 @pytest.fixture(scope="module")
@@ -54,10 +35,14 @@ def site(tmp_path_factory):
     return folder
 
 
-def read(page: Path) -> Loads:
-    loads = Loads()
-    loads.feed(page.read_text(encoding="utf-8"))
-    return loads
+def loaded(page):
+    """Yield what a page makes a browser fetch."""
+    for tag, attrs in page.tags:
+        fetched = attrs.get(LOADING.get(tag, ""))
+        if tag == "link" and attrs.get("rel") not in ("canonical", "prev", "next"):
+            fetched = attrs.get("href")
+        if fetched:
+            yield fetched
 
 
 def test_no_page_loads_anything_from_elsewhere(site):
@@ -65,7 +50,7 @@ def test_no_page_loads_anything_from_elsewhere(site):
     assert len(pages) > 14
     for page in pages:
         assert "$$" not in page.read_text(encoding="utf-8"), "equations are MathML"
-        for target in read(page).targets:
+        for target in loaded(Page(page)):
             assert not re.match(r"(\w+:)?//", target), f"{page.name} loads {target}"
             if not target.startswith("data:") and page.name != "404.html":
                 file = page.parent / target.partition("?")[0].partition("#")[0]
@@ -89,7 +74,8 @@ def test_every_key_of_a_case_is_on_its_page(site):
 
 
 def test_every_public_name_has_its_entry(site):
-    ids = set().union(*(read(page).ids for page in (site / "reference").glob("*.html")))
+    pages = map(Page, (site / "reference").glob("*.html"))
+    ids = {attrs["id"] or "" for page in pages for _, attrs in page.tags if "id" in attrs}
     packages = {name for name in gripscale.__all__ if ismodule(getattr(gripscale, name))}
     same = {"ScaleResult"}  # another name of ScaleResult
     names = [f"gripscale.{name}" for name in gripscale.__all__ if name not in packages | same]
@@ -97,3 +83,34 @@ def test_every_public_name_has_its_entry(site):
     assert not [name for name in names if name not in ids]
     entries = {identifier.rpartition(".")[2] for identifier in ids}
     assert {*gripscale.wave.__all__, *chain.__all__, "Model", "Load"} <= entries
+
+
+pytest.importorskip("latex2mathml", reason="needs gripscale[docs]")
+
+
+@pytest.fixture(scope="module")
+def hooks():
+    found = importlib.util.spec_from_file_location("hooks", DOCS / "hooks.py")
+    module = importlib.util.module_from_spec(found)
+    found.loader.exec_module(module)
+    return module
+
+
+def test_fraction_and_root_are_elements_of_their_own(hooks):
+    math = ElementTree.fromstring(
+        re.sub(' xmlns="[^"]*"', "", hooks.equation(r"\sqrt{\frac{a}{b}}"))
+    )
+    assert [one.text for one in math.findall(".//msqrt//mfrac//mi")] == ["a", "b"]
+
+
+def test_lines_are_aligned_in_a_table(hooks):
+    given = "\\begin{aligned}\na &= b \\\\\nc &= d\n\\end{aligned}"
+    math = hooks.equation(given)
+    assert math.count("<mtr>") == 2
+    assert "\n" not in math.strip()  # Markdown would take lines for its own
+
+
+@pytest.mark.parametrize("given", [r"\nothing{a}", r"\begin{alignedat} a &= b \end{alignedat}"])
+def test_what_is_not_known_is_refused(hooks, given):
+    with pytest.raises(ValueError, match="cannot be made MathML"):
+        hooks.equation(given)

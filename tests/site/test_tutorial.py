@@ -1,15 +1,11 @@
 """Every block of the tutorial runs, in order, and prints what the tutorial shows."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
-from gripscale.cli import app
 from tests.samples import DOCS
 
 TUTORIAL = DOCS / "tutorial.md"
@@ -20,7 +16,7 @@ RELATIVE = 0.03
 """Numbers may differ by this: processors round differently."""
 
 
-def alike(shown: str, printed: str) -> bool:
+def alike(shown, printed):
     """Return whether two lines have the same words, and numbers within `RELATIVE`.
 
     Newton iterations of a table are work, not a result: they may differ.
@@ -32,7 +28,7 @@ def alike(shown: str, printed: str) -> bool:
     return all(float(a) == pytest.approx(float(b), rel=RELATIVE, abs=1e-3) for a, b in pairs)
 
 
-def assert_shown(shown: str, printed: str) -> None:
+def assert_shown(shown, printed):
     """Assert that the lines shown are printed in this order, and nothing else where no `...` is."""
     rest, gap = [line for line in printed.splitlines() if line.strip()], False
     for line in filter(str.strip, shown.splitlines()):
@@ -45,20 +41,17 @@ def assert_shown(shown: str, printed: str) -> None:
     assert gap or not rest, f"not shown: {rest}"
 
 
-def run_console(block: str) -> None:
+def run_console(shell, block):
     """Run the one command of a console block and compare what it prints."""
     command, _, shown = block.partition("\n")
     program, *arguments = shlex.split(command.removeprefix("$ "))
     assert program == "gripscale"
-    environment = {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb"}
-    outcome = CliRunner().invoke(app, arguments, env=environment)
-    assert outcome.exit_code == 0, outcome.output
-    assert_shown(shown, outcome.output)
+    assert_shown(shown, shell(*arguments).output)
 
 
-def test_the_tutorial_does_what_it_says(tmp_path, monkeypatch, capsys):
+def test_the_tutorial_does_what_it_says(shell, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    names: dict[str, object] = {"__name__": "tutorial"}
+    names = {"__name__": "tutorial"}
     printed, commands = "", 0
     heads = [Path("road.txt"), Path("dma.csv")]
     for language, block in BLOCK.findall(TUTORIAL.read_text(encoding="utf-8")):
@@ -66,7 +59,7 @@ def test_the_tutorial_does_what_it_says(tmp_path, monkeypatch, capsys):
             exec(compile(block, TUTORIAL.name, "exec"), names)
             printed = capsys.readouterr().out
         elif language == "console":
-            run_console(block)
+            run_console(shell, block)
             commands += 1
         elif language == "text" and heads:
             assert heads.pop(0).read_text(encoding="utf-8").startswith(block)

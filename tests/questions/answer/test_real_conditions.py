@@ -1,11 +1,8 @@
 """Answers for real conditions: filled rubber, heat and a dry road, stated or left open."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import pytest
 
@@ -23,44 +20,41 @@ ROAD = self_affine_profile(0.8, 2e-3, 4e-4, length=0.2, step=1e-4, seed=3)
 TREAD = compound("S100")
 UNSHIFTED = replace(TREAD, shift=None)
 PRESSURE, SPEED = 3e5, 0.3
-LOAD: dict[str, Any] = {"pressure": PRESSURE, "speed": SPEED, "smallest_wavelength": 1e-3}
+LOAD = {"pressure": PRESSURE, "speed": SPEED, "smallest_wavelength": 1e-3}
 COLD = Conditions(heat="none")
 NUMBERS = ("friction", "contact_fraction")
 
 
-def made(rubber: gs.Rubber = UNSHIFTED, **other: Any) -> gs.Case:
+def made(rubber=UNSHIFTED, **other):
     return gs.Case(ROAD, rubber, **LOAD | {"waves": 4} | other)
 
 
-def interval(answer: gs.Answer, name: str) -> tuple[float, float]:
-    ends: tuple[float, float] = getattr(answer, f"{name}_interval")
-    return ends
+def interval(answer, name):
+    return getattr(answer, f"{name}_interval")
 
 
-def width(answer: gs.Answer, name: str) -> float:
+def width(answer, name):
     """Return the logarithm of the ratio of the ends of an interval."""
     low, high = interval(answer, name)
     return math.log(high / low)
 
 
 @pytest.fixture(scope="module")
-def filled() -> gs.Answer:
+def filled():
     return gs.answer(made(filled=True))
 
 
 @pytest.fixture(scope="module")
-def unfilled() -> gs.Answer:
+def unfilled():
     return gs.answer(made(filled=False))
 
 
 @pytest.fixture(scope="module")
-def unstated() -> gs.Answer:
+def unstated():
     return gs.answer(made())
 
 
-def test_an_answer_without_the_filler_has_both_numbers(
-    filled: gs.Answer, unfilled: gs.Answer, unstated: gs.Answer
-) -> None:
+def test_an_answer_without_the_filler_has_both_numbers(filled, unfilled, unstated):
     assert filled.contact_fraction > 1.5 * unfilled.contact_fraction
     for name in NUMBERS:
         ends = [interval(answer, name) for answer in (filled, unfilled)]
@@ -70,9 +64,7 @@ def test_an_answer_without_the_filler_has_both_numbers(
             assert number == pytest.approx(getattr(answer, name), rel=1e-9)
 
 
-def test_the_first_line_asks_whether_the_rubber_is_filled(
-    filled: gs.Answer, unfilled: gs.Answer, unstated: gs.Answer
-) -> None:
+def test_the_first_line_asks_whether_the_rubber_is_filled(filled, unfilled, unstated):
     assert not unstated.reliable
     first = unstated.lines[0]
     assert "one question decides, whether the rubber is filled" in first
@@ -82,7 +74,7 @@ def test_the_first_line_asks_whether_the_rubber_is_filled(
         assert "question" not in answer.lines[0]
 
 
-def test_what_a_case_states_of_its_filler_decides_its_softening() -> None:
+def test_what_a_case_states_of_its_filler_decides_its_softening():
     for filler, law in ((True, TYPICAL_TREAD), (False, None), (None, None)):
         conditions = made(filled=filler).conditions or Conditions()
         assert conditions.softening == law
@@ -90,13 +82,12 @@ def test_what_a_case_states_of_its_filler_decides_its_softening() -> None:
     assert (asked.conditions or Conditions()).softening is None
     assert not asked.softening_doubts
     own = made(filled=True, conditions=Conditions(softening=SOFTER_TREAD))
-    assert own.conditions is not None
     assert own.conditions.softening == SOFTER_TREAD
     with pytest.raises(gs.InputError, match="filled must be true with softening"):
         made(filled=False, conditions=Conditions(softening=TYPICAL_TREAD))
 
 
-def test_the_typical_tread_holds_the_answers_of_measured_sweeps(filled: gs.Answer) -> None:
+def test_the_typical_tread_holds_the_answers_of_measured_sweeps(filled):
     """Three compounds of which its mean is made: 0.9^3 of all three to lie inside, if they lie."""
     for name in SERIES_S:
         law = softening_of_sweeps(list(sweeps(name).values()), measured_at=1e-3)
@@ -108,7 +99,7 @@ def test_the_typical_tread_holds_the_answers_of_measured_sweeps(filled: gs.Answe
         assert width(answer, "contact_fraction") < width(filled, "contact_fraction")
 
 
-def test_the_error_of_another_tread_is_that_of_its_whole_solution() -> None:
+def test_the_error_of_another_tread_is_that_of_its_whole_solution():
     """Strains that are kept change the answer in second order: a tenth of the change remains."""
     solve = partial(gs.solve_rough_contact, UNSHIFTED, ROAD, **LOAD)
     contact, softer = (
@@ -125,11 +116,11 @@ def test_the_error_of_another_tread_is_that_of_its_whole_solution() -> None:
 
 
 @pytest.fixture(scope="module")
-def dry() -> gs.Answer:
+def dry():
     return gs.answer(made(filled=True, interface="dry"))
 
 
-def test_a_dry_road_adds_the_shear_of_the_real_area(dry: gs.Answer, filled: gs.Answer) -> None:
+def test_a_dry_road_adds_the_shear_of_the_real_area(dry, filled):
     assert dry.hysteresis_friction == filled.friction
     assert dry.contact_fraction == filled.contact_fraction
     shear = float(DRY_TREAD.stress(SPEED)) * dry.contact_fraction / PRESSURE
@@ -142,7 +133,7 @@ def test_a_dry_road_adds_the_shear_of_the_real_area(dry: gs.Answer, filled: gs.A
     ]
 
 
-def test_a_stated_shear_stress_wins_over_the_dry_road(dry: gs.Answer) -> None:
+def test_a_stated_shear_stress_wins_over_the_dry_road(dry):
     """It has no scatter of its own: of the interval that of the dry road remains the wider."""
     law = ConstantStress(float(DRY_TREAD.stress(SPEED)))
     conditions = Conditions(shear_stress=law)
@@ -156,16 +147,15 @@ def test_a_stated_shear_stress_wins_over_the_dry_road(dry: gs.Answer) -> None:
     assert added == pytest.approx(STRESS_SCATTER * share, rel=0.25)
 
 
-def test_heat_is_on_where_the_rubber_has_a_shift() -> None:
+def test_heat_is_on_where_the_rubber_has_a_shift():
     for kind, counterface in (("surface", STONE), ("floor", CONCRETE)):
         conditions = made(TREAD, filled=False, kind=kind).conditions
-        assert conditions is not None
         assert (conditions.heat, conditions.counterface) == (ThermalProperties(), counterface)
     assert (made(TREAD, filled=False, conditions=COLD).conditions or COLD).heat is None
     assert made(filled=False).conditions is None
 
 
-def test_rubber_without_a_shift_is_told_what_heat_would_change() -> None:
+def test_rubber_without_a_shift_is_told_what_heat_would_change():
     """The finding of rubber without its shift against the answer with it, which warms."""
     fast = {"speed": 10.0, "pressure": 3e6, "filled": False}
     cold, warm = gs.answer(made(**fast)), gs.answer(made(TREAD, **fast))
@@ -178,7 +168,7 @@ def test_rubber_without_a_shift_is_told_what_heat_would_change() -> None:
     assert not any("temperature shift" in f.sentence for f in warm.findings)
 
 
-def test_old_names_of_the_parts_warn(dry: gs.Answer) -> None:
+def test_old_names_of_the_parts_warn(dry):
     for name, new in (
         ("adhesive_friction", "interface_friction"),
         ("total_friction", "friction"),
@@ -190,14 +180,13 @@ def test_old_names_of_the_parts_warn(dry: gs.Answer) -> None:
         _ = dry.adhesion
 
 
-def test_a_case_with_other_arguments() -> None:
+def test_a_case_with_other_arguments():
     case = made(TREAD, filled=False, conditions=COLD)
     other = case.replace(pressure="1 bar", filled=True)
     assert other.load.pressure == 1e5
     assert other.load.speed == case.load.speed
     assert other.surface is case.surface
     assert other.stated_conditions == case.stated_conditions
-    assert other.conditions is not None
     assert (other.conditions.softening, other.conditions.heat) == (TYPICAL_TREAD, None)
     assert case.filled is False
     coarse = case.replace(smallest_wavelength=2e-3)

@@ -1,7 +1,5 @@
 """An answer has the series of its own load, and says what that misses of the measured moduli."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cache
@@ -27,32 +25,32 @@ TOLD = "With the moduli as measured, not the series fitted to them"
 
 
 @cache
-def master() -> gs.MasterCurve:
+def master():
     return read_master_curve(MEASURED_DMA, reference_temperature="20 C")
 
 
-def case_of(rubber, speed: float = 0.3) -> gs.Case:
+def case_of(rubber, speed=0.3):
     load = {"pressure": 3e5, "speed": speed}
     return gs.Case(ROAD, rubber, **load, smallest_wavelength=4e-4, conditions=COLD, filled=True)
 
 
 @cache
-def answered(before: float | None = None, speed: float = 0.3) -> gs.Answer:
+def answered(before=None, speed=0.3):
     """Return the answer at a speed; of a rubber that was fitted for the speed `before`."""
     rubber = master() if before is None else case_of(master(), before).rubber
     return gs.answer(case_of(rubber, speed))
 
 
-def series_error(answer: gs.Answer, name: str) -> float:
+def series_error(answer, name):
     at = answer.data.factor_label.values.tolist().index(SERIES)
     return float(answer.data[f"answer_{name}_factor_uncertainty"][at])
 
 
-def told(answer: gs.Answer) -> str:
+def told(answer):
     return " ".join(str(finding) for finding in answer.findings if TOLD in str(finding))
 
 
-def weighted_series(weight: float) -> gs.Rubber:
+def weighted_series(weight):
     """Return 60 terms, the rows that decide in these cases weighted so many times."""
     rubber, fit = fit_prony_report(master(), terms=60)
     omega = fit.problem.rows.omega

@@ -1,7 +1,5 @@
 """The fit of the area term: what it finds, what it refuses to say, what it predicts."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace
@@ -12,7 +10,6 @@ import pytest
 from gripscale.conditions import (
     ConstantStress,
     GaussianStress,
-    InterfacialShearStress,
     LeGalKlueppelStress,
 )
 from gripscale.core.errors import InputError
@@ -29,7 +26,7 @@ FLANK = np.geomspace(1e-6, 1e-4, 6)
 """Speeds far below the top of the bell."""
 
 
-def numbers(law: InterfacialShearStress) -> dict[str, float]:
+def numbers(law):
     """Return the parameters of a law by their names."""
     return {name: value for name, value in vars(law).items() if value is not None}
 
@@ -38,16 +35,14 @@ def numbers(law: InterfacialShearStress) -> dict[str, float]:
     ("law", "fixed"),
     [(ConstantStress(3e6), {}), (TRUE, REFERENCE), (PLATEAUS, {})],
 )
-def test_a_law_is_found_from_what_it_made(
-    law: InterfacialShearStress, fixed: dict[str, float]
-) -> None:
+def test_a_law_is_found_from_what_it_made(law, fixed):
     fit = fitted(*measurement(law, seed=None), law=law.kind, fixed=fixed)
     found, true = numbers(fit.law), numbers(law)
     assert found == pytest.approx(true, rel=1e-5)
     assert fit.data.friction.values == pytest.approx(fit.data.measured_friction.values, abs=1e-7)
 
 
-def test_the_law_does_not_depend_on_where_it_is_referred_to() -> None:
+def test_the_law_does_not_depend_on_where_it_is_referred_to():
     here, there = (
         fitted(*measurement(), fixed={"reference_temperature": kelvin}) for kelvin in (280.0, 310.0)
     )
@@ -55,7 +50,7 @@ def test_the_law_does_not_depend_on_where_it_is_referred_to() -> None:
     assert here.estimates[3].low == pytest.approx(there.estimates[3].low, rel=2e-3)
 
 
-def test_points_are_paired_in_the_order_of_the_caller() -> None:
+def test_points_are_paired_in_the_order_of_the_caller():
     """The law is found from points with any order of speeds, and each keeps its place."""
     order, (rising, _) = np.random.default_rng(0).permutation(27), measurement(seed=None)
     columns = (rising.speed, rising.friction, rising.spread, rising.temperature)
@@ -66,7 +61,7 @@ def test_points_are_paired_in_the_order_of_the_caller() -> None:
     assert fit.data.measured_speed.values.tolist() == mixed.speed.tolist()
 
 
-def test_predictions_at_other_pressures_are_refused() -> None:
+def test_predictions_at_other_pressures_are_refused():
     """Points in another order than those measured show where pressures differ."""
     measured = MeasuredFriction([1.0, 0.1, 10.0], [0.4] * 3, pressure=[1e5, 3e5, 2e5])
     predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5, 1e5, 2e5], [293.15] * 3)
@@ -74,7 +69,7 @@ def test_predictions_at_other_pressures_are_refused() -> None:
         fitted(measured, predicted, law="constant")
 
 
-def test_points_weigh_by_their_spread() -> None:
+def test_points_weigh_by_their_spread():
     """A point of tiny spread is followed, wherever it is."""
     speed, spread = [0.1, 1.0, 10.0], [0.1, 1e-4, 0.1]
     predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5] * 3, [293.15] * 3)
@@ -83,7 +78,7 @@ def test_points_weigh_by_their_spread() -> None:
     assert fit.data.friction.values == pytest.approx(0.6, abs=1e-5)
 
 
-def test_a_wrong_law_shows_in_what_is_left_out() -> None:
+def test_a_wrong_law_shows_in_what_is_left_out():
     right, wrong = (
         fitted(*measurement(), law=law, hold_out="temperature") for law in ("gaussian", "constant")
     )
@@ -95,7 +90,7 @@ def test_a_wrong_law_shows_in_what_is_left_out() -> None:
     assert (wrong.data.rms_outside_in_spread > 5.0).all()
 
 
-def test_extrapolating_a_wrong_law_costs_more_than_following_the_data() -> None:
+def test_extrapolating_a_wrong_law_costs_more_than_following_the_data():
     """A bell can follow two plateaus where it sees them, and not beyond."""
     fit = fitted(
         *measurement(PLATEAUS, seed=None, temperatures=(293.15,)), law="gaussian", hold_out="speed"
@@ -104,7 +99,7 @@ def test_extrapolating_a_wrong_law_costs_more_than_following_the_data() -> None:
     assert first.rms_outside > 3.0 * first.rms_inside
 
 
-def test_one_temperature_gives_no_activation_energy() -> None:
+def test_one_temperature_gives_no_activation_energy():
     fit = fitted(*measurement(temperatures=(293.15,)))
     assert isinstance(fit.law, GaussianStress)
     assert [one.name for one in fit.estimates] == ["stress_0", "width", "speed_0"]
@@ -113,14 +108,14 @@ def test_one_temperature_gives_no_activation_energy() -> None:
     assert "activation_energy" not in shear_stress_table(fit).partition("[conditions")[2]
 
 
-def test_what_one_temperature_cannot_say_is_not_predicted_for_another() -> None:
+def test_what_one_temperature_cannot_say_is_not_predicted_for_another():
     fit = fitted(*measurement(temperatures=(283.15, 303.15)), hold_out="temperature")
     assert fit.data.rms_outside.isnull().all()
     why = "the other points do not determine activation_energy"
     assert fit.data.why_not.values.tolist() == [why] * 2
 
 
-def test_a_flank_does_not_determine_the_top() -> None:
+def test_a_flank_does_not_determine_the_top():
     fit = fitted(*measurement(speeds=FLANK, temperatures=(293.15,)))
     by_name = {one.name: one for one in fit.estimates}
     assert math.isnan(by_name["stress_0"].high)
@@ -129,7 +124,7 @@ def test_a_flank_does_not_determine_the_top() -> None:
     assert "upper end not determined" in shear_stress_table(fit)
 
 
-def test_one_speed_determines_the_height_of_the_bell_alone() -> None:
+def test_one_speed_determines_the_height_of_the_bell_alone():
     """Three temperatures are three points of a parabola in eps/T.
 
     Its height is tau_0; c eps^2 is known, c and eps are not.
@@ -139,7 +134,7 @@ def test_one_speed_determines_the_height_of_the_bell_alone() -> None:
     assert determined == {"stress_0"}
 
 
-def test_fixed_parameters_stay() -> None:
+def test_fixed_parameters_stay():
     fit = fitted(*measurement(), fixed={"width": 0.15, **REFERENCE})
     assert isinstance(fit.law, GaussianStress)
     assert fit.law.width == 0.15
@@ -147,12 +142,12 @@ def test_fixed_parameters_stay() -> None:
     assert "width = 0.15  # held" in shear_stress_table(fit)
 
 
-def test_spreads_too_small_for_the_law_are_said() -> None:
+def test_spreads_too_small_for_the_law_are_said():
     fit = fitted(*measurement(), law="constant")
     assert "times the stated spread" in fit.data.attrs["notes"]
 
 
-def test_points_without_a_prediction_do_not_count() -> None:
+def test_points_without_a_prediction_do_not_count():
     measured, predicted = measurement()
     friction, status = predicted.friction.copy(), ["converged"] * 27
     friction[3], status[3] = np.nan, "wave 2 did not converge"
@@ -166,7 +161,7 @@ def test_points_without_a_prediction_do_not_count() -> None:
     )
 
 
-def test_everything_is_in_the_dataset(tmp_path) -> None:
+def test_everything_is_in_the_dataset(tmp_path):
     fit = fitted(*measurement(), hold_out="speed")
     data = netcdf.load_dataset(netcdf.save(fit.data, tmp_path / "calibration.nc"))
     assert data.parameter.values.tolist() == [
@@ -187,7 +182,7 @@ def test_everything_is_in_the_dataset(tmp_path) -> None:
          "reference_temperature belongs to an activation_energy"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_used_is_one_sentence(change: dict, sentence: str) -> None:
+def test_what_cannot_be_used_is_one_sentence(change, sentence):
     with pytest.raises(InputError, match=sentence):
         fitted(*measurement(), **change)
 
@@ -207,9 +202,7 @@ def test_what_cannot_be_used_is_one_sentence(change: dict, sentence: str) -> Non
          "hold_out needs at least two groups to leave one of them out; got 1"),
     ],
 )  # fmt: skip
-def test_what_does_not_suffice_is_one_sentence(
-    friction: list[float], more: dict, sentence: str
-) -> None:
+def test_what_does_not_suffice_is_one_sentence(friction, more, sentence):
     columns = {name: more.pop(name) for name in ("spread", "temperature") if name in more}
     measured = MeasuredFriction([0.1, 1.0, 10.0], friction, **columns)
     predicted = Predicted([0.2] * 3, [0.03] * 3, [3e5] * 3, [293.15] * 3)
@@ -217,7 +210,7 @@ def test_what_does_not_suffice_is_one_sentence(
         fitted(measured, predicted, **({"law": "constant"} | more))
 
 
-def test_the_page_lists_every_variable() -> None:
+def test_the_page_lists_every_variable():
     page = (DOCS / "measured-friction.md").read_text(encoding="utf-8")
     listed = set(re.findall(r"`(\w+)`", page))
     data = fitted(*measurement(), hold_out="speed").data

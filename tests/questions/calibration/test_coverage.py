@@ -4,14 +4,11 @@ Of 50 measurements 45 are expected. With 41 to 49 of them the claim passes with 
 for one parameter (binomial: 0.0245 for 40 or fewer, 0.0052 for all 50).
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.stats
 
 from gripscale.conditions import LeGalKlueppelStress
-from gripscale.questions import Calibration
 from gripscale.questions.calibration.calibration_law import points_of, problem_of
 from gripscale.questions.calibration.profile_likelihood import best, intervals
 
@@ -21,7 +18,7 @@ SETS = 50
 FEWEST, MOST = 41, 49
 
 
-def held(fits: list[Calibration], truth: dict[str, float]) -> dict[str, int]:
+def held(fits, truth):
     """Return in how many fits the interval of each parameter holds its true value."""
     return {
         name: sum(
@@ -31,12 +28,12 @@ def held(fits: list[Calibration], truth: dict[str, float]) -> dict[str, int]:
     }
 
 
-def test_the_band_is_one_of_binomial_probability_097() -> None:
+def test_the_band_is_one_of_binomial_probability_097():
     counts = scipy.stats.binom(SETS, 0.9)
     assert counts.cdf(MOST) - counts.cdf(FEWEST - 1) == pytest.approx(0.970, abs=0.001)
 
 
-def test_intervals_hold_the_true_parameters_as_often_as_they_say() -> None:
+def test_intervals_hold_the_true_parameters_as_often_as_they_say():
     """Where the profile is below its threshold, at a tenth of the time of the intervals.
 
     With half the spread the excess would be four times as large: ends at 1.645/2 standard errors
@@ -56,7 +53,7 @@ def test_intervals_hold_the_true_parameters_as_often_as_they_say() -> None:
 
 @pytest.mark.verification
 @pytest.mark.parametrize("stated", [True, False])
-def test_intervals_over_many_measurements(stated: bool) -> None:
+def test_intervals_over_many_measurements(stated):
     """Of 400, 360 are expected; 342 to 377 hold with probability 0.997 for one parameter."""
     fits = [
         fitted(*measurement(seed=1000 + seed, stated=stated), fixed=REFERENCE)
@@ -67,7 +64,7 @@ def test_intervals_over_many_measurements(stated: bool) -> None:
 
 
 @pytest.mark.verification
-def test_intervals_of_the_other_law() -> None:
+def test_intervals_of_the_other_law():
     truth = {"stress_0": 2e6, "ratio": 3.0, "critical_speed": 0.01, "exponent": 0.8}
     law = LeGalKlueppelStress(**truth)
     fits = [fitted(*measurement(law, seed=seed), law="le_gal_klueppel") for seed in range(200)]
@@ -75,7 +72,7 @@ def test_intervals_of_the_other_law() -> None:
         assert 166 <= count <= 192, (name, count)  # probability 0.997
 
 
-def test_an_interval_ends_where_the_profile_says() -> None:
+def test_an_interval_ends_where_the_profile_says():
     problem = problem_of("gaussian", points_of(*measurement()), REFERENCE)
     optimum, ends = intervals(problem)
     threshold = optimum.threshold
@@ -86,7 +83,7 @@ def test_an_interval_ends_where_the_profile_says() -> None:
             assert optimum.excess(place, end)[0] == pytest.approx(threshold, rel=4e-3)
 
 
-def test_the_profile_of_a_factor_is_a_parabola() -> None:
+def test_the_profile_of_a_factor_is_a_parabola():
     """A parameter that only multiplies, not in logarithms: linear least squares in closed form."""
     measured, predicted = measurement()
     fit = fitted(measured, predicted, law="constant")
@@ -102,7 +99,7 @@ def test_the_profile_of_a_factor_is_a_parabola() -> None:
     assert fit.data.friction_band.values == pytest.approx(band, rel=1e-3)
 
 
-def test_without_spreads_the_residuals_give_them() -> None:
+def test_without_spreads_the_residuals_give_them():
     measured, predicted = measurement(stated=False)
     fit = fitted(measured, predicted, law="constant")
     one, freedom = fit.estimates[0], measured.speed.size - 1
@@ -115,7 +112,7 @@ def test_without_spreads_the_residuals_give_them() -> None:
     assert (one.low, one.high) == pytest.approx((one.value - half, one.value + half), rel=1e-4)
 
 
-def test_well_determined_intervals_are_the_standard_errors() -> None:
+def test_well_determined_intervals_are_the_standard_errors():
     """Where the valley is nearly straight half an interval is 1.645 standard errors."""
     for one in fitted(*measurement(seed=None), fixed=REFERENCE).estimates:
         assert 0.5 * (one.high - one.low) == pytest.approx(1.645 * one.standard_error, rel=0.05)

@@ -1,9 +1,5 @@
 """Measured friction from files: columns by name, units from titles, what is bad in a sentence."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,13 +9,13 @@ from gripscale.experiment import MeasuredFriction, read_measured_friction
 from gripscale.experiment.measured_friction import friction_doubts, speed_doubts
 
 
-def written(folder: Path, text: str) -> Path:
+def written(folder, text):
     path = folder / "measured.csv"
     path.write_text(text, encoding="utf-8")
     return path
 
 
-def test_columns_are_found_by_name_and_brought_to_si(tmp_path: Path) -> None:
+def test_columns_are_found_by_name_and_brought_to_si(tmp_path):
     path = written(
         tmp_path, "temperature [°C];Speed [mm/s];std;µ\n20,5;1000;0,02;0,4\n5;10;nan;0,3\n"
     )
@@ -31,14 +27,14 @@ def test_columns_are_found_by_name_and_brought_to_si(tmp_path: Path) -> None:
     assert found.source == str(path)
 
 
-def test_plain_titles_are_si(tmp_path: Path) -> None:
+def test_plain_titles_are_si(tmp_path):
     found = read_measured_friction(written(tmp_path, "speed,friction [-]\n0.1,0.3\n1,0.5\n"))
     assert found.speed.tolist() == [0.1, 1.0]
     assert np.isnan(found.temperature).all()
     assert np.isnan(found.spread).all()
 
 
-def test_a_unit_that_is_not_stated_is_a_doubt_with_its_cure(tmp_path: Path) -> None:
+def test_a_unit_that_is_not_stated_is_a_doubt_with_its_cure(tmp_path):
     stated = read_measured_friction(written(tmp_path, "speed [m/s],mu\n0.1,0.3\n1,0.5\n"))
     assert stated.assumed == ""
     bare = read_measured_friction(written(tmp_path, "speed,mu,p\n0.1,0.3,1e5\n1,0.5,1e5\n"))
@@ -57,9 +53,7 @@ def test_a_unit_that_is_not_stated_is_a_doubt_with_its_cure(tmp_path: Path) -> N
         ((0.5, 1000.0), "0.5 to 1000 m/s, are not all below 100 m/s: is their unit right?"),
     ],
 )
-def test_speeds_far_from_that_of_the_case_have_another_unit(
-    speeds: tuple[float, float], words: str
-) -> None:
+def test_speeds_far_from_that_of_the_case_have_another_unit(speeds, words):
     said = sentences(speed_doubts(MeasuredFriction(speeds, (0.3, 0.3)), 1.0))
     assert words in said
     assert bool(words) == bool(said)
@@ -81,7 +75,7 @@ def test_speeds_far_from_that_of_the_case_have_another_unit(
         ("speed,friction,spread\n1,0.2,-0.1\n", "spread must not be negative; got -0.1 at index 0"),
     ],
 )
-def test_bad_files_are_one_sentence(tmp_path: Path, text: str, sentence: str) -> None:
+def test_bad_files_are_one_sentence(tmp_path, text, sentence):
     path = written(tmp_path, text)
     with pytest.raises(FileError) as caught:
         read_measured_friction(path)
@@ -89,7 +83,7 @@ def test_bad_files_are_one_sentence(tmp_path: Path, text: str, sentence: str) ->
     assert sentence in str(caught.value)
 
 
-def test_lengths_must_agree() -> None:
+def test_lengths_must_agree():
     with pytest.raises(
         InputError, match=r"speed, friction, .* must have the same length.*got 2, 1, 2"
     ):

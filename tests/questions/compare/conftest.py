@@ -1,10 +1,7 @@
 """Samples of models made by hand."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
@@ -14,10 +11,10 @@ Make = Callable[..., xr.Dataset]
 
 
 @pytest.fixture
-def solved() -> Make:
+def solved():
     """Make the samples of a model: (area, friction, subject), or with values by name as a dict."""
 
-    def make(*samples: Any) -> xr.Dataset:
+    def make(*samples):
         rows = []
         for sample in samples:
             row = sample
@@ -37,10 +34,10 @@ def solved() -> Make:
 
 
 @pytest.fixture
-def together() -> Callable[..., xr.Dataset]:
+def together():
     """Put the samples of models beside each other, over `model`."""
 
-    def make(**models: xr.Dataset) -> xr.Dataset:
+    def make(**models):
         names = np.array(list(models), dtype=object)
         most = max(samples.sizes["sample"] for samples in models.values())
         padded = []

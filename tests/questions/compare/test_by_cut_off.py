@@ -1,7 +1,5 @@
 """What every model says of its cut-off against really changing it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -9,12 +7,11 @@ import pytest
 
 import gripscale as gs
 from gripscale.chain import Chain
-from gripscale.cut_off_exponents import CutOffExponents
 from gripscale.experiment import Task
 from gripscale.experiment.design import stack
 from gripscale.half_space import BlockOnProfile
 from gripscale.half_space.model import DirectContact
-from gripscale.model import CUT_OFF_EXPONENTS, WHY_NO_EXPONENT, Load, Model, cut_off_exponents_of
+from gripscale.model import CUT_OFF_EXPONENTS, WHY_NO_EXPONENT, Load, cut_off_exponents_of
 from gripscale.questions.answer.samples import cut_off_exponents, sample_numbers
 from gripscale.rubber import styrene_butadiene
 from gripscale.surface import (
@@ -35,13 +32,13 @@ CORRELATION = height_difference(LINE)
 CHAIN = Chain(HalfPlane(points=256))
 
 
-def surface(cut_off: float = LAST) -> Surface:
+def surface(cut_off=LAST):
     fit = {"scales": 5, "cut_off": cut_off}
     sines = fit_sines(CORRELATION, scales=5, cut_off=cut_off)
     return Surface(sines, "", CORRELATION, fit, Measured.of([LINE]))
 
 
-def told(model: Model, load: Load = LOAD) -> CutOffExponents:
+def told(model, load=LOAD):
     answer = model.predict(RUBBER, surface(), load)
     assert {*CUT_OFF_EXPONENTS, WHY_NO_EXPONENT} <= set(answer.data_vars)
     return cut_off_exponents_of(answer)
@@ -60,9 +57,7 @@ def told(model: Model, load: Load = LOAD) -> CutOffExponents:
     ],
     ids=["direct", "chain", "persson", "klueppel_heinrich"],
 )
-def test_exponents_are_those_of_a_second_solution(
-    model: Model, of_area: float | None, of_friction: float
-) -> None:
+def test_exponents_are_those_of_a_second_solution(model, of_area, of_friction):
     """Of the model with twice the cut-off."""
     found = told(model)
     one, other = (model.predict(RUBBER, surface(end), LOAD) for end in (LAST, 2.0 * LAST))
@@ -79,7 +74,7 @@ def test_exponents_are_those_of_a_second_solution(
         assert found.contact_fraction == pytest.approx(area, abs=of_area)
 
 
-def test_direct_contact_pressed_flat_is_the_closed_form() -> None:
+def test_direct_contact_pressed_flat_is_the_closed_form():
     load = {"pressure": 1e12, "speed": 3.0, "smallest_wavelength": LAST, "periodic": True}
     found, other = (
         gs.solve_rough_contact(RUBBER, LINE, **(load | {"smallest_wavelength": length}))
@@ -91,13 +86,13 @@ def test_direct_contact_pressed_flat_is_the_closed_form() -> None:
     assert found.cut_off_exponents.contact_fraction == 0.0
 
 
-def test_one_grid_tells_nothing() -> None:
+def test_one_grid_tells_nothing():
     few = Profile(LINE.x[:64], LINE.z[:64])
     found = gs.solve_rough_contact(RUBBER, few, pressure=3e5, speed=3.0)
     assert found.cut_off_exponents.why_not == "solved with one cut-off only"
 
 
-def test_chain_without_its_last_wave_of_half_the_length() -> None:
+def test_chain_without_its_last_wave_of_half_the_length():
     sines = gs.SineStack([8e-3, 4e-3, 2e-3, 1e-3], [8e-4, 4.4e-4, 2.4e-4, 1.3e-4])
     load = {"pressure": 3e5, "speed": 3.0, "footprint": 0.1, "solver": CHAIN.solver}
     whole = gs.solve_chain(RUBBER, sines, **load)
@@ -108,7 +103,7 @@ def test_chain_without_its_last_wave_of_half_the_length() -> None:
         assert getattr(found, name) == pytest.approx(exact, rel=1e-12)
 
 
-def test_what_answers_for_one_cut_off_only_says_so() -> None:
+def test_what_answers_for_one_cut_off_only_says_so():
     x = np.arange(64) * 1e-3 / 64
     lines = [Profile(x, 1e-5 * np.cos(2.0 * np.pi * x / 1e-3))]
     one = Surface(gs.SineStack([1e-3], [1e-5]), "", measured=Measured.of(lines))
@@ -122,7 +117,7 @@ def test_what_answers_for_one_cut_off_only_says_so() -> None:
         assert math.isnan(answer.total_friction_cut_off_exponent)
 
 
-def test_there_is_no_friction_at_rest_to_change() -> None:
+def test_there_is_no_friction_at_rest_to_change():
     rest = Load(1e4, 0.0, 0.1)  # so light that the relaxed rubber does not touch all over
     for model in (CHAIN, Persson(), DirectContact(tolerance=None)):
         found = told(model, rest)
@@ -131,7 +126,7 @@ def test_there_is_no_friction_at_rest_to_change() -> None:
         assert found.why_not == "no friction at rest"
 
 
-def test_profiles_count_by_their_length_and_models_by_their_samples() -> None:
+def test_profiles_count_by_their_length_and_models_by_their_samples():
     half = Profile(LINE.x[:4000], LINE.z[:4000])
     model = DirectContact(tolerance=None)
     both = Surface(surface().sines, "", measured=Measured.of([LINE, half]))

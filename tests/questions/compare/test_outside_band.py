@@ -4,8 +4,6 @@ Two waves of small slope, pressed flat: each adds mu_i = k^2 A^2 Im(M) / (4 p), 
 shorter, which alone is beyond the band, is known in closed form.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -27,13 +25,13 @@ OMEGA = 2 * np.pi * LOAD.speed / np.array([LONG, SHORT])
 RUBBER = gs.Rubber(6e6, [12e6, 8e6], [1e-2, 1e-3], valid_band=(1.0, OMEGA[1] / 2.0))
 
 
-def surface(points: int = 256) -> Surface:
+def surface(points=256):
     x = np.arange(points) * LONG / points
     z = SINES.amplitude @ np.cos(2 * np.pi * np.outer(1 / SINES.wavelength, x))
     return Surface(SINES, "", measured=Measured.of([Profile(x, z)]))
 
 
-def closed_form() -> float:
+def closed_form():
     """Return the share of the shorter wave: mu_i is as k^2 A^2 Im(M)."""
     friction = RUBBER.plane_strain_modulus(OMEGA).imag * (SINES.amplitude / SINES.wavelength) ** 2
     return float(friction[1] / friction.sum())
@@ -48,7 +46,7 @@ def closed_form() -> float:
         (BlockOnProfile(periodic=True), 0.02),
     ],
 )
-def test_the_share_is_that_of_the_closed_form(model: gs.model.Model, tolerance: float) -> None:
+def test_the_share_is_that_of_the_closed_form(model, tolerance):
     answer = model.predict(RUBBER, surface(), LOAD)
     assert answer.prediction_status == "converged"
     assert float(answer.total_contact_fraction) == pytest.approx(1.0)
@@ -58,7 +56,7 @@ def test_the_share_is_that_of_the_closed_form(model: gs.model.Model, tolerance: 
     assert (found.below, found.above) == (0.0, pytest.approx(math.log10(2.0), abs=1e-6))
 
 
-def test_a_theory_tells_the_same_words() -> None:
+def test_a_theory_tells_the_same_words():
     q = np.geomspace(1e2, 1e5, 40)
     spectrum = gs.surface.ArealSpectrum(q, 1e-18 * (q / 1e3) ** -3.6)
     found = persson(RUBBER, spectrum, pressure=1e5, speed=LOAD.speed)
@@ -70,7 +68,7 @@ def test_a_theory_tells_the_same_words() -> None:
     assert set(OUTSIDE_BAND) <= set(share.data_vars)
 
 
-def test_refused_extrapolation_leaves_a_point_without_totals() -> None:
+def test_refused_extrapolation_leaves_a_point_without_totals():
     answer = Chain(HalfPlane(), extrapolate="refuse").predict(RUBBER, surface(), LOAD)
     assert math.isnan(answer.total_friction)
     assert "wave 2 of 2 (wavelength 1 mm) excites the rubber" in str(
@@ -82,7 +80,7 @@ def test_refused_extrapolation_leaves_a_point_without_totals() -> None:
     assert slow.prediction_status == "converged"
 
 
-def test_nothing_is_excited_at_rest() -> None:
+def test_nothing_is_excited_at_rest():
     rest = Load(LOAD.pressure, 0.0, LOAD.footprint)
     for model in (DirectContact(periodic=True), Chain(HalfPlane())):
         found = extrapolation_of(model.predict(RUBBER, surface(), rest))

@@ -3,11 +3,7 @@
 A failed sample is in no mean and is counted; what is not known stays so.
 """
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,15 +19,13 @@ from gripscale.questions.answer.samples import (
     usable,
 )
 
-Make = Callable[..., xr.Dataset]
 
-
-def failed(subject: str = "") -> dict[str, Any]:
+def failed(subject=""):
     names = ("prediction_status", "prediction_status_word")
     return {**dict.fromkeys(names, "tolerance not met"), "subject": subject}
 
 
-def test_failed_sample_is_in_no_mean_and_is_counted(solved: Make) -> None:
+def test_failed_sample_is_in_no_mean_and_is_counted(solved):
     member, alone = solved((0.02, 0.3), failed(), (0.04, 0.5)), solved(failed())
     assert usable(member, "contact_fraction").mean() == pytest.approx(0.03)
     spread = samples.spread(usable(member, "friction"))
@@ -43,7 +37,7 @@ def test_failed_sample_is_in_no_mean_and_is_counted(solved: Make) -> None:
     assert math.isnan(ratio(member, alone, "friction")[0])
 
 
-def test_uncertainty_is_scatter_and_estimated_error(solved: Make) -> None:
+def test_uncertainty_is_scatter_and_estimated_error(solved):
     two = [{"contact_fraction": 0.02, "friction": mu, "friction_error": 0.03} for mu in (0.3, 0.5)]
     scatter, error = np.std([0.3, 0.5], ddof=1) / math.sqrt(2) / 0.4, 0.03 / 0.4
     both = relative_uncertainty(solved(*two), "friction")
@@ -52,7 +46,7 @@ def test_uncertainty_is_scatter_and_estimated_error(solved: Make) -> None:
     assert math.isnan(relative_uncertainty(solved((0.02, 0.3)), "friction"))
 
 
-def test_seeds_of_one_profile_tell_nothing_of_another(solved: Make) -> None:
+def test_seeds_of_one_profile_tell_nothing_of_another(solved):
     starts = {"first": 0.3, "second": 0.5}
     drawn = [(0.02, mu + 0.001 * seed, name) for name, mu in starts.items() for seed in range(10)]
     member = solved(*drawn)
@@ -62,7 +56,7 @@ def test_seeds_of_one_profile_tell_nothing_of_another(solved: Make) -> None:
     assert alone < 0.06
 
 
-def test_pairs_are_compared_with_their_like(solved: Make) -> None:
+def test_pairs_are_compared_with_their_like(solved):
     """Windows differ by a factor of four among themselves, and by 2 % between two models."""
     areas, names = np.array([0.02, 0.04, 0.08]), ["window 1", "window 2", "window 3"]
     small = solved(*zip(areas, areas, names, strict=True))
@@ -75,14 +69,14 @@ def test_pairs_are_compared_with_their_like(solved: Make) -> None:
     assert ratio(shuffled, small, "contact_fraction")[1].sigma > 0.3
 
 
-def test_pair_with_a_failed_half_is_left_out_of_both(solved: Make) -> None:
+def test_pair_with_a_failed_half_is_left_out_of_both(solved):
     upper = solved((0.022, 0.3, "1"), failed("2"))
     lower = solved((0.020, 0.3, "1"), (0.080, 0.3, "2"))
     assert ratio(upper, lower, "contact_fraction")[0] == pytest.approx(1.1)
     assert ratio(lower, upper, "contact_fraction")[0] == pytest.approx(1.0 / 1.1)
 
 
-def test_products_and_quotients_of_drawn_numbers() -> None:
+def test_products_and_quotients_of_drawn_numbers():
     random = np.random.default_rng(1)
     errors = [xr.DataArray(0.1), xr.DataArray(0.25)]
     first, second = (float(error) * random.standard_normal(400_000) for error in errors)
@@ -93,14 +87,14 @@ def test_products_and_quotients_of_drawn_numbers() -> None:
         assert np.mean(np.abs(logs) < uncertainty) == pytest.approx(0.6827, abs=3e-3)
 
 
-def test_mean_of_a_sample_scatters_by_its_uncertainty() -> None:
+def test_mean_of_a_sample_scatters_by_its_uncertainty():
     draws = 0.2 * np.exp(0.1 * np.random.default_rng(2).standard_normal((4000, 9)))
     error = log_error_of_mean(xr.DataArray(draws, dims=("draw", "sample"))).mean()
     # of nine values the estimated deviation is 3 % low on average
     assert error == pytest.approx(np.log(draws.mean(axis=1)).std(), rel=0.05)
 
 
-def test_unknown_parts_add_nothing() -> None:
+def test_unknown_parts_add_nothing():
     unknown, *known = (xr.DataArray(value) for value in (math.nan, 0.3, 0.4))
     assert in_quadrature(known[0], unknown, known[1]) == pytest.approx(0.5)
     assert math.isnan(in_quadrature(unknown))
@@ -110,7 +104,7 @@ def test_unknown_parts_add_nothing() -> None:
     assert log_error_of_mean(padded[0]) == log_error_of_mean(padded[1])
 
 
-def test_waves_add_in_steps() -> None:
+def test_waves_add_in_steps():
     at, waves = np.array([20e-3, 10e-3, 4e-3, 3e-3, 0.5e-3]), np.array([10e-3, 3e-3, 1e-3])
     friction = curve_at("friction", at, waves, np.array([0.1, 0.3, 0.4]), stepped=True)
     assert friction.tolist() == [0.0, 0.1, 0.1, 0.3, 0.4]
@@ -118,7 +112,7 @@ def test_waves_add_in_steps() -> None:
     assert area.tolist() == [1.0, 0.3, 0.3, 0.1, 0.05]
 
 
-def test_octaves_are_interpolated_and_the_unknown_stays_unknown() -> None:
+def test_octaves_are_interpolated_and_the_unknown_stays_unknown():
     split = np.array([16e-3, 8e-3, 4e-3, 2e-3, 1e-3, np.nan])
     at = np.array([32e-3, 16e-3, 8e-3, np.sqrt(32.0) * 1e-3, 0.5e-3])
     friction = np.array([0.0, 0.1, 0.3, 0.35, 0.4, np.nan])
@@ -127,7 +121,7 @@ def test_octaves_are_interpolated_and_the_unknown_stays_unknown() -> None:
     np.testing.assert_allclose(area, [1.0, np.nan, 0.4, 0.3, 0.1])
 
 
-def test_scale_of_wavelengths_holds_all() -> None:
+def test_scale_of_wavelengths_holds_all():
     ends = samples.octaves(16e-3, 1e-3, 1e-3)
     assert ends == pytest.approx(1e-3 * 2.0 ** np.arange(4, -1, -1.0))
     assert samples.octaves(math.nan, math.nan, 1e-3).size == 0

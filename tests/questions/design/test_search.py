@@ -1,7 +1,5 @@
 """Admissible changes of a compound, the gradient of its friction, and optima that are known."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import product
 from types import SimpleNamespace
@@ -23,7 +21,6 @@ from gripscale.questions.design.compound_limits import (
 from gripscale.questions.design.compound_search import DesignProblem, best_change, nearest_design
 from gripscale.questions.design.goal_friction import CompoundGoal, GoalFriction, MeasuredPart
 from gripscale.rubber import ShiftTable
-from gripscale.surface import Profile
 from tests.half_space.rough_cases import WAVELENGTH, sine
 from tests.half_space.test_sensitivity import line
 from tests.samples import MAXWELL, SHIFTED_RUBBER
@@ -32,20 +29,20 @@ SPEED = 0.3
 ROUGH = line(4096, 0.064, 1e-3)
 
 
-def on(profile: Profile, rubber: gs.Rubber, shortest: float, pressure: float, **goal):
+def on(profile, rubber, shortest, pressure, **goal):
     """The friction of a rubber on one profile."""
     goals = [CompoundGoal(SPEED, pressure, **goal)]
     return GoalFriction(rubber, goals, [MeasuredPart(0, profile, shortest, 1e-2, 1.0)])
 
 
-def log_friction(friction: GoalFriction, ratio) -> float:
+def log_friction(friction, ratio):
     """ln mu at the first goal, without the gradient."""
     solved = friction.contacts(changed(friction.rubber, ratio))
     lost = [contact.friction_from_dissipation for contact in solved]
     return float(np.log(friction.averaged(lost))[0])
 
 
-def admissible(rubber: gs.Rubber, *points: PointLimit, **limits) -> AdmissibleChanges:
+def admissible(rubber, *points, **limits):
     return AdmissibleChanges.of(rubber, CompoundLimits(points=points, **limits))
 
 
@@ -126,7 +123,7 @@ TOP = np.array([1.05, 0.95, 0.9, 0.92])
 """Inside the limits of `narrow`."""
 
 
-def narrow() -> AdmissibleChanges:
+def narrow():
     return admissible(MAXWELL, largest_factor=1.5)
 
 
@@ -169,7 +166,7 @@ def test_quadratic_steps_that_end_lower_do_not_count(monkeypatch):
     assert best_change(bowl, limits, np.ones(4)).log_friction >= corners.log_friction
 
 
-def mixtures(limits: AdmissibleChanges, count: int, slope) -> list:
+def mixtures(limits, count, slope):
     """Random admissible changes: corners, some along the gradient, and mixtures of three."""
     random, size = np.random.default_rng(0), limits.rubber.moduli.size + 1
     objectives = [random.standard_normal(size) for _ in range(count // 4)]

@@ -1,13 +1,9 @@
 """A small case that is solved in milliseconds: a self-affine road, a noisy rubber, half-planes."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from gripscale import Case, Rubber
+from gripscale import Rubber
 from gripscale.case_file import read_case
 from gripscale.surface import self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_master_curve, write_road
@@ -21,7 +17,7 @@ CASE = case_text(
 
 
 @pytest.fixture(scope="session")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     """A folder with a road, a master curve with 3 % of noise, and a case."""
     folder = tmp_path_factory.mktemp("uncertain")
     road = self_affine_profile(0.8, 3e-3, 8e-4, length=0.4, step=2e-4, seed=1)
@@ -38,13 +34,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def small_case(folder: Path) -> Case:
+def small_case(folder):
     """The case in the folder."""
     return read_case(folder / "case.toml")
 
 
 @pytest.fixture(scope="session")
-def known(folder: Path) -> Case:
+def known(folder):
     """The case with a choice of waves."""
     path = folder / "any_waves.toml"
     path.write_text(CASE.replace("s_amplitude = 2.1", ""))

@@ -1,16 +1,11 @@
 """The answer with errors of the inputs: the number of `run`, its interval widened by samples."""
 
-from __future__ import annotations
-
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
 from scipy import stats
 
-from gripscale import Case
 from gripscale.case_file import read_case
 from gripscale.questions import Uncertainty
 from gripscale.questions.answer.answer import answer
@@ -24,35 +19,31 @@ from .sampled import propagate
 QUANTITIES = ("friction", "contact_fraction")
 
 
-def only(*sources: str, **ranges: object) -> Uncertainty:
+def only(*sources, **ranges):
     """Return an uncertainty of these sources and no others."""
     kept = {*sources, *ranges}
     return Uncertainty([name for name in SOURCES if name not in kept], ranges)
 
 
 @pytest.fixture(scope="module")
-def of_run(small_case: Case) -> xr.Dataset:
+def of_run(small_case):
     """Return the answer of `gripscale run`."""
-    data = answer(small_case).data
-    assert data is not None
-    return data
+    return answer(small_case).data
 
 
-def sigma(data: xr.Dataset, name: str, label: str) -> float:
+def sigma(data, name, label):
     """Return the standard error of one part of the interval."""
     return float(data[f"answer_{name}_part_error"][data.part_label.values.tolist().index(label)])
 
 
 @pytest.fixture(scope="module")
-def certain(small_case: Case) -> xr.Dataset:
+def certain(small_case):
     """Return an uncertainty whose one source has one value, that of the case."""
     return propagate(small_case, only(bulk_modulus="2 GPa"), samples=10)
 
 
 @pytest.mark.parametrize("name", QUANTITIES)
-def test_without_errors_of_inputs_number_and_interval_are_those_of_run(
-    certain: xr.Dataset, of_run: xr.Dataset, name: str
-) -> None:
+def test_without_errors_of_inputs_number_and_interval_are_those_of_run(certain, of_run, name):
     """The same contact is solved for both, so that only rounding is between them."""
     for end in ("", "_half_width", "_uncertainty", "_sampling_error"):
         mine, theirs = (float(data[f"answer_{name}{end}"]) for data in (certain, of_run))
@@ -63,7 +54,8 @@ def test_without_errors_of_inputs_number_and_interval_are_those_of_run(
     )
 
 
-def test_processes_give_the_same_answer(small_case: Case, certain: xr.Dataset) -> None:
+@pytest.mark.verification
+def test_processes_give_the_same_answer(small_case, certain):
     """With what it rests on, which comes from the waves and not from the measurement."""
     choice = only(bulk_modulus="2 GPa")
     data = propagate(small_case, choice, samples=10, client="processes", workers=2)
@@ -74,21 +66,19 @@ def test_processes_give_the_same_answer(small_case: Case, certain: xr.Dataset) -
 
 
 @pytest.fixture(scope="module")
-def cut_off(small_case: Case) -> xr.Dataset:
+def cut_off(small_case):
     """Return an uncertainty of the cut-off alone, known to an octave about the case."""
     return propagate(small_case, only("cut_off"), samples=10)
 
 
 @pytest.fixture(scope="module")
-def blocks(small_case: Case) -> xr.Dataset:
+def blocks(small_case):
     """Return an uncertainty of the stretch of road alone."""
     return propagate(small_case, only("profile"), samples=20)
 
 
 @pytest.mark.parametrize("name", QUANTITIES)
-def test_the_sampling_of_the_road_counts_once(
-    blocks: xr.Dataset, of_run: xr.Dataset, name: str
-) -> None:
+def test_the_sampling_of_the_road_counts_once(blocks, of_run, name):
     """Drawn blocks take the place of the error from pieces.
 
     Both estimate one standard error, from 8 blocks and 10 pieces of this road: to 27 and 24 %, so
@@ -105,15 +95,13 @@ def test_the_sampling_of_the_road_counts_once(
     assert from_pieces / 2.5 < drawn < 2.5 * from_pieces
 
 
-def drawn_labels(data: xr.Dataset) -> list[str]:
+def drawn_labels(data):
     """Return the parts that come from samples: the first, up to the grid."""
     labels = data.part_label.values.tolist()
     return labels[: labels.index("grid of the answer")]
 
 
-def test_the_variance_of_the_samples_is_in_the_interval(
-    cut_off: xr.Dataset, certain: xr.Dataset
-) -> None:
+def test_the_variance_of_the_samples_is_in_the_interval(cut_off, certain):
     """The mean square of ln y about the case."""
     data = cut_off
     friction = data.friction_from_dissipation.values[0]
@@ -142,9 +130,7 @@ def test_the_variance_of_the_samples_is_in_the_interval(
     assert list(widths.values())[1:] == sorted(list(widths.values())[1:])
 
 
-def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
-    small_case: Case, certain: xr.Dataset
-) -> None:
+def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(small_case, certain):
     data = propagate(small_case, only("grid"), samples=20)
     error = data.friction_grid_error.values[0]
     assert np.ptp(error) == pytest.approx(0.0, abs=1e-12), "one contact, solved once"
@@ -162,7 +148,7 @@ def test_the_grid_is_drawn_into_the_samples_and_not_twice_into_the_answer(
         assert sigma(data, name, "grid of the answer") > 0.0
 
 
-def test_at_several_loads_each_has_its_answer(small_case: Case, cut_off: xr.Dataset) -> None:
+def test_at_several_loads_each_has_its_answer(small_case, cut_off):
     data = propagate(small_case, only("cut_off"), samples=10, vary={"speed": [0.1, 0.3]})
     assert data.answer_friction.dims == ("speed",)
     for name in ("answer_friction", "answer_contact_fraction_half_width"):
@@ -171,9 +157,7 @@ def test_at_several_loads_each_has_its_answer(small_case: Case, cut_off: xr.Data
     assert table.columns[0].texts() == ["0.1 m/s", "0.3 m/s"]
 
 
-def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(
-    small_case: Case, of_run: xr.Dataset
-) -> None:
+def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(small_case, of_run):
     data = propagate(small_case, only("cut_off"), samples=10, models=["chain"])
     for name in QUANTITIES:
         width = float(of_run[f"answer_{name}_half_width"])
@@ -181,7 +165,7 @@ def test_without_samples_of_the_direct_contact_the_interval_is_that_of_run(
     assert "the direct contact was not sampled" in " ".join(SampledAnswer(data).lines)
 
 
-def test_waves_by_hand_are_answered_by_the_chain(tmp_path: Path) -> None:
+def test_waves_by_hand_are_answered_by_the_chain(tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(case_text("", solver=HALF_PLANE).replace("[surface]\n\n", THREE_WAVES))
     data = propagate(read_case(case), samples=12)
@@ -197,7 +181,7 @@ def test_waves_by_hand_are_answered_by_the_chain(tmp_path: Path) -> None:
     assert "no measured surface judges it" in text
 
 
-def test_parts_add_up_and_have_their_freedom() -> None:
+def test_parts_add_up_and_have_their_freedom():
     """ln y = a + 2 b about a case that lies off the mean; `a` was drawn from few blocks."""
     random = np.random.default_rng(3)
     a, b = 0.1 * random.standard_normal((2, 400))

@@ -1,7 +1,5 @@
 """Each source alone: what it draws, from where to where, and what it changes."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -281,7 +279,9 @@ def test_choices_that_cannot_be(wrong, said):
         Uncertainty(**wrong)
 
 
-@pytest.mark.parametrize("given", ["1 GPa:2 GPa:3 GPa", "3 GPa:1 GPa", "much", [1e9, -1.0], ""])
+@pytest.mark.parametrize(
+    "given", ["1 mm:2 mm", "1 GPa:2 GPa:3 GPa", "3 GPa:1 GPa", "much", [1e9, -1.0], ""]
+)
 def test_ranges_that_cannot_be(known, given):
     with pytest.raises(InputError, match="bulk_modulus"):
         alone("bulk_modulus", known, bulk_modulus=given)

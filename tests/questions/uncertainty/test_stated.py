@@ -1,16 +1,11 @@
 """What a case states of its uncertainty: read, listed, and overridden by whoever asks."""
 
-from __future__ import annotations
-
-from pathlib import Path
 from typing import get_args
 
 import pytest
-from typer.testing import CliRunner
 
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.tables import RangesTable, SourceName
-from gripscale.cli import app
 from gripscale.core.errors import InputError
 from gripscale.io import netcdf
 from gripscale.questions import Uncertainty
@@ -32,10 +27,10 @@ load_time = [0.5, 1, 2]
 
 
 @pytest.fixture
-def case(folder: Path):
+def case(folder):
     """Write the small case with more tables."""
 
-    def write(also: str) -> Path:
+    def write(also):
         path = folder / "stated.toml"
         path.write_text((folder / "case.toml").read_text() + also)
         return path
@@ -43,17 +38,17 @@ def case(folder: Path):
     return write
 
 
-def stated_in(path: Path) -> dict:
+def stated_in(path):
     """Return the table of the uncertainty in a case file."""
     return read_case_file(path).case.uncertainty.model_dump(exclude_none=True)
 
 
-def test_the_case_knows_the_sources_there_are() -> None:
+def test_the_case_knows_the_sources_there_are():
     assert get_args(SourceName) == tuple(SOURCES)
     assert set(RangesTable.model_fields) == set(SOURCES) - {"profile", "modulus", "grid"}
 
 
-def test_a_case_states_all_of_it(case) -> None:
+def test_a_case_states_all_of_it(case):
     table = stated_in(case(STATED))
     assert (table["samples"], table["seed"], table["block_length"]) == (12, 3, 0.06)
     choice = Uncertainty.of_case(table)
@@ -62,14 +57,14 @@ def test_a_case_states_all_of_it(case) -> None:
     assert choice.ranges["load_time"] == [0.5, 1.0, 2.0]
 
 
-def test_a_case_states_standard_errors(case) -> None:
+def test_a_case_states_standard_errors(case):
     stated = 'ranges = { temperature = "2 K", pressure = "0.1 bar", height_noise = "5 um" }'
     choice = Uncertainty.of_case(stated_in(case(f"[uncertainty]\n{stated}\n")))
     assert choice.ranges.pop("height_noise") == pytest.approx(5e-6)
     assert choice.ranges == {"temperature": 2.0, "pressure": "0.1 bar"}
 
 
-def test_who_asks_goes_before_the_case(case) -> None:
+def test_who_asks_goes_before_the_case(case):
     table = stated_in(case(STATED))
     given = {"cut_off": "1 mm", "waves": "4,5"}
     changed = Uncertainty.of_case(table, ranges=given, block_length=0.08)
@@ -83,7 +78,7 @@ def test_who_asks_goes_before_the_case(case) -> None:
         Uncertainty.of_case(table, without=["cut_off"], ranges={"cut_off": "1 mm"})
 
 
-def test_what_is_stated_is_sampled_as_if_it_were_asked_for(case, small_case) -> None:
+def test_what_is_stated_is_sampled_as_if_it_were_asked_for(case, small_case):
     choice = Uncertainty(
         ["waves", "modulus"], {"cut_off": "0.9 mm:1.2 mm", "load_time": "0.5,1,2"}, 0.06
     )
@@ -92,10 +87,9 @@ def test_what_is_stated_is_sampled_as_if_it_were_asked_for(case, small_case) -> 
     assert stated.friction.values.tolist() == asked.friction.values.tolist()
 
 
-def test_options_of_the_command_go_before_the_case(case, tmp_path) -> None:
-    options = ["--samples", "10", "--without", "waves", "--output", str(tmp_path / "out")]
-    outcome = CliRunner().invoke(app, ["uncertainty", str(case(STATED)), *options])
-    assert outcome.exit_code == 0, outcome.output
+def test_options_of_the_command_go_before_the_case(shell, case, tmp_path):
+    options = ("--samples", 10, "--without", "waves", "--output", tmp_path / "out")
+    shell("uncertainty", case(STATED), *options)
     data = netcdf.load_dataset(tmp_path / "out" / "uncertainty.nc")
     assert data.sizes["sample"] == 10
     assert data.attrs["seed"] == 3
@@ -118,6 +112,6 @@ def test_options_of_the_command_go_before_the_case(case, tmp_path) -> None:
         ('ranges = { height_noise = "3 %" }', "unknown unit"),
     ],
 )
-def test_what_cannot_be_stated(case, wrong, said) -> None:
+def test_what_cannot_be_stated(case, wrong, said):
     with pytest.raises(InputError, match=said):
         read_case_file(case(f"[uncertainty]\n{wrong}\n"))

@@ -1,7 +1,5 @@
 """The case of three small waves that experiments are tested with."""
 
-from __future__ import annotations
-
 from tests.experiment.conftest import case, same_bytes
 
 __all__ = ["case", "same_bytes"]

@@ -1,9 +1,5 @@
 """Compounds side by side: one temperature, a ranking by the answer, errors that cancel."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -14,8 +10,7 @@ from gripscale.case_file import read_case
 from gripscale.conditions.conditions import TREADS
 from gripscale.core.errors import InputError
 from gripscale.io.table import significant
-from gripscale.questions import Compounds, at_one_temperature, compare_compounds
-from gripscale.questions.page_of_folder import write_report
+from gripscale.questions import at_one_temperature, compare_compounds
 from gripscale.questions.vary.charts import ranking_figure
 from gripscale.questions.vary.friction_ratio import (
     FrictionRatio,
@@ -29,12 +24,12 @@ from tests.samples import HALF_PLANE, case_text, write_road
 COLD, ROOM, WARM = 273.15, 293.15, 313.15
 
 
-def solid(kelvin: float | None, *, shift: bool) -> gs.Rubber:
+def solid(kelvin, *, shift):
     law = WLF(8.86, 101.6, reference_temperature=kelvin) if shift else None
     return gs.Rubber(2e6, [4e6], [1e-3], reference_temperature=kelvin, shift=law)
 
 
-def measured(factor: float, noise: float) -> gs.Rubber:
+def measured(factor, noise):
     """A rubber fitted to a made-up measurement, its relaxing moduli `factor` times as large."""
     omega = np.geomspace(1e-1, 1e6, 57)
     truth = gs.Rubber(3e6, factor * np.array([2e6, 4e6, 8e6]), [1e-1, 1e-3, 1e-5])
@@ -44,13 +39,13 @@ def measured(factor: float, noise: float) -> gs.Rubber:
     return fit_prony(curve)
 
 
-def changed(**changes: float) -> xr.Dataset:
+def changed(**changes):
     """An answer with what conditions change in its friction."""
     values = ("sample", "condition"), [[*changes.values()]]
     return xr.Dataset({"friction_condition_error": values}, {"condition": [*changes]})
 
 
-def test_what_is_not_known_of_both_compounds_cancels() -> None:
+def test_what_is_not_known_of_both_compounds_cancels():
     """The scatter between treads is each compound's own, all else they have in common."""
     typical, other = changed(**{TREADS: 0.2, "shear": 0.1}), changed(**{TREADS: -0.3, "shear": 0.1})
     assert ratio_changes(typical, other) == pytest.approx([0.2, -0.3, 0.0])
@@ -60,7 +55,7 @@ def test_what_is_not_known_of_both_compounds_cancels() -> None:
     assert ratio_changes(xr.Dataset(), xr.Dataset()) == []
 
 
-def test_a_temperature_all_can_be_brought_to() -> None:
+def test_a_temperature_all_can_be_brought_to():
     """That of the rubber without a shift; the other is moved by its own."""
     given = {"moved": solid(COLD, shift=True), "fixed": solid(ROOM, shift=False)}
     together, notes = at_one_temperature(given)
@@ -72,7 +67,7 @@ def test_a_temperature_all_can_be_brought_to() -> None:
     assert len(notes) == 2
 
 
-def test_temperatures_that_cannot_be_one_are_refused_or_said() -> None:
+def test_temperatures_that_cannot_be_one_are_refused_or_said():
     fixed = {"cold": solid(COLD, shift=False), "room": solid(ROOM, shift=False)}
     with pytest.raises(InputError, match=r"room holds for 20\.0 °C and cannot be brought to 0\.0"):
         at_one_temperature(fixed)
@@ -85,7 +80,7 @@ def test_temperatures_that_cannot_be_one_are_refused_or_said() -> None:
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("compounds")
     road = gs.surface.self_affine_profile(0.8, 3e-3, 4e-4, length=0.4, step=2e-4, seed=1)
     write_road(folder / "road.txt", gs.Profile(road.x, road.z))
@@ -95,7 +90,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def made(folder: Path) -> Compounds:
+def made(folder):
     compounds = {
         "one": measured(1.0, 0.02),
         "twin": measured(1.0, 0.02),
@@ -104,7 +99,7 @@ def made(folder: Path) -> Compounds:
     return compare_compounds(read_case(folder / "case.toml"), compounds, folder / "out")
 
 
-def test_compounds_are_ranked_by_the_answer(folder: Path, made: Compounds) -> None:
+def test_compounds_are_ranked_by_the_answer(folder, made):
     data, case = made.data, read_case(folder / "case.toml")
     answer = gs.answer(
         gs.Case(case.surface, made.rubbers["lossy"], pressure=3e5, speed=0.3, filled=False)
@@ -121,7 +116,7 @@ def test_compounds_are_ranked_by_the_answer(folder: Path, made: Compounds) -> No
     assert "errors that all have in common cancel" in basis
 
 
-def test_what_both_share_of_the_road_cancels(made: Compounds) -> None:
+def test_what_both_share_of_the_road_cancels(made):
     """A ratio on one road is better known than two numbers of different roads."""
     data = made.data
     own = np.log(data.answer_friction_high / data.answer_friction).sel(rubber=["one", "lossy"])
@@ -133,7 +128,7 @@ def test_what_both_share_of_the_road_cancels(made: Compounds) -> None:
     assert float(twin.friction_ratio_low) < 1.0 < float(twin.friction_ratio_high)
 
 
-def test_the_error_of_a_measurement_is_what_its_series_do(folder: Path, made: Compounds) -> None:
+def test_the_error_of_a_measurement_is_what_its_series_do(folder, made):
     """The largest change of ln mu over all series that fit, against contacts solved anew.
 
     To first order, and of a grid on which the borders of the contact move point by point.
@@ -152,7 +147,7 @@ def test_the_error_of_a_measurement_is_what_its_series_do(folder: Path, made: Co
     assert series_error(first_order) == pytest.approx(np.abs(first_order).max() / 3.0)
 
 
-def test_confidence_is_that_of_students_t() -> None:
+def test_confidence_is_that_of_students_t():
     ratio = FrictionRatio(0.2, 0.1, 5.0)
     assert ratio.confidence == pytest.approx(stats.t.cdf(2.0, 5.0))
     width = stats.t.ppf(0.95, 5.0) * 0.1
@@ -161,12 +156,7 @@ def test_confidence_is_that_of_students_t() -> None:
     assert FrictionRatio(0.0, 0.0).confidence == 0.5
 
 
-def test_their_page_has_ranking_figures_and_inputs(made: Compounds, tmp_path: Path) -> None:
-    made.save(tmp_path / "compounds.nc")
-    page = write_report(tmp_path).read_text()
-    for word in ("lossy", "Compounds by friction", "Compounds side by side", "Maxwell elements"):
-        assert word in page
-    assert page.index("friction μ ranks lossy") < page.index("Compounds by friction")
+def test_the_ranking_is_drawn(made):
     ratios, running, decades = ranking_figure(made.data, "rubber").axes
     labels = [text.get_text() for text in ratios.get_xticklabels()]
     assert labels == [significant(mu, 2) for mu in made.data.answer_friction.values]

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
@@ -20,16 +16,16 @@ from gripscale.core.errors import InputError
 from gripscale.core.provenance import SHOWING, fingerprint
 from gripscale.core.status import Status
 from gripscale.core.units import display_unit_of
-from gripscale.experiment import Progress, Task, task
+from gripscale.experiment import Task, task
 from gripscale.io import netcdf
 from gripscale.model import Load
 from gripscale.questions import Study
+from gripscale.questions.terminal import PROGRESS_LINES
 from gripscale.surface import Surface
 from gripscale.theory import HalfPlane
-from gripscale.wave import FiniteStrainBlock, Mesh, Sine
+from gripscale.wave import FiniteStrainBlock, Mesh
 from tests.samples import fail_waves
 
-Compare = Callable[[xr.Dataset, xr.Dataset], None]
 SPEEDS = [0.01, 1.0]
 
 
@@ -39,15 +35,15 @@ class Warmer:
 
     temperature: float
 
-    def __call__(self, wave: Sine, so_far: gs.ChainResult) -> gs.Rubber:
+    def __call__(self, wave, so_far):
         return so_far.rubber
 
 
 WAVES = gs.SineStack(wavelength=[10e-3, 3e-3, 1e-3], amplitude=[0.8e-3, 0.25e-3, 0.08e-3])
 
 
-def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> None:
-    told: list[Progress] = []
+def test_crossed_study_is_predict_at_every_point(case, tmp_path):
+    told = []
     study = Study(read_case(case), {"speed": SPEEDS, "pressure": "1 bar, 3 bar"})
     result = study.run(tmp_path / "out", on_task=told.append)
     alone = gs.solve_chain(
@@ -69,7 +65,7 @@ def test_crossed_study_is_predict_at_every_point(case: Path, tmp_path: Path) -> 
     assert {t.label for t in told} >= {"speed 0.01 m/s, pressure 1 bar"}
 
 
-def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path: Path) -> None:
+def test_result_file_is_labelled_with_units_and_provenance(case, tmp_path):
     result = Study(read_case(case), {"speed": SPEEDS}).run(tmp_path)
     kept = netcdf.load_dataset(tmp_path / "study.nc")
     assert kept.identical(result)
@@ -81,7 +77,7 @@ def test_result_file_is_labelled_with_units_and_provenance(case: Path, tmp_path:
     assert kept.attrs["software"].startswith("gripscale ")
 
 
-def test_speed_zero_is_static_contact(case: Path, tmp_path: Path) -> None:
+def test_speed_zero_is_static_contact(case, tmp_path):
     read = read_case(case)
     result = Study(read, {"speed": [0.0, 0.3]}).run(tmp_path)
     rest = replace(read.load, speed=0.0, load_time="passage")
@@ -91,9 +87,7 @@ def test_speed_zero_is_static_contact(case: Path, tmp_path: Path) -> None:
     assert len(list((tmp_path / "predictions").iterdir())) == 2
 
 
-def test_failed_chain_is_a_status(
-    case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_failed_chain_is_a_status(case, tmp_path, monkeypatch):
     fail_waves(
         monkeypatch,
         Status.ITERATION_LIMIT,
@@ -107,19 +101,19 @@ def test_failed_chain_is_a_status(
     assert np.isnan(result.total_friction).values.tolist() == [False, True]
     assert np.isnan(result.running_friction[1]).values.tolist() == [False, True, True]
     assert np.isnan(result.wavelength[1]).values.tolist() == [False, False, True]
-    told: list[Progress] = []
+    told = []
     Study(read_case(case), {"speed": SPEEDS}).run(tmp_path, on_task=told.append)
     assert [progress.stored for progress in told] == [True, True]
 
 
-def test_key_changes_with_every_input_and_the_software(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_key_changes_with_every_input_and_the_software(monkeypatch):
     surface = Surface(WAVES, "by hand")
-    inputs: dict[str, Any] = {
+    inputs = {
         "rubber": gs.Rubber(5e6, [1e6], [1e-3]),
         "surface": surface,
         "load": Load(3e5, 0.3, 0.1),
     }
-    changes: list[dict[str, Any]] = [
+    changes = [
         {"rubber": gs.Rubber(5e6, [1e6], [math.nextafter(1e-3, 1)])},
         {"rubber": gs.Rubber(5e6, [1e6], [1e-3], valid_band=(1.0, 2.0))},
         {"rubber": gs.Rubber(5e6, [1e6], [1e-3], bulk_modulus=1e9)},
@@ -144,7 +138,7 @@ def test_key_changes_with_every_input_and_the_software(monkeypatch: pytest.Monke
     assert Task(**inputs).key != keys[0]
 
 
-def test_model_that_cannot_be_written_down_is_refused() -> None:
+def test_model_that_cannot_be_written_down_is_refused():
     odd = Chain(rubber_at=lambda wave, so_far: so_far.rubber)
     made = Task(gs.Rubber(5e6), Surface(WAVES, ""), Load(3e5, 0.3, 0.1), odd)
     with pytest.raises(InputError, match="models and conditions must be dataclasses"):
@@ -167,7 +161,7 @@ def test_model_that_cannot_be_written_down_is_refused() -> None:
         ("cli/run.py", False),
     ],
 )
-def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_path: Path) -> None:
+def test_changed_module_changes_the_fingerprint(module, counts, tmp_path):
     home, kernel = tmp_path / "gripscale", tmp_path / "_kernel.so"
     (home / module).parent.mkdir(parents=True)
     (home / module).write_text("number = 1\n")
@@ -180,7 +174,7 @@ def test_changed_module_changes_the_fingerprint(module: str, counts: bool, tmp_p
     assert fingerprint(home, kernel, SHOWING) != before
 
 
-def test_decades_of_relaxation_share_out_the_friction(case: Path, tmp_path: Path) -> None:
+def test_decades_of_relaxation_share_out_the_friction(case, tmp_path):
     one = gs.Rubber(5e6, [5e6], [2e-3])
     two = gs.Rubber(5e6, [2.5e6, 2.5e6], [2e-3, 2e-3])
     far = gs.Rubber(5e6, [5e6, 1.0], [2e-3, 2e-1])
@@ -200,11 +194,12 @@ def test_decades_of_relaxation_share_out_the_friction(case: Path, tmp_path: Path
     assert (shares.values < slow / (slow + fast)).all()
 
 
-def test_a_refused_point_says_why_and_the_others_stand(case: Path, shell: Any) -> None:
+def test_a_refused_point_says_why_and_the_others_stand(case, shell):
     """The named rubber is known from 0.01 rad/s; 10 mm at 1e-6 m/s is 6e-4 rad/s."""
     case.write_text(case.read_text().replace("[rubber]", '[rubber]\nextrapolate = "refuse"'))
-    done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
-    assert done.exit_code == 3
+    done = shell(
+        "study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study", code=3
+    )
     assert "1 of 2 predictions failed" in done.stderr
     result = netcdf.load_dataset(case.parent / "study" / "study.nc")
     assert np.isfinite(result.total_friction.values).tolist() == [False, True]
@@ -212,9 +207,8 @@ def test_a_refused_point_says_why_and_the_others_stand(case: Path, shell: Any) -
     assert result.prediction_status.values[1] == "converged"
 
 
-def test_a_study_says_what_lies_beyond_the_band(case: Path, shell: Any) -> None:
+def test_a_study_says_what_lies_beyond_the_band(case, shell):
     done = shell("study", case, "--vary", "speed=0.000001,0.3", "--output", case.parent / "study")
-    assert done.exit_code == 0
     sentence = "1 of 2 predictions, up to 100 % of their friction, lie up to 1.2 decades below the"
     assert sentence in " ".join(done.stdout.split())
     result = netcdf.load_dataset(case.parent / "study" / "study.nc")
@@ -222,3 +216,29 @@ def test_a_study_says_what_lies_beyond_the_band(case: Path, shell: Any) -> None:
     assert result.total_decades_below_band.values[0] == pytest.approx(
         np.log10(0.01 / (2e-4 * np.pi))
     )
+
+
+def test_command_solves_prints_draws_and_resumes(shell, case, monkeypatch):
+    monkeypatch.setenv(PROGRESS_LINES, "1")
+    asked = ("study", case, "--vary", "speed=0.01:1:log3", "--vary", "pressure=1 bar,3 bar")
+    result = shell(*asked)
+    target = case.parent / "results" / "study"
+    written = {
+        str(p.relative_to(target)) for p in target.rglob("*.*") if "predictions" not in p.parts
+    }
+    files = {"case.toml", "study.nc"}
+    assert written == files | {".case", "report.html", "figures/totals.png"}
+    assert "[6/6] speed" in result.stdout
+    data = netcdf.load_dataset(target / "study.nc")
+    assert f"{float(data.total_friction[2, 1]):.3f}" in result.stdout
+    assert result.stdout.count("converged") == 6
+    assert max(len(line) for line in result.stdout.splitlines() if "in /" not in line) <= 100
+    again = shell(*asked)
+    assert again.stdout.partition("Answer")[2] == result.stdout.partition("Answer")[2]
+
+
+def test_names_are_drawn_as_points(shell, case, tmp_path):
+    vary = ("--vary", "rubber=case", "--vary", "surface=case,synthetic_dense_asphalt")
+    shell("study", case, *vary, "--output", tmp_path)
+    names = {path.stem for path in (tmp_path / "figures").glob("*.png")}
+    assert names == {"totals", "wavelength"}

@@ -1,19 +1,13 @@
 """Surfaces side by side: a twin differs by nothing, a rougher road surely; octaves add up."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import gripscale as gs
 from gripscale.case_file import read_case, read_case_file
 from gripscale.case_file.named_inputs import read_surface
-from gripscale.cli import app
 from gripscale.core.errors import InputError
-from gripscale.questions import Surfaces, compare_surfaces
+from gripscale.questions import compare_surfaces
 from gripscale.surface import Profile, self_affine_profile
 from tests.samples import HALF_PLANE, case_text, write_road
 
@@ -23,7 +17,7 @@ CASE = case_text(
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory):
     """A case on a gentle road, the same road again, and three times as high."""
     folder = tmp_path_factory.mktemp("roads")
     road = self_affine_profile(0.8, 3e-3, 2e-4, length=0.4, step=2e-4, seed=1)
@@ -34,14 +28,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def made(folder: Path) -> Surfaces:
+def made(folder):
     file = read_case_file(folder / "case.toml")
     names = ("road", "twin", "rough")
     surfaces = {name: read_surface(str(folder / f"{name}.txt"), file) for name in names}
     return compare_surfaces(read_case(folder / "case.toml"), surfaces, folder / "out")
 
 
-def test_roads_have_the_answer_and_are_ranked_by_it(folder: Path, made: Surfaces) -> None:
+def test_roads_have_the_answer_and_are_ranked_by_it(folder, made):
     data = made.data
     answer = gs.answer(read_case(folder / "case.toml"))
     assert data.answer_friction.sel(surface="road") == pytest.approx(answer.friction, rel=1e-12)
@@ -56,7 +50,7 @@ def test_roads_have_the_answer_and_are_ranked_by_it(folder: Path, made: Surfaces
     assert rows == ["rough", "road", "twin"]
 
 
-def test_the_ratio_is_as_uncertain_as_both_answers(made: Surfaces) -> None:
+def test_the_ratio_is_as_uncertain_as_both_answers(made):
     """Two roads share no error."""
     data = made.data
     pair = data.sel(surface="rough", over="road")
@@ -72,7 +66,7 @@ def test_the_ratio_is_as_uncertain_as_both_answers(made: Surfaces) -> None:
     np.testing.assert_allclose(data.confidence + data.confidence.T.values, 1.0, rtol=1e-12)
 
 
-def test_statistics_of_the_rough_road_are_nine_times_those_of_the_other(made: Surfaces) -> None:
+def test_statistics_of_the_rough_road_are_nine_times_those_of_the_other(made):
     for name in ("correlation", "spectrum"):
         curve = made.data[name]
         ratio = (curve.sel(surface="rough") / curve.sel(surface="road")).dropna(curve.dims[-1])
@@ -85,7 +79,7 @@ def test_statistics_of_the_rough_road_are_nine_times_those_of_the_other(made: Su
         )
 
 
-def test_waves_by_hand_are_ranked_by_the_chain_without_a_confidence(folder: Path) -> None:
+def test_waves_by_hand_are_ranked_by_the_chain_without_a_confidence(folder):
     stated = {"road": "case", "waves": gs.SineStack([5e-3, 1e-3], [2e-4, 4e-5])}
     made = compare_surfaces(read_case(folder / "case.toml"), stated)
     assert "note: waves was not measured" in made.parts()
@@ -99,25 +93,14 @@ def test_waves_by_hand_are_ranked_by_the_chain_without_a_confidence(folder: Path
 
 
 @pytest.mark.usefixtures("made")
-def test_the_command_writes_table_figures_and_page(folder: Path) -> None:
+def test_the_command_writes_its_figures(folder, shell):
     """Where the answers of `made` are."""
     target = folder / "out"
-    given = [str(folder / "case.toml"), str(folder / "rough.txt")]
-    outcome = CliRunner().invoke(app, ["compare-surfaces", *given, "--output", str(target)])
-    assert outcome.exit_code == 0, outcome.output
-    (answer,) = (line for line in outcome.output.splitlines() if line.startswith("Answer: "))
-    assert answer.startswith("Answer: friction μ ranks rough 0.")
-    assert f" over {folder.name} 0." in answer
-    figures = {path.stem for path in target.glob("*.p*")}
-    assert figures == {"roads_statistics", "roads_friction"}
-    page = (target / "report.html").read_text()
-    assert "Surfaces side by side" in page
-    assert page.index("friction μ ranks rough") < page.index("Surfaces by friction")
-    assert "Texture: ISO 13473-1" in outcome.output
-    assert "MPD" in page
-    assert f"gripscale compare-surfaces {given[0]} {given[1]}" in page
+    done = shell("compare-surfaces", folder / "case.toml", folder / "rough.txt", "--output", target)
+    assert f" over {folder.name} 0." in done.stdout.partition("Answer: friction μ ranks rough")[2]
+    assert {path.stem for path in target.glob("*.p*")} == {"roads_statistics", "roads_friction"}
 
 
-def test_two_to_six_roads(folder: Path) -> None:
+def test_two_to_six_roads(folder):
     with pytest.raises(InputError, match="surfaces must be 2 to 6 surfaces to be compared; got 1"):
         compare_surfaces(read_case(folder / "case.toml"), {"one": "case"})
