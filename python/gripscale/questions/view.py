@@ -136,7 +136,8 @@ def number_columns(data: xr.Dataset, names: Iterable[str]) -> Iterator[Column]:
         values, about = at_places(data, name), data[name].attrs
         if values.dtype.kind == "f":  # no friction at rest is none, not zero
             values = np.where(values == 0.0, math.nan, values)
-        yield Column(name, values, about.get("symbol") or about.get("long_name", name))
+        words, unit = about.get("symbol") or about.get("long_name", name), shown_unit(data[name])
+        yield Column(name, values, words, unit.unit, unit.divisor, unit.zero)
         if ends := interval_ends_of(data, name):
             both = np.stack([at_places(data, str(end.name)) for end in ends], axis=1)
             yield Column(f"{name}_interval", both, "90 %")

@@ -57,6 +57,7 @@ _INTERVAL = {
     "_half_width": "relative half width of the 90 % interval of the {}",
     "_uncertainty": "relative standard uncertainty of the {}",
 }
+_ENDS = ("", "_low", "_high")  # of the names of a number and both ends of its interval
 _PARTS = {
     "_sampling_error": "relative standard error of the {} from the sampling of the surface",
     "_grid_error": "relative standard error of the {} from the grid of the direct contact",
@@ -65,12 +66,16 @@ _PARTS = {
 }
 
 
-def _number(start: str, words: str, role: str, symbol: str) -> dict[str, dict[str, str]]:
+def _number(
+    start: str, words: str, role: str, symbol: str, units: str = "1"
+) -> dict[str, dict[str, str]]:
     """Return the attributes of a number by its name, of its interval and its uncertainty."""
     about = {f"{start}{end}": {"long_name": text.format(words)} for end, text in _INTERVAL.items()}
     for name in about:
         about[name]["role"] = "evidence"
     about[start] |= {"role": role, "symbol": symbol, "interval": f"{start}_low {start}_high"}
+    for end in _ENDS:
+        about[f"{start}{end}"]["units"] = units
     return about
 
 
@@ -144,6 +149,11 @@ def with_present_names(data: xr.Dataset) -> xr.Dataset:
     return data.rename({old: new for old, new in names.items() if old in data})
 
 
+def is_beside_answer(data: xr.Dataset, name: str) -> bool:
+    """Return whether a result has a number of an answer that tables show beside the answer."""
+    return name in data and ANSWER_NUMBERS[name].get("role") in ("number", "part")
+
+
 def is_estimated(data: xr.Dataset, name: str) -> bool:
     """Return whether a result has the answer of a number such as `friction`."""
     answer = f"answer_{name}"
@@ -164,9 +174,6 @@ def has_answer(data: xr.Dataset) -> bool:
     """Return whether a result of one load holds an answer of the contact area."""
     area = data.get("answer_contact_fraction")
     return area is not None and not area.ndim and math.isfinite(float(area))
-
-
-_ENDS = ("", "_low", "_high")  # of the names of a number and both ends of its interval
 
 
 class AnswerNumber(NamedTuple):
@@ -203,8 +210,8 @@ FILLERS = ("filled", "unfilled")
 def with_filled(data: xr.Dataset, filled: xr.Dataset) -> xr.Dataset:
     """Return an answer for unfilled rubber with that of filled rubber, and intervals of both."""
     numbers = {}
-    for name in ("friction", "contact_fraction", "hysteresis_friction"):
-        names = [f"answer_{name}{end}" for end in _ENDS]
+    for name in (name for name, about in ANSWER_NUMBERS.items() if "interval" in about):
+        names = [f"{name}{end}" for end in _ENDS]
         if not {*names} <= {*data.variables} & {*filled.variables}:
             continue
         for filler, of in zip(FILLERS, (filled, data), strict=True):

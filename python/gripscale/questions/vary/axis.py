@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from gripscale.core import InputError, checks
 from gripscale.core.units import (
-    KEYS,
     UNITS,
+    USUAL,
     ZERO_CELSIUS,
     DisplayUnit,
-    display_unit,
     parse_quantity,
     unit_of,
 )
 from gripscale.experiment.design import named_values
+from gripscale.model import Model
+from gripscale.questions.vary.inputs import Setting, at_temperature, with_effects
 from gripscale.surface.cut_off import RmsSlope, cut_off_rule
 
 
@@ -27,6 +28,8 @@ class VariedInput(NamedTuple):
     """One input that a study can vary."""
 
     long_name: str
+    # The setting of a point with a value; None: the study chooses a rubber or a surface.
+    change: Callable[[Setting, Any], Setting] | None = None
     quantity: str = ""  # kind of quantity; empty for names
     example: str = "1:10:log5"  # of a range
     symbol: str = ""
@@ -37,16 +40,41 @@ class VariedInput(NamedTuple):
         return next(iter(UNITS[self.quantity])) if self.quantity else "1"
 
 
+def _of_load(name: str) -> Callable[[Setting, Any], Setting]:
+    return lambda setting, value: setting.with_load(**{name: value})
+
+
+def _of_waves(name: str) -> Callable[[Setting, Any], Setting]:
+    return lambda setting, value: setting.with_waves(**{name: value})
+
+
+def _of_model(change: Callable[[Model, Any], Model]) -> Callable[[Setting, Any], Setting]:
+    return lambda setting, value: replace(setting, model=change(setting.model, value))
+
+
+# In the order in which they change a setting: effects that are left out may be a temperature.
 VARIED_INPUTS = {
-    "speed": VariedInput("sliding speed", "speed", "0.01 m/s:10 m/s:log7", "v"),
-    "pressure": VariedInput("nominal pressure", "pressure", "1 bar:5 bar:lin5", "p"),
-    "temperature": VariedInput(
-        "temperature before the contact", "temperature", "0 C:60 C:lin7", "T"
+    "speed": VariedInput("sliding speed", _of_load("speed"), "speed", "0.01 m/s:10 m/s:log7", "v"),
+    "pressure": VariedInput(
+        "nominal pressure", _of_load("pressure"), "pressure", "1 bar:5 bar:lin5", "p"
     ),
-    "smallest_wavelength": VariedInput("smallest wavelength", "length", "0.1 mm:1 mm:log4"),
-    "thickness": VariedInput("thickness of the rubber", "length", "1 mm:8 mm:log4"),
-    "cut_off": VariedInput("shortest wavelength of the roughness", "length", "0.1 mm:1 mm:log4"),
-    "effects": VariedInput("effects of the conditions on the rubber"),
+    "temperature": VariedInput(
+        "temperature before the contact",
+        _of_model(at_temperature),
+        "temperature",
+        "0 C:60 C:lin7",
+        "T",
+    ),
+    "smallest_wavelength": VariedInput(
+        "smallest wavelength", _of_waves("smallest_wavelength"), "length", "0.1 mm:1 mm:log4"
+    ),
+    "thickness": VariedInput(
+        "thickness of the rubber", _of_load("thickness"), "length", "1 mm:8 mm:log4"
+    ),
+    "cut_off": VariedInput(
+        "shortest wavelength of the roughness", _of_waves("cut_off"), "length", "0.1 mm:1 mm:log4"
+    ),
+    "effects": VariedInput("effects of the conditions on the rubber", _of_model(with_effects)),
     "rubber": VariedInput("rubber"),
     "surface": VariedInput("surface"),
 }
@@ -86,7 +114,8 @@ class Axis:
         if twice:
             raise InputError(f"{name} must have different values; got {min(twice)} more than once")
         texts = re.split("[,:]", value) if isinstance(value, str) else _entries(name, value)
-        units = (unit_of(text, VARIED_INPUTS[name].quantity) for text in texts if name in KEYS)
+        kind = VARIED_INPUTS[name].quantity
+        units = (unit_of(text, kind) for text in texts if kind in USUAL)
         return cls(name, values, labels, next(filter(None, units), ""))
 
     @property
@@ -98,9 +127,11 @@ class Axis:
 
     def display_unit(self, units: Mapping[str, str]) -> DisplayUnit | None:
         """Return the unit of its values beside the `units` of a case; None for other quantities."""
-        if not self.numeric or self.name not in KEYS:
+        kind = VARIED_INPUTS[self.name].quantity
+        if not self.numeric or kind not in USUAL:
             return None
-        return display_unit(self.name, {self.name: self.unit} if self.unit else units)
+        unit = self.unit or units.get(self.name) or USUAL[kind]
+        return DisplayUnit(unit, UNITS[kind][unit])
 
     def called(self, i: int, units: Mapping[str, str]) -> str:
         """Return what value `i` is called in a study of a case that states `units`."""

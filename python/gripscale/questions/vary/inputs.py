@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Sequence
-from dataclasses import field, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 import xarray as xr
@@ -156,6 +156,24 @@ def measured_rubber_of(value: Any, case: Case) -> MeasuredRubber:
 def reading_notes(values: Iterable[Any]) -> tuple[str, ...]:
     """Return what was assumed when surfaces or rubbers were read from files, a sentence each."""
     return tuple(filter(None, (getattr(value, "note", "") for value in values)))
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What a point of a study predicts with: a model, a load, and changed waves of its surface."""
+
+    model: Model
+    load: Load
+    waves: Mapping[str, Any] = field(default_factory=dict)  # arguments of `Surface.varied`
+
+    def with_load(self, **changes: Any) -> Setting:
+        """Return the setting with another load; at rest each wave is loaded for its passage."""
+        load = replace(self.load, **changes)
+        return replace(self, load=replace(load, load_time="passage") if load.speed == 0.0 else load)
+
+    def with_waves(self, **changes: Any) -> Setting:
+        """Return the setting with other waves of its surface."""
+        return replace(self, waves={**self.waves, **changes})
 
 
 def conditions_of(model: Model) -> Conditions:

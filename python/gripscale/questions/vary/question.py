@@ -35,7 +35,13 @@ from gripscale.model import (
 from gripscale.questions import view
 from gripscale.questions.answer.estimate import ISOTROPY_ASSUMED, LINES_TO_SURFACE
 from gripscale.questions.answer.reliance import WORTH_NAMING
-from gripscale.questions.answer.variables import HYSTERESIS, INTERFACE, SYMBOLS, is_estimated
+from gripscale.questions.answer.variables import (
+    ANSWER_NUMBERS,
+    INTERFACE,
+    SYMBOLS,
+    is_beside_answer,
+    is_estimated,
+)
 from gripscale.questions.chain.findings import study_sentence
 from gripscale.questions.cut_off.curve import CONTINUED_TO
 from gripscale.questions.inputs.page import input_sections
@@ -112,7 +118,7 @@ class Variation(Result):
         data = self.data
         estimated, names = is_estimated(data, "friction"), view.answers(data)
         names += [] if estimated else ["total_friction_from_dissipation"]
-        names += [name for name in (HYSTERESIS, INTERFACE) if name in data]
+        names += [name for name in ANSWER_NUMBERS if is_beside_answer(data, name)]
         both = with_adhesive(data)
         if not estimated and both is not None:
             about = {"symbol": "μ with it", "long_name": "friction of hysteresis and area term"}

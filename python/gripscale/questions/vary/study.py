@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -126,10 +125,6 @@ def with_master_curve(result: xr.Dataset, rubber: Rubber) -> xr.Dataset:
     return result.assign_coords({REDUCED_SPEED: speed})
 
 
-OF_THE_LOAD = ("pressure", "speed", "thickness")  # inputs that vary the load
-OF_A_SURFACE = ("cut_off", "smallest_wavelength")  # inputs that vary the waves of a surface
-
-
 class Study(Described):
     """A case with one or two of its inputs varied.
 
@@ -140,12 +135,11 @@ class Study(Described):
     case
         The case, prepared, read, or its file. What is not varied is as it says.
     vary
-        One or two of speed, pressure, temperature, smallest_wavelength, thickness, cut_off (numbers
-        in SI units, or texts with a unit; a cut_off also "instrument", "rms_slope 1.3" or another
-        `CutOffRule`), effects (of the conditions: "all", "no heat", "none"), rubber and surface
-        (names and files, or a mapping from names to `Rubber`, `SineStack`, names and files), each
-        with its values, or with a text as on the command line ("0.003:30:log9", "1 bar,3 bar"). A
-        speed of zero is static contact.
+        One or two of `VARIED_INPUTS`, such as speed (numbers in SI units, or texts with a unit; a
+        cut_off also "instrument", "rms_slope 1.3" or another `CutOffRule`), effects (of the
+        conditions: "all", "no heat", "none"), rubber and surface (names and files, or a mapping
+        from names to `Rubber`, `SineStack`, names and files), each with its values, or with a text
+        as on the command line ("0.003:30:log9", "1 bar,3 bar"). A speed of zero is static contact.
     model
         What predicts: "direct", "chain" with the solver of the case, both under its conditions, or
         a model. Persson's theory without conditions gets those of the case, one that takes none
@@ -186,34 +180,31 @@ class Study(Described):
     def design(self) -> Design:
         """The points over the axes; nothing is solved if one of them is impossible."""
         case, points, sizes = self.case, [], {axis.name: len(axis.values) for axis in self.axes}
-        varied: dict[Any, Surface] = {}  # each choice of waves is fitted once
+        fitted: dict[Any, Surface] = {}  # each choice of waves once
         for index in np.ndindex(*sizes.values()):
             at = dict(zip(sizes, index, strict=True))
             values: dict[str, Any] = {axis.name: axis.values[at[axis.name]] for axis in self.axes}
-            model, measured = self.model, self.measured_rubbers[at.get("rubber", 0)]
-            if "temperature" in values:
-                model = inputs.at_temperature(model, values["temperature"])
-            if "effects" in values:
-                model = inputs.with_effects(model, values["effects"])
+            setting = inputs.Setting(self.model, case.load).with_load()
+            for name, varied in VARIED_INPUTS.items():
+                if name in values and varied.change is not None:
+                    setting = varied.change(setting, values[name])
+            model, load = setting.model, setting.load
+            measured = self.measured_rubbers[at.get("rubber", 0)]
             if measured.rubber.name != case.rubber.name:
                 model = inputs.for_rubber(model, measured.rubber)
             if model.conditions is not None:  # refuses a temperature without a shift
                 model.conditions.before(measured.rubber)
-            load = replace(case.load, **{k: v for k, v in values.items() if k in OF_THE_LOAD})
-            if load.speed == 0.0:
-                load = replace(load, load_time="passage")
-            changes = {name: values[name] for name in OF_A_SURFACE if name in values}
-            number = at.get("surface", 0)
-            key = (number, *changes.items())
-            if key not in varied:
-                varied[key] = self.surfaces[number].varied(**changes)
+            key = at.get("surface", 0), *setting.waves.items()
+            if key not in fitted:
+                fitted[key] = self.surfaces[key[0]].varied(**setting.waves)
+            surface = fitted[key]
             conditions = model.conditions if model.takes_conditions else case.conditions
             # each point is the answer of a case with its load
-            rubber = fitted_for_load(measured, varied[key], load, conditions).rubber
+            rubber = fitted_for_load(measured, surface, load, conditions).rubber
             if not model.takes_conditions and conditions is not None:
                 rubber = conditions.before(rubber)
             words = [f"{axis.name} {axis.called(at[axis.name], case.units)}" for axis in self.axes]
-            task = Task(rubber, varied[key], load, model)
+            task = Task(rubber, surface, load, model)
             points.append(Point(index, ", ".join(words), task))
         return Design(sizes, points)
 
