@@ -23,8 +23,9 @@ run: build
 
 build: $(BUILT)
 
-# One BLAS kernel for all x86 machines: sums in the same order, for the numbers that tests keep.
+# One BLAS kernel for all x86 machines, and one thread: sums in the same order, for the numbers that tests keep.
 test: export OPENBLAS_CORETYPE := Haswell
+test: export OPENBLAS_NUM_THREADS := 1
 test: build
 	rustfmt --check --edition 2021 $(RUST)
 	cargo clippy --locked --features internals --all-targets -- -D warnings

@@ -57,11 +57,11 @@ def key_tables() -> str:
 
 def _section(section: KeySection) -> Iterator[str]:
     yield f"## {_plain(section.title)}\n\n{_plain(section.about)}\n"
-    yield f"More in [{section.chapter.removesuffix('.md')}](../{section.chapter}).\n"
-    yield "| key | takes | default | meaning |\n|---|---|---|---|"
+    yield "| key | takes | default | meaning | chapter |\n|---|---|---|---|---|"
     for key in section.keys:
+        chapter = f"[{key.chapter.removesuffix('.md')}](../{key.chapter})"
         cells = (f"`{key.name}`", _plain(key.takes), f"`{key.default}`", _plain(key.meaning))
-        yield f"| {' | '.join(cells)} |"
+        yield f"| {' | '.join(cells)} | {chapter} |"
     yield ""
 
 

@@ -5,14 +5,13 @@ import shutil
 import socket
 import sys
 import time
-from types import SimpleNamespace
 
 import pytest
 from typer.testing import CliRunner
 
 from gripscale.app import serve_app
 from gripscale.app.case import CaseState, VisitFolder
-from gripscale.app.run_tabs import compared_runs, run_status
+from gripscale.app.run_tabs import run_status
 from gripscale.app.runs import COMMANDS, Runs
 from gripscale.cli import app
 from gripscale.core.errors import InputError
@@ -161,20 +160,6 @@ def ran(small, tmp_path_factory):
     (place / "case.toml").write_text(CASE.replace("../elsewhere/", ""))
     run_case(place / "case.toml", place / "out")
     return place / "out"
-
-
-def test_runs_are_compared_by_their_answers(ran):
-    text = (ran / "case.toml").read_text()
-    faster = text.replace('speed = "', 'speed = "1')
-    runs = [
-        SimpleNamespace(name=f"run-{number}", text=case, folder=ran, running=False)
-        for number, case in enumerate((text, faster), start=1)
-    ]
-    table = compared_runs(SimpleNamespace(all=runs))
-    columns = {column.name: list(column.values) for column in table.columns}
-    assert columns["answer"] == [read_result(ran).lines[0]] * 2
-    assert columns["changes"][0] == ""
-    assert columns["changes"][1].startswith("load.speed = 1")
 
 
 def test_a_fit_before_any_run_has_no_diamonds(ran):

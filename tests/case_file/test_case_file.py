@@ -101,6 +101,7 @@ def test_load_time(tmp_path, stated, seconds):
 
 WRONG = [
     ("[load]", "[lod]", "unknown key [lod]; did you mean load?"),
+    ("[load]", "[load]\nstatic = true", "unknown key [load] static; it is gone: speed = 0 solves"),
     ("scales = 8", "xyzzy = 8", "unknown key [surface] xyzzy; expected one of files,"),
     ('"3 bar"', '"3 mm"', "unknown unit 'mm'; expected one of Pa, kPa, psi, bar"),
     ('"3 bar"', '"3"', "[load] pressure = '3': the unit is missing"),

@@ -12,7 +12,7 @@ from tests.samples import SOFTENING, case_text, write_maxwell, write_short_road
 
 ROAD = 'files = ["road.txt"]\nscales = 3\nsmallest_wavelength = "2 mm"'
 RUBBER = (
-    'file = "maxwell.txt"\nterms = 4\nreference_temperature = "20 C"\n'
+    'file = "maxwell.txt"\nreference_temperature = "20 C"\n'
     'shift = { kind = "wlf", c1 = 8.0, c2 = "120 K" }\n'
 )
 CASE = case_text(ROAD, RUBBER).replace("filled = false\n", "")

@@ -1,4 +1,4 @@
-"""Every key of a case file: what it takes, its default, its meaning.
+"""Every key of a case file: what it takes, its default, its meaning, where it is explained.
 
 Made from the JSON Schema of the tables that read the file. `case_schema` is that schema for an
 editor, to which the first line of a case that is written refers, `#:schema ./.case.schema.json`:
@@ -41,16 +41,25 @@ _CHAPTERS = {
     "compare": "theories.md",
     "uncertainty": "uncertainty.md",
 }
+_OF_THE_METHOD = ("scales", "smallest_wavelength", "s_wavelength", "s_amplitude", "single_factor")
+# Chapters of keys that are explained elsewhere than their tables.
+_CHAPTERS_OF_KEYS = {
+    **dict.fromkeys(("top_height_fraction", "cut_off"), "chain-and-direct-contact.md"),
+    **dict.fromkeys(_OF_THE_METHOD, "method.md"),
+    **dict.fromkeys(("strain_energy", "terms"), "material.md"),
+    **dict.fromkeys(("extrapolate", "time_limit"), "inputs.md"),
+}
 
 
 @dataclass(frozen=True)
 class Key:
-    """One key: its name, what it takes, its default and its meaning."""
+    """One key: its name, what it takes, its default, its meaning, the page that explains it."""
 
     name: str
     takes: str
     default: str
     meaning: str
+    chapter: str
     schema: Mapping[str, Any] = field(repr=False)
     """JSON Schema of what it takes."""
 
@@ -63,8 +72,6 @@ class KeySection:
     kind: str
     about: str
     keys: list[Key]
-    chapter: str
-    """Page of the documentation that explains it."""
 
     @property
     def title(self) -> str:
@@ -85,20 +92,15 @@ def _sections(name: str, schema: Mapping[str, Any]) -> Iterator[KeySection]:
     tables = [table for table in value.get("anyOf", [value]) if "properties" in table]
     for table in tables:
         kind = table["properties"].get("kind", {}).get("const", "")
-        chapter = next(_CHAPTERS[top] for top in _upwards(name) if top in _CHAPTERS)
-        yield KeySection(name, kind, table["about"], list(_keys(table)), chapter)
+        yield KeySection(name, kind, table["about"], list(_keys(name, table)))
     for key, inner in {k: v for table in tables for k, v in table["properties"].items()}.items():
         yield from _sections(f"{name}.{key}", inner)
 
 
-def _upwards(name: str) -> Iterator[str]:
-    """Yield the name of a table, then those of the tables around it."""
-    while name:
-        yield name
-        name = name.rpartition(".")[0]
-
-
-def _keys(schema: Mapping[str, Any]) -> Iterator[Key]:
+def _keys(table: str, schema: Mapping[str, Any]) -> Iterator[Key]:
+    chapter = table
+    while chapter not in _CHAPTERS:
+        chapter = chapter.rpartition(".")[0]
     for name, key in schema["properties"].items():
         default = NEEDED if name in schema.get("required", ()) else NOTHING
         if key.get("default") is not None and "properties" not in key:
@@ -106,7 +108,8 @@ def _keys(schema: Mapping[str, Any]) -> Iterator[Key]:
             default = f"{value:g}" if isinstance(value, float) else toml_text(value)
         # without units: a case states them as it likes
         meaning = re.sub(r" \[[^\]]*\]", "", " ".join(key.get("description", "").split()))
-        yield Key(name, expected(key), default, meaning, key)
+        page = _CHAPTERS_OF_KEYS.get(name, _CHAPTERS[chapter])
+        yield Key(name, expected(key), default, meaning, page, key)
 
 
 @cache
@@ -121,14 +124,14 @@ def _for_editors(schema: Any) -> Any:
     if not isinstance(schema, dict):
         return [_for_editors(part) for part in schema] if isinstance(schema, list) else schema
     parts = {key: _for_editors(part) for key, part in schema.items() if key not in _OURS}
-    for key in _keys(schema) if "properties" in schema else ():
+    for key in _keys("surface", schema) if "properties" in schema else ():
         default = "" if key.default in (NEEDED, NOTHING) else f"; by default {key.default}"
         words = f"{key.meaning} Takes {key.takes}{default}."
         parts["properties"][key.name]["description"] = words
     return parts
 
 
-_OURS = ("expected", "quantity", "about", "default")
+_OURS = ("expected", "quantity", "about", "gone", "default")
 
 
 def write_schema(case: str, folder: Path) -> None:

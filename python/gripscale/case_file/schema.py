@@ -8,7 +8,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cache
 from string import ascii_letters, digits
-from typing import Annotated, Any, Literal, cast, get_args, get_origin, get_type_hints
+from types import MappingProxyType
+from typing import Annotated, Any, ClassVar, Literal, cast, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError, create_model, with_config
 from pydantic import Field as PydanticField
@@ -89,8 +90,8 @@ class _PlainSchema(GenerateJsonSchema):
 def table_schema(law: type) -> dict[str, Any]:
     """Return the JSON Schema of the table that states a law, with all tables in it.
 
-    Beside the keywords of JSON Schema a table has what it is `about`, a key what is `expected` in
-    words and the kind of `quantity` it takes.
+    Beside the keywords of JSON Schema a table has what it is `about`, and the earlier keys that are
+    `gone`; a key has what is `expected` in words and the kind of `quantity` it takes.
     """
     table = table_of(law)
     linked = table.model_json_schema(schema_generator=_PlainSchema)
@@ -155,8 +156,9 @@ def sentence(error: ValidationError, model: type[BaseModel], *, in_table: bool =
             inside = schema["items"] if isinstance(part, int) else schema["properties"]
             schema = inside if isinstance(part, int) else inside.get(part, {})
         if first["type"] == "extra_forbidden":
+            instead = owner["gone"].get(key)
             cure = checks.instead_of(key, [*owner["properties"]], _MOST_NAMES)
-            return f"unknown key {where}; {cure}"
+            return f"unknown key {where}; {f'it is gone: {instead}' if instead else cure}"
         finite = first["type"] == "finite_number"
         reason = f"expected {'a finite number' if finite else expected(schema)}"
     if first["type"] == "missing":
@@ -189,6 +191,7 @@ def _explain(schema: dict[str, Any], model: type[BaseModel]) -> None:
     first = {name: keys[name] for name in keys if name in model.__annotations__}
     schema["properties"] = first | keys
     schema["about"] = (model.__doc__ or "").partition("\n")[0]
+    schema["gone"] = dict(getattr(model, "gone", {}))
 
 
 class CaseTable(BaseModel):
@@ -206,6 +209,8 @@ class CaseTable(BaseModel):
         use_attribute_docstrings=True,
         json_schema_extra=_explain,
     )
+    # keys of earlier versions, and what to state instead
+    gone: ClassVar[Mapping[str, str]] = MappingProxyType({})
 
 
 class _LawTable(CaseTable):

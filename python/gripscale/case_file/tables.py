@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -262,6 +263,8 @@ class SurfaceTable(WaveKeys, CleaningKeys, ReadingKeys, SpectrumKeys, SourceKeys
 
 class LoadTable(schema.CaseTable):
     """How hard, how fast and over what length the rubber is pressed and slid."""
+
+    gone: ClassVar[Mapping[str, str]] = {"static": "speed = 0 solves the relaxed rubber at rest"}
 
     pressure: schema.Pressure
     """Nominal pressure."""

@@ -99,7 +99,8 @@ def keys(
                 f"{part.title}: {part.about}",
             )
             print_parts(console, ["", table])
-            print_wrapped(console, f"More in {chapter_words(part.chapter)}.")
+            pages = dict.fromkeys(chapter_words(key.chapter) for key in part.keys)
+            print_wrapped(console, f"More in {', '.join(pages)}.")
 
 
 @command

@@ -107,7 +107,7 @@ DIFFERENCE_ACCURACY = Accuracy(1e-4)
 # Of a grid that another one starts from, whose numbers are reported too.
 START_ACCURACY = Accuracy(1e-4, 1e-3)
 # For what another rubber changes: the contact fraction within a tenth of a per cent.
-COARSE_ACCURACY = Accuracy(3e-4, 4e-3)
+COARSE_ACCURACY = Accuracy(2e-4, 2e-3)
 # Least missing pressure on grids in single precision.
 SINGLE_TOLERANCE = 3e-4
 # Missing pressure above which what a correction moves is computed in single precision elsewhere,

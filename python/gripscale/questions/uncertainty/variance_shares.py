@@ -45,7 +45,7 @@ def shares(answer: Array, coordinates: Mapping[str, Array]) -> Shares | None:
         Of each source, shape (samples, numbers): logarithms.
     """
     valid = np.isfinite(answer)
-    if not valid.any():
+    if not valid.any() or not coordinates:
         return None
     blocks = [_terms(values[valid]) for values in coordinates.values()]
     widths = [block.shape[1] for block in blocks]
