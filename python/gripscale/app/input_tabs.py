@@ -31,7 +31,7 @@ from gripscale.questions.inputs import page, record
 from gripscale.questions.inputs.charts_of_rubber import superposition_figure
 from gripscale.questions.inputs.charts_of_surface import raw_chart
 from gripscale.questions.inputs.record import InputRecord
-from gripscale.report.elements import Page, Section, Text, as_elements
+from gripscale.report.elements import Element, Page, Section, Text, as_elements
 
 # Keys of [surface] that this figure depends on.
 READ_BY = (
@@ -131,7 +131,9 @@ def surface_page(file: case_file.CaseFile) -> Page:
     """Return the page of the surface: cleaning, profiles, texture, correlation and waves."""
     any_rubber = case_file.validate(case_file.RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
     surface = (case := _case_with(file, rubber=any_rubber)).surface
-    elements = page.surface_section(InputRecord(record.inputs(case)), surface.sines)
+    elements: list[Element] = [Text("The case states the sine waves; no surface is measured.")]
+    if surface.measured is not None:
+        elements = page.surface_section(InputRecord(record.inputs(case)), surface.sines)
     section = Section("road", "As read, cleaned and fitted", elements)
     return Page.of("The road", surface.source, surface.findings, [], [section])
 

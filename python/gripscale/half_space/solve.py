@@ -425,7 +425,7 @@ def _accuracy(level: Level, following: list[Level], goal: float) -> Accuracy:
         if math.isinf(goal):
             return CONTACT_ACCURACY
         return Accuracy(max(CONTACT_ACCURACY.missing, 1e-3 * goal), 0.01 * goal)
-    compared = not following or (following[0].cut_off < level.cut_off and len(following) == 2)
+    compared = len(following) == 2 and following[0].cut_off < level.cut_off
     if compared or math.isinf(goal):
         return START_ACCURACY
     missing = min(max(START_ACCURACY.missing, 0.006 * goal), COARSE_ACCURACY.missing)

@@ -167,9 +167,8 @@ class Setting:
     waves: Mapping[str, Any] = field(default_factory=dict)  # arguments of `Surface.varied`
 
     def with_load(self, **changes: Any) -> Setting:
-        """Return the setting with another load; at rest each wave is loaded for its passage."""
-        load = replace(self.load, **changes)
-        return replace(self, load=replace(load, load_time="passage") if load.speed == 0.0 else load)
+        """Return the setting with another load."""
+        return replace(self, load=replace(self.load, **changes))
 
     def with_waves(self, **changes: Any) -> Setting:
         """Return the setting with other waves of its surface."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -184,11 +185,13 @@ class Study(Described):
         for index in np.ndindex(*sizes.values()):
             at = dict(zip(sizes, index, strict=True))
             values: dict[str, Any] = {axis.name: axis.values[at[axis.name]] for axis in self.axes}
-            setting = inputs.Setting(self.model, case.load).with_load()
+            setting = inputs.Setting(self.model, case.load)
             for name, varied in VARIED_INPUTS.items():
                 if name in values and varied.change is not None:
                     setting = varied.change(setting, values[name])
             model, load = setting.model, setting.load
+            if load.speed == 0.0:
+                load = replace(load, load_time="passage")
             measured = self.measured_rubbers[at.get("rubber", 0)]
             if measured.rubber.name != case.rubber.name:
                 model = inputs.for_rubber(model, measured.rubber)
