@@ -29,7 +29,11 @@ from gripscale.charts.draw import Chart, Picture, image
 from gripscale.core import Finding, GripscaleError, Severity
 from gripscale.questions.inputs import page, record
 from gripscale.questions.inputs.charts_of_rubber import superposition_figure
-from gripscale.questions.inputs.charts_of_surface import raw_chart
+from gripscale.questions.inputs.charts_of_surface import (
+    correlation_charts,
+    profile_charts,
+    raw_chart,
+)
 from gripscale.questions.inputs.record import InputRecord
 from gripscale.report.elements import Element, Page, Section, Text, as_elements
 
@@ -128,12 +132,18 @@ def _case_with(file: case_file.CaseFile, **tables: Any) -> Case:
 
 
 def surface_page(file: case_file.CaseFile) -> Page:
-    """Return the page of the surface: cleaning, profiles, texture, correlation and waves."""
+    """Return the page of the surface: correlation with its waves, cleaning and profiles."""
     any_rubber = case_file.validate(case_file.RubberSource, {"name": NAMED_RUBBERS[0]}, "rubber")
     surface = (case := _case_with(file, rubber=any_rubber)).surface
+    inputs = record.inputs(case)
     elements: list[Element] = [Text("The case states the sine waves; no surface is measured.")]
     if surface.measured is not None:
-        elements = page.surface_section(InputRecord(record.inputs(case)), surface.sines)
+        elements = [
+            *correlation_charts(inputs),
+            *page.surface_facts(InputRecord(inputs), len(surface.sines)),
+            *page.cleaning_tables(InputRecord(inputs)),
+            *profile_charts(inputs),
+        ]
     section = Section("road", "As read, cleaned and fitted", elements)
     return Page.of("The road", surface.source, surface.findings, [], [section])
 
