@@ -7,7 +7,6 @@
 //! apart and puts them together again: factors of z_k itself would lose the digits of waves with small factors
 //! to those with large ones. Lines of an odd number of values are transformed as they are.
 
-use std::fmt;
 use std::sync::Arc;
 
 use rustfft::{Fft, FftPlanner};
@@ -21,12 +20,6 @@ pub struct LineFilter {
     inverse: Arc<dyn Fft<f32>>,
     /// w of each wave.
     turn: Vec<Complex32>,
-}
-
-impl fmt::Debug for LineFilter {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "filter of lines of {} values", self.points)
-    }
 }
 
 /// A line as the filter transforms it, and its workspace.
